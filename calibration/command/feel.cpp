@@ -138,13 +138,20 @@ Result<TrustedDeclarations> trusted_for(const FeelOptions& options) {
   return trusted;
 }
 
-/// The devices that a file knows. A patch program brings its own.
-std::vector<DeclaredDevice> known_to(const OpenedFile& opened, const Choice& choice) {
-  if (opened.module) return declared_devices(opened.module->declarations());
-  std::vector<DeclaredDevice> known = devices_here(choice.folders, choice.devices);
+/// The devices that a file knows.
+struct KnownDevices {
+  std::vector<DeclaredDevice> devices;
+  std::string only_in_program;  ///< the one among them that only the patch program brings; may be empty
+};
+
+KnownDevices known_to(const OpenedFile& opened, const Choice& choice) {
+  if (opened.module) return {declared_devices(opened.module->declarations()), {}};
+  KnownDevices known{devices_here(choice.folders, choice.devices), {}};
   const DeviceProfile& own = opened.program->description().device;
   const auto is_own = [&](const DeclaredDevice& each) { return each.profile.name == own.name; };
-  if (std::ranges::none_of(known, is_own)) known.push_back({.profile = own});
+  if (std::ranges::any_of(known.devices, is_own)) return known;
+  known.devices.push_back({.profile = own});
+  known.only_in_program = own.name;
   return known;
 }
 
@@ -161,14 +168,15 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
   if (const auto fit = apply_to_file(options, *opened); !fit) return refuse(fit.error());
   if (const auto same = is_as_named(*opened, {}, options.choice); !same) return refuse(same.error());
   if (options.hand) options.choice.inputs->push_back(*options.hand);
-  const std::vector<DeclaredDevice> known = known_to(*opened, built);
+  const auto [known, only_in_program] = known_to(*opened, built);
   if (const auto is_known = can_be_built_for(options.built_for, known); !is_known) return refuse(is_known.error());
   const bool asks = !options.device.empty();
   auto device =
       device_to_feel({.spelling = asks ? options.device : "auto",
                       .built_for = opened->program ? opened->program->description().device.name : options.built_for,
                       .transport = options.transport,
-                      .only_simulated = options.virtual_time || options.hand},
+                      .only_simulated = options.virtual_time || options.hand,
+                      .only_in_program = only_in_program},
                      known, trusted->devices, options.seconds, say, stop);
   if (!device) return refuse(device.error());
   const ChosenDevice& chosen = device->chosen;

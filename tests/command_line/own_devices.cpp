@@ -91,6 +91,31 @@ TEST(OwnDevices, OfAPatchProgramAreSimulated) {
   const Outcome real = wale({"feel", program, "--device", "mine", "--devices", declared.file, "--seconds", "0.1"});
   EXPECT_EQ(real.status, 1);
   EXPECT_TRUE(contains(real.err, "W0701")) << real.err;
+  // Not trusted, nobody knows whether there is a real one.
+  const Outcome unknown = wale({"feel", program, "--device", "mine", "--seconds", "0.1"});
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_TRUE(contains(unknown.err, "W0710") && contains(unknown.err, "known only from the patch program"))
+      << unknown.err;
+}
+
+TEST(OwnDevices, OfOtherFiguresThanTheProgramsAreNotSimulatedByName) {
+  const Declared declared;
+  const std::string program = declared.folder / "m.wpp";
+  ASSERT_EQ(wale({"build", declared.material, "--device", "mine", "--devices", declared.file, "-o", program}).status,
+            0);
+  std::string text = Declared::text("mine");
+  const auto rate = text.find("1000 Hz");
+  ASSERT_NE(rate, std::string::npos) << "the Falcon's rate";
+  const std::string other = declared.folder.write("other.wale", "wale 1\nexport " + text.replace(rate, 7, "900 Hz"));
+  for (const std::string& name : {std::string("mine"), std::string("simulated:mine")}) {
+    const Outcome outcome =
+        wale({"feel", program, "--devices", other, "--device", name, "--virtual-time", "--seconds", "0.1"});
+    EXPECT_EQ(outcome.status, 1) << name << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "W0608") && contains(outcome.err, "rate 1000 Hz in the program, 900 Hz declared"))
+        << name << outcome.err;
+  }
+  const Outcome own = wale({"feel", program, "--devices", other, "--device", "simulated", "--virtual-time"});
+  EXPECT_EQ(own.status, 0) << own.err;
 }
 
 TEST(OwnDevices, ANameInVirtualTimeIsASimulationAndSaidToBe) {
