@@ -82,6 +82,18 @@ Result<> can_be_built_for(const std::string& name, const std::vector<DeclaredDev
                {.name = "--built-for", .text = name}};
 }
 
+/// Checks that no file of `files` keeps a device to itself that an option names. Error: W0215.
+Result<> are_exported(const FeelOptions& options, const std::vector<DeclaredDevice>& known,
+                      const std::vector<DeviceFile>& files) {
+  constexpr std::string_view prefix = "simulated:";
+  const std::string asked = options.device.starts_with(prefix) ? options.device.substr(prefix.size()) : options.device;
+  for (const auto& [option, name] : {std::pair{"--device", asked}, {"--built-for", options.built_for}}) {
+    if (std::ranges::any_of(known, [&](const DeclaredDevice& each) { return each.profile.name == name; })) continue;
+    if (auto hidden = private_device(name, files, option)) return *std::move(hidden);
+  }
+  return {};
+}
+
 /// An option that cannot apply to a run.
 struct Inapplicable {
   const char* option;
@@ -132,9 +144,9 @@ bool may_name_a_real_device(const FeelOptions& options) {
 /// What this person trusts. An error in the owner's own file is only warned of where the run may do without it.
 Result<TrustedDeclarations> trusted_for(const FeelOptions& options) {
   auto trusted = trusted_here(options.trusted);
-  if (!trusted || !trusted->owners_problem) return trusted;
-  if (may_name_a_real_device(options)) return *std::move(trusted->owners_problem);
-  warn_of_owners_file(*trusted);
+  if (!trusted) return trusted;
+  if (trusted->owners_problem && may_name_a_real_device(options)) return *std::move(trusted->owners_problem);
+  warn_of_unused(*trusted);
   return trusted;
 }
 
@@ -169,6 +181,7 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
   if (const auto same = is_as_named(*opened, {}, options.choice); !same) return refuse(same.error());
   if (options.hand) options.choice.inputs->push_back(*options.hand);
   const auto [known, only_in_program] = known_to(*opened, built);
+  if (const auto exported = are_exported(options, known, trusted->checked); !exported) return refuse(exported.error());
   if (const auto is_known = can_be_built_for(options.built_for, known); !is_known) return refuse(is_known.error());
   const bool asks = !options.device.empty();
   auto device =

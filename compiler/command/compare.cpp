@@ -51,6 +51,7 @@ int compare(const CompareOptions& options) {
       refuse(fmt::format("`{}` has no material and is left out", visible_text(file.name.file)));
   }
   if (status != done) return status;
+  warn_of_device_files(options.choice);
   if (const auto fit = comparable(files); !fit) return refuse(fit.error());
   std::vector<Cues> materials;
   for (ComparedFile& file : files) materials.insert(materials.end(), file.cues.begin(), file.cues.end());

@@ -22,6 +22,7 @@ struct LevelsOptions {
 int levels(const LevelsOptions& options) {
   const CheckedModule known = known_here(options.choice.request());
   if (const auto has = has_device(known, options.choice); !has) return refuse(has.error());
+  warn_of_device_files(options.choice);
   const auto proposed = propose_levels(options.percept, options.choice.device, options.steps, options.apart.value_or(1),
                                        known.declarations());
   if (!proposed) return refuse(proposed.error());
