@@ -286,7 +286,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
     run.progress = [vibrates = program.vibrates()](const Progress& now) {
       print_as_is(stderr, "\r" + progress_line(now, vibrates));
     };
-  MaterialWatch watch(built, stage, material.program,
+  MaterialWatch watch(built, stage, material.program, options.settings,
                       [live](const std::string& said) { print_as_is(stderr, (live ? "\r\033[K" : "") + said); });
   std::optional<BackgroundLoop> watching;
   if (options.watch) watching.emplace([&] { watch.attend(std::chrono::milliseconds(100)); }, ask_to_stop);
