@@ -301,8 +301,15 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   return report_run(options, *result, *stage.bank(), *std::move(felt), *std::move(table), watch.versions());
 }
 
-/// Checks that two materials can be compared blindly on this device. Errors: W0607, W0608.
+/// Checks that two materials can be compared blindly on this device. Errors: W0607, W0608; W0801 if they are the same.
 Result<> can_be_blind(const PreparedRun& run, const BlindMaterial& b) {
+  const BlindMaterial& a = run.material;
+  if (a.parameters == b.parameters &&
+      write_patch_program(a.program.description()) == write_patch_program(b.program.description()))
+    return Error{Code::malformed_value,
+                 fmt::format("expected another material than A, found `{}` again", b.program.description().material),
+                 "name another one, or give a parameter of A another value with --set",
+                 {.name = "--against"}};
   const DeviceProfile& device = run.material.program.description().device;
   const std::string& other = b.program.description().device.name;
   if (other != device.name)
@@ -410,8 +417,9 @@ Run declare_feel(CLI::App& verb) {
   offer_material(
       verb, options->choice,
       {.device_option = "--built-for",
-       .about_device = "the device to build for, as in falcon (default: the one that it is felt on; sandpaper for "
-                       "`simulated`)"});
+       .about_device = "the device to build a Wale file for, as in falcon: it is felt on that one alone, or on a "
+                       "simulation of it (default: the one that it is felt on; sandpaper where that is a simulation "
+                       "without a name)"});
   offer_settings(verb, options->settings);
   verb.add_option(
           "--device", options->device,
@@ -450,6 +458,7 @@ Run declare_feel(CLI::App& verb) {
                 "puts each saved version of the file in your hand at once; until Ctrl-C, or for --seconds")
       ->excludes("--blind")
       ->excludes(virtual_time);
+  virtual_time->excludes("--blind");  // nobody feels it
   offer_json(verb, options->json, "the report as a JSON object");
   verb.footer("for example: wale feel velvet --against denim --blind");
   return [options] {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 
 #include "compiler/command/print.hpp"
 #include "compiler/device_file.hpp"
@@ -193,6 +194,12 @@ Result<> has_use_for_options(const OpenedFile& opened, const Choice& choice) {
                .place = {.name = useless}};
 }
 
+void warn_of_library_variable() {
+  for (const std::string& folder : library_folders({}, std::getenv("WALE_LIBRARY")))
+    if (std::error_code ignored; !std::filesystem::is_directory(folder, ignored))
+      print_error("wale: warning: WALE_LIBRARY names `{}`, which is no folder\n", visible_text(folder));
+}
+
 void say_unread(const std::vector<std::string>& roots) {
   for (const std::string& folder : file_resolver(roots)->unreadable_folders("here"))
     print_error("wale: warning: the folder `{}` cannot be read, so its materials are not known\n",
@@ -234,6 +241,7 @@ OrStatus<OpenedFile> open(const Choice& choice) {
         .mend = "name only one of the two",
         .place = {.text = choice.material}});
   const FileRequest request = choice.recording_request();
+  if (choice.file_option.empty()) warn_of_library_variable();  // the first file of a command
   auto opened = open_file(request);
   if (is_searched_for(choice.file)) say_unread(request.roots);
   if (!opened) {
@@ -306,8 +314,8 @@ Result<std::vector<float>> chosen_parameters(const Program& program, const std::
   std::vector<std::string> set;
   for (const auto& setting : settings) {
     const auto equals = setting.find('=');
-    if (equals == std::string::npos) return not_a_setting(setting);
     const std::string name = setting_name(setting);
+    if (equals == std::string::npos || name.empty()) return not_a_setting(setting);
     const auto index = program.parameter(name);
     if (!index) return no_parameter(program.description(), name);
     if (std::ranges::find(set, name) != set.end())

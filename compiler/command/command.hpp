@@ -73,6 +73,9 @@ Result<> has_material(const OpenedFile& opened, const Choice& choice);
 /// Error: W0801.
 Result<> has_use_for_options(const OpenedFile& opened, const Choice& choice);
 
+/// Warns of what WALE_LIBRARY names and is no folder. Called once by a verb that imports.
+void warn_of_library_variable();
+
 /// Warns of the folders that the search for materials could not read.
 void say_unread(const std::vector<std::string>& roots);
 

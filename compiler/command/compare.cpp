@@ -26,6 +26,7 @@ struct CompareOptions {
 int compare(const CompareOptions& options) {
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   const FileRequest request = options.choice.request();
+  warn_of_library_variable();
   std::vector<ComparedFile> files = read_cues(options.names, request, common->declarations);
   if (std::ranges::any_of(options.names, is_searched_for)) say_unread(request.roots);
   Choice choice = options.choice;
