@@ -127,16 +127,19 @@ std::string misuse_text(const CLI::App* app, const CLI::Error& error, const std:
   const auto verbs = app->get_subcommands();
   const std::string verb = verbs.empty() ? "wale" : "wale " + verbs.front()->get_name();
   std::string what = error.what();
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) && !verbs.empty()) {
+  const auto is = [&](CLI::ExitCodes code) { return error.get_exit_code() == static_cast<int>(code); };
+  // An unknown option is told before what is missing: it may be the misspelt name of just that, or of --help.
+  if ((is(CLI::ExitCodes::ExtrasError) || is(CLI::ExitCodes::RequiredError)) && !verbs.empty()) {
     const std::vector<std::string> unexpected = verbs.front()->remaining();
     const auto option = std::ranges::find_if(unexpected, [](const auto& word) { return word.starts_with('-'); });
-    // CLI11 hands the words behind a `--` that follows other words to nobody.
-    what = unexpected.empty()           ? "`--` ends the options: write it before the first word that is none"
-           : option != unexpected.end() ? unknown_option(*verbs.front(), *option)
-                                        : "unexpected: " + visible_text(fmt::format("{}", fmt::join(unexpected, " ")));
+    if (option != unexpected.end())
+      what = unknown_option(*verbs.front(), *option);
+    else if (is(CLI::ExitCodes::ExtrasError) && unexpected.empty())  // CLI11 hands them to nobody
+      what = "`--` ends the options: write it before the first word that is none";
+    else if (is(CLI::ExitCodes::ExtrasError))
+      what = "unexpected: " + visible_text(fmt::format("{}", fmt::join(unexpected, " ")));
   }
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch) && !verbs.empty())
-    what = mismatch_text(*verbs.front(), last_word);
+  if (is(CLI::ExitCodes::ArgumentMismatch) && !verbs.empty()) what = mismatch_text(*verbs.front(), last_word);
   return fmt::format("wale: {}\n  = help: `{} --help` lists the options\n", what, verb);
 }
 

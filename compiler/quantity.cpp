@@ -84,6 +84,13 @@ std::string range_text(const Parameter& parameter, double low, double high) {
   return fmt::format("from {:.6g}{} to {:.6g}{}", low / parameter.unit_in_si, unit, high / parameter.unit_in_si, unit);
 }
 
+/// The values of a parameter, and the option with its default.
+Expected expected_of(const std::string& option, const Parameter& parameter) {
+  const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
+  return {"a value " + range_text(parameter, parameter.low, parameter.high),
+          fmt::format("{} \"{}={:.4g}{}\"", option, parameter.name, parameter.value / parameter.unit_in_si, unit)};
+}
+
 }  // namespace
 
 Result<Hand> read_hand(const Declarations& known, const std::string& option, const std::string& text) {
@@ -106,12 +113,9 @@ Result<double> read_force(const Declarations& known, const std::string& option, 
   return unexpected(Code::value_out_of_range, option, text, expected);
 }
 
-Result<ParameterValue> read_parameter(const Declarations& known, const std::string& option, const Parameter& parameter,
-                                      const std::string& text) {
-  const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit, where = option + " " + parameter.name;
-  const Expected expected{
-      "a value " + range_text(parameter, parameter.low, parameter.high),
-      fmt::format("{} \"{}={:.4g}{}\"", option, parameter.name, parameter.value / parameter.unit_in_si, unit)};
+Result<double> read_parameter_anyway(const Declarations& known, const std::string& option, const Parameter& parameter,
+                                     const std::string& text) {
+  const std::string where = option + " " + parameter.name;
   const auto dimension = dimension_of(known, parameter);
   if (!dimension)
     return Error{.code = Code::unknown_unit,
@@ -121,11 +125,19 @@ Result<ParameterValue> read_parameter(const Declarations& known, const std::stri
   Declarations names(known);
   if (!names.units.contains(parameter.unit))
     names.units.add(parameter.unit, {.what = {parameter.unit_in_si, *dimension}, .declared = {}});
-  const auto values = read_list(names, where, text, {*dimension}, 1, expected);
+  const auto values = read_list(names, where, text, {*dimension}, 1, expected_of(option, parameter));
   if (!values) return values.error();
-  ParameterValue read{.value = static_cast<float>(values->front()), .unusual = {}};
+  return values->front();
+}
+
+Result<ParameterValue> read_parameter(const Declarations& known, const std::string& option, const Parameter& parameter,
+                                      const std::string& text) {
+  const std::string where = option + " " + parameter.name;
+  const auto value = read_parameter_anyway(known, option, parameter, text);
+  if (!value) return value.error();
+  ParameterValue read{.value = static_cast<float>(*value), .unusual = {}};
   if (!(read.value >= parameter.low && read.value <= parameter.high))
-    return unexpected(Code::value_out_of_range, where, text, expected);
+    return unexpected(Code::value_out_of_range, where, text, expected_of(option, parameter));
   if (read.value < parameter.soft_low || read.value > parameter.soft_high)
     read.unusual = Error{.code = Code::beyond_soft_range,
                          .sentence = fmt::format("`{}` is outside its usual range here", parameter.name),

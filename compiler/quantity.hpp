@@ -29,4 +29,8 @@ struct ParameterValue {
 Result<ParameterValue> read_parameter(const Declarations& known, const std::string& option, const Parameter& parameter,
                                       const std::string& text);
 
+/// The same in SI, also where it is outside the parameter's range.
+Result<double> read_parameter_anyway(const Declarations& known, const std::string& option, const Parameter& parameter,
+                                     const std::string& text);
+
 }  // namespace wale

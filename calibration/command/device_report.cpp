@@ -58,14 +58,26 @@ nlohmann::ordered_json shaker_json(const DeclaredDevice& device) {
 /// The width of the column of names, unless a name is longer.
 constexpr std::size_t usual_column = 12;
 
+bool is_unknown(const DeclaredDevice& device, const char* setting) {
+  return std::ranges::find(device.unknown, setting) != device.unknown.end();
+}
+
+/// A figure of the handle: "0.6 kg", or "unknown".
+std::string figure_text(const DeclaredDevice& device, const char* setting, double figure, const char* unit) {
+  return is_unknown(device, setting) ? "unknown" : fmt::format("{:.3g} {}", figure, unit);
+}
+
 /// The figures of a device's force or vibration, in two lines after a column that holds its name.
-std::string figures_text(const DeviceProfile& profile, std::size_t column) {
+std::string figures_text(const DeclaredDevice& device, std::size_t column) {
+  const DeviceProfile& profile = device.profile;
   if (!profile.shaker)
     return fmt::format("  {:<{}} 2 axes, {:.4g} N in {:.0f} steps, {:.4g} mm across in {:.0f} counts, {:.4g} Hz\n",
                        profile.name, column, profile.force_newton, profile.force_counts,
                        1e3 * profile.workspace_diameter, profile.position_counts, profile.rate) +
-           fmt::format("  {:<{}} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", column,
-                       profile.mass, profile.damping, profile.friction);
+           fmt::format("  {:<{}} moving mass {}, damping {}, friction {}\n", "", column,
+                       figure_text(device, "mass", profile.mass, "kg"),
+                       figure_text(device, "damping", profile.damping, "N s/m"),
+                       figure_text(device, "friction", profile.friction, "N"));
   const Shaker& shaker = *profile.shaker;
   std::string text = fmt::format(
       "  {:<{}} vibrates: up to {:.4g} m/s^2 at {:.4g} .. {:.4g} Hz, spin-up {:.3g} ms, {:.4g} Hz\n", profile.name,
@@ -78,7 +90,7 @@ std::string figures_text(const DeviceProfile& profile, std::size_t column) {
 }
 
 std::string declared_text(const DeclaredDevice& device, std::size_t column) {
-  std::string text = figures_text(device.profile, column);
+  std::string text = figures_text(device, column);
   const auto line = [&](const std::string& what) { text += fmt::format("  {:<{}} {}\n", "", column, what); };
   if (!device.wiring.usb.empty()) {
     std::string numbers;
@@ -164,6 +176,9 @@ nlohmann::ordered_json known_or_null(double figure) {
 
 nlohmann::ordered_json joystick_json(const DeclaredDevice& device) {
   const DeviceProfile& profile = device.profile;
+  const auto unless_unknown = [&](const char* setting, const nlohmann::ordered_json& figure) {
+    return is_unknown(device, setting) ? nlohmann::ordered_json(nullptr) : figure;
+  };
   return {{"name", profile.name},
           {"feel", true},
           {"build", true},
@@ -173,10 +188,10 @@ nlohmann::ordered_json joystick_json(const DeclaredDevice& device) {
           {"workspace_m", profile.workspace_diameter},
           {"position_counts", profile.position_counts},
           {"rate_hz", profile.rate},
-          {"mass_kg", profile.mass},
-          {"damping_newton_second_per_m", profile.damping},
-          {"friction_newton", profile.friction},
-          {"delay_s", {profile.delay_x, profile.delay_y}},
+          {"mass_kg", unless_unknown("mass", profile.mass)},
+          {"damping_newton_second_per_m", unless_unknown("damping", profile.damping)},
+          {"friction_newton", unless_unknown("friction", profile.friction)},
+          {"delay_s", unless_unknown("delay", {profile.delay_x, profile.delay_y})},
           {"bandwidth_hz", {known_or_null(profile.bandwidth_x), known_or_null(profile.bandwidth_y)}},
           {"usb", numbers_of(device.wiring)},
           {"axes_lie", {in_words(device.wiring.axes[0]), in_words(device.wiring.axes[1])}},

@@ -70,7 +70,7 @@ int list_devices(const DevicesOptions& options) {
   declared_everywhere();
   const auto trusted = trusted_here(options.trusted);
   if (!trusted) return refuse(trusted.error());
-  if (trusted->owners_problem) warn_of_owners_file(*trusted);
+  warn_of_unused(*trusted);
   const std::vector<DeclaredDevice> known = devices_here({}, trusted->files);
   const Connections connections = Connections::open();
   const std::vector<PluggedIn> plugged = plugged_in(connections);
@@ -85,6 +85,8 @@ Result<ChosenDevice> device_to_identify(const DevicesOptions& options, const Con
   const auto trusted = trusted_here(options.trusted);
   if (!trusted) return trusted.error();
   if (trusted->owners_problem) return *trusted->owners_problem;
+  warn_of_unused(*trusted);
+  if (auto hidden = private_device(asked, trusted->checked, "--identify")) return *std::move(hidden);
   auto chosen = choose_device({.spelling = asked.empty() ? "auto" : asked, .transport = options.transport}, {},
                               trusted->devices, plugged_in(connections, asked));
   if (!chosen) {

@@ -82,6 +82,18 @@ Result<> can_be_built_for(const std::string& name, const std::vector<DeclaredDev
                {.name = "--built-for", .text = name}};
 }
 
+/// Checks that no file of `files` keeps a device to itself that an option names. Error: W0215.
+Result<> are_exported(const FeelOptions& options, const std::vector<DeclaredDevice>& known,
+                      const std::vector<DeviceFile>& files) {
+  constexpr std::string_view prefix = "simulated:";
+  const std::string asked = options.device.starts_with(prefix) ? options.device.substr(prefix.size()) : options.device;
+  for (const auto& [option, name] : {std::pair{"--device", asked}, {"--built-for", options.built_for}}) {
+    if (std::ranges::any_of(known, [&](const DeclaredDevice& each) { return each.profile.name == name; })) continue;
+    if (auto hidden = private_device(name, files, option)) return *std::move(hidden);
+  }
+  return {};
+}
+
 /// An option that cannot apply to a run.
 struct Inapplicable {
   const char* option;
@@ -132,19 +144,26 @@ bool may_name_a_real_device(const FeelOptions& options) {
 /// What this person trusts. An error in the owner's own file is only warned of where the run may do without it.
 Result<TrustedDeclarations> trusted_for(const FeelOptions& options) {
   auto trusted = trusted_here(options.trusted);
-  if (!trusted || !trusted->owners_problem) return trusted;
-  if (may_name_a_real_device(options)) return *std::move(trusted->owners_problem);
-  warn_of_owners_file(*trusted);
+  if (!trusted) return trusted;
+  if (trusted->owners_problem && may_name_a_real_device(options)) return *std::move(trusted->owners_problem);
+  warn_of_unused(*trusted);
   return trusted;
 }
 
-/// The devices that a file knows. A patch program brings its own.
-std::vector<DeclaredDevice> known_to(const OpenedFile& opened, const Choice& choice) {
-  if (opened.module) return declared_devices(opened.module->declarations());
-  std::vector<DeclaredDevice> known = devices_here(choice.folders, choice.devices);
+/// The devices that a file knows.
+struct KnownDevices {
+  std::vector<DeclaredDevice> devices;
+  std::string only_in_program;  ///< the one among them that only the patch program brings; may be empty
+};
+
+KnownDevices known_to(const OpenedFile& opened, const Choice& choice) {
+  if (opened.module) return {declared_devices(opened.module->declarations()), {}};
+  KnownDevices known{devices_here(choice.folders, choice.devices), {}};
   const DeviceProfile& own = opened.program->description().device;
   const auto is_own = [&](const DeclaredDevice& each) { return each.profile.name == own.name; };
-  if (std::ranges::none_of(known, is_own)) known.push_back({.profile = own});
+  if (std::ranges::any_of(known.devices, is_own)) return known;
+  known.devices.push_back({.profile = own});
+  known.only_in_program = own.name;
   return known;
 }
 
@@ -161,14 +180,16 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
   if (const auto fit = apply_to_file(options, *opened); !fit) return refuse(fit.error());
   if (const auto same = is_as_named(*opened, {}, options.choice); !same) return refuse(same.error());
   if (options.hand) options.choice.inputs->push_back(*options.hand);
-  const std::vector<DeclaredDevice> known = known_to(*opened, built);
+  const auto [known, only_in_program] = known_to(*opened, built);
+  if (const auto exported = are_exported(options, known, trusted->checked); !exported) return refuse(exported.error());
   if (const auto is_known = can_be_built_for(options.built_for, known); !is_known) return refuse(is_known.error());
   const bool asks = !options.device.empty();
   auto device =
       device_to_feel({.spelling = asks ? options.device : "auto",
                       .built_for = opened->program ? opened->program->description().device.name : options.built_for,
                       .transport = options.transport,
-                      .only_simulated = options.virtual_time || options.hand},
+                      .only_simulated = options.virtual_time || options.hand,
+                      .only_in_program = only_in_program},
                      known, trusted->devices, options.seconds, say, stop);
   if (!device) return refuse(device.error());
   const ChosenDevice& chosen = device->chosen;
@@ -265,7 +286,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
     run.progress = [vibrates = program.vibrates()](const Progress& now) {
       print_as_is(stderr, "\r" + progress_line(now, vibrates));
     };
-  MaterialWatch watch(built, stage, material.program,
+  MaterialWatch watch(built, stage, material.program, options.settings,
                       [live](const std::string& said) { print_as_is(stderr, (live ? "\r\033[K" : "") + said); });
   std::optional<BackgroundLoop> watching;
   if (options.watch) watching.emplace([&] { watch.attend(std::chrono::milliseconds(100)); }, ask_to_stop);
@@ -280,8 +301,15 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   return report_run(options, *result, *stage.bank(), *std::move(felt), *std::move(table), watch.versions());
 }
 
-/// Checks that two materials can be compared blindly on this device. Errors: W0607, W0608.
+/// Checks that two materials can be compared blindly on this device. Errors: W0607, W0608; W0801 if they are the same.
 Result<> can_be_blind(const PreparedRun& run, const BlindMaterial& b) {
+  const BlindMaterial& a = run.material;
+  if (a.parameters == b.parameters &&
+      write_patch_program(a.program.description()) == write_patch_program(b.program.description()))
+    return Error{Code::malformed_value,
+                 fmt::format("expected another material than A, found `{}` again", b.program.description().material),
+                 "name another one, or give a parameter of A another value with --set",
+                 {.name = "--against"}};
   const DeviceProfile& device = run.material.program.description().device;
   const std::string& other = b.program.description().device.name;
   if (other != device.name)
@@ -389,8 +417,9 @@ Run declare_feel(CLI::App& verb) {
   offer_material(
       verb, options->choice,
       {.device_option = "--built-for",
-       .about_device = "the device to build for, as in falcon (default: the one that it is felt on; sandpaper for "
-                       "`simulated`)"});
+       .about_device = "the device to build a Wale file for, as in falcon: it is felt on that one alone, or on a "
+                       "simulation of it (default: the one that it is felt on; sandpaper where that is a simulation "
+                       "without a name)"});
   offer_settings(verb, options->settings);
   verb.add_option(
           "--device", options->device,
@@ -429,6 +458,7 @@ Run declare_feel(CLI::App& verb) {
                 "puts each saved version of the file in your hand at once; until Ctrl-C, or for --seconds")
       ->excludes("--blind")
       ->excludes(virtual_time);
+  virtual_time->excludes("--blind");  // nobody feels it
   offer_json(verb, options->json, "the report as a JSON object");
   verb.footer("for example: wale feel velvet --against denim --blind");
   return [options] {

@@ -4,9 +4,7 @@
 #include <cstdlib>
 
 #include "compiler/command/command.hpp"
-#include "compiler/command/print.hpp"
 #include "compiler/modules/owners_devices_file.hpp"
-#include "schema/visible_text.hpp"
 
 namespace wale::command {
 
@@ -22,9 +20,9 @@ void offer_trusted_files(CLI::App& verb, std::vector<std::string>& files) {
 
 std::string owners_file() { return owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")); }
 
-void warn_of_owners_file(const TrustedDeclarations& trusted) {
-  print_error("wale: warning: nothing in {} is used: {}\n", visible_text(owners_file()),
-              error_text(*trusted.owners_problem));
+void warn_of_unused(const TrustedDeclarations& trusted) {
+  if (trusted.owners_problem) warn_of_owners_file(owners_file(), *trusted.owners_problem);
+  for (const Error& hidden : hidden_devices(trusted.checked)) warn(hidden);
 }
 
 Result<TrustedDeclarations> trusted_here(const std::vector<std::string>& files) {

@@ -5,6 +5,8 @@
 #include <istream>
 #include <ostream>
 
+#include "compiler/typed_number.hpp"
+
 namespace wale {
 
 void AskingPerson::introduce(bool is_a) {
@@ -27,6 +29,7 @@ Result<int> AskingPerson::answer(int) {
     const std::string word = begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
     if (word == "1" || word == "2") return word[0] - '0';
     if (word == "q" || word == "Q") return Error{Code::stopped, "you ended it with q"};
+    out_ << fmt::format("expected 1, 2 or q, {}\n", found_typed(word));
   }
 }
 

@@ -87,10 +87,16 @@ Result<DeviceToFeel> device_to_feel(const DeviceRequest& request, std::span<cons
 Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& program, const HandDeclaration& person,
                                 const FeltOptions& options, const Say& say, const std::atomic<bool>& stop) {
   const ChosenDevice& chosen = device.chosen;
-  // A simulated device is that of the program; a real one is that of its trusted declaration.
-  DeviceProfile declared = chosen.trusted ? chosen.trusted->profile() : program.device;
-  if (!chosen.trusted && chosen.declared) declared.name = chosen.declared->profile.name;
-  if (auto built = is_built_for(program, declared); !built) return std::move(built.error());
+  // A real device is that of its trusted declaration, one that was named is that of its declaration, and any other is
+  // that of the program.
+  const DeviceProfile& declared = chosen.trusted    ? chosen.trusted->profile()
+                                  : chosen.declared ? chosen.declared->profile
+                                                    : program.device;
+  if (auto built = is_built_for(program, declared); !built) {
+    if (!chosen.plugged && built.error().code == Code::other_figures)
+      built.error().mend += "; `--device simulated` simulates the device that it is built for";
+    return std::move(built.error());
+  }
   if (!chosen.plugged) {
     auto opened = simulated(program, person, options.hand);
     if (!opened) return std::move(opened.error());

@@ -53,8 +53,7 @@ struct FeltDevice {
 
 /// Opens the chosen device for `program`, or simulates it in a hand of `person` that moves as `FeltOptions::hand` says.
 /// `stop` must outlive the device. Errors: those of `open_device` and `load_trace`; `other_device` if the program is
-/// built for another device; `other_figures` if it is built for other figures than the trusted declaration of a real
-/// one.
+/// built for another device; `other_figures` if it is built for other figures than the declaration of the chosen one.
 Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& program, const HandDeclaration& person,
                                 const FeltOptions& options, const Say& say, const std::atomic<bool>& stop);
 

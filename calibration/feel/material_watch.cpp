@@ -3,18 +3,32 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
 #include "compiler/diagnostics/render.hpp"
+#include "compiler/modules/load_modules.hpp"
+#include "compiler/quantity.hpp"
 #include "runtime/device/built_for.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 
+namespace {
+
+/// A value in a parameter's own unit: "1.5 N".
+std::string in_its_unit(const Parameter& parameter, double value) {
+  return fmt::format("{:.6g}{}{}", value / parameter.unit_in_si, parameter.unit.empty() ? "" : " ", parameter.unit);
+}
+
+}  // namespace
+
 MaterialWatch::MaterialWatch(command::Choice choice, Stage& stage, const Program& felt,
-                             std::function<void(const std::string&)> say)
+                             std::vector<std::string> settings, std::function<void(const std::string&)> say)
     : choice_(std::move(choice)),
       stage_(stage),
+      settings_(std::move(settings)),
       say_(std::move(say)),
       felt_(write_patch_program(felt.description())),
       device_(felt.description().device) {}
@@ -64,8 +78,36 @@ MaterialWatch::Outcome MaterialWatch::look() {
     return refuse(fmt::format("wale: {}\n", in_words(done.error())));
   felt_ = std::move(bytes);
   ++versions_;
-  say_(said + fmt::format("wale: the new version of `{}` is active\n", now.material));
+  say_(said + apply_settings(now) + fmt::format("wale: the new version of `{}` is active\n", now.material));
   return Outcome::replaced;
+}
+
+/// Sets the parameters of the version on the stage as the person has set those of the first one. Returns what is new
+/// about settings that cannot hold, in lines.
+std::string MaterialWatch::apply_settings(const PatchProgram& now) {
+  std::string news;
+  for (const std::string& setting : settings_) {
+    const std::string name = command::setting_name(setting);
+    const auto parameter = std::ranges::find(now.parameters, name, &Parameter::name);
+    std::string said;
+    if (parameter == now.parameters.end()) {
+      said = fmt::format("`{}` is gone: `--set {}` has no effect", name, setting);
+    } else if (const auto meant = read_parameter_anyway(common_modules()->declarations, "--set", *parameter,
+                                                        setting.substr(setting.find('=') + 1));
+               !meant) {
+      said = fmt::format("`--set {}` does not fit `{}` now: {}", setting, name, meant.error().sentence);
+    } else {
+      const float used = std::clamp(static_cast<float>(*meant), parameter->low, parameter->high);
+      if (used != static_cast<float>(*meant))
+        said = fmt::format("`--set {}` is outside {:.6g} .. {} now: {} is used", setting,
+                           parameter->low / parameter->unit_in_si, in_its_unit(*parameter, parameter->high),
+                           in_its_unit(*parameter, used));
+      if (const auto set = stage_.set(name, used); !set) said = in_words(set.error());
+    }
+    if (std::exchange(said_of_settings_[setting], said) != said && !said.empty())
+      news += fmt::format("wale: {}\n", visible_text(said));
+  }
+  return news;
 }
 
 MaterialWatch::Outcome MaterialWatch::refuse(std::string why) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,10 @@ namespace wale {
 /// compiled again and replaces the active program (`Stage::replace`). With errors the previous version stays active.
 class MaterialWatch {
  public:
-  /// `felt` is the program on the stage. `say` gets messages of whole lines. The stage outlives the watch.
-  MaterialWatch(command::Choice choice, Stage& stage, const Program& felt, std::function<void(const std::string&)> say);
+  /// `felt` is the program on the stage. `settings` (NAME=VALUE) hold for every version that has such a parameter;
+  /// where one cannot, the person is told. `say` gets messages of whole lines. The stage outlives the watch.
+  MaterialWatch(command::Choice choice, Stage& stage, const Program& felt, std::vector<std::string> settings,
+                std::function<void(const std::string&)> say);
 
   enum class Outcome {
     nothing,   ///< no file changed, or the program did not
@@ -33,9 +36,12 @@ class MaterialWatch {
  private:
   Outcome look();
   Outcome refuse(std::string why);
+  std::string apply_settings(const PatchProgram& now);
 
   command::Choice choice_;
   Stage& stage_;
+  std::vector<std::string> settings_;
+  std::map<std::string, std::string> said_of_settings_;  // the last message about each
   std::function<void(const std::string&)> say_;
   FileWatch files_;
   bool begun_ = false;

@@ -3,44 +3,14 @@
 #include <filesystem>
 #include <utility>
 
-#include "compiler/check/check.hpp"
-#include "compiler/compile.hpp"
-
 namespace wale {
 namespace {
-
-/// The first error in the text of a file.
-Error first_error(const Diagnostics& diagnostics, const SourceSet& sources) {
-  Error error{Code::damaged_file, "it cannot be read"};
-  for (const Diagnostic& each : diagnostics.all()) {
-    if (severity_of(each.code) != Severity::error) continue;
-    error = {each.code,
-             each.message,
-             each.help,
-             {.name = sources[each.span.source].name, .number = sources.place(each.span).line}};
-    break;
-  }
-  return error;
-}
 
 /// A file with its devices.
 struct TrustedFile {
   ResolvedFile file;
-  std::vector<TrustedDevice> devices;
+  DeviceFile checked;
 };
-
-/// The devices that a file declares itself and exports.
-Result<std::vector<TrustedDevice>> exported_devices(const ResolvedFile& file) {
-  SourceSet sources;
-  Diagnostics diagnostics;
-  const auto resolver = file_resolver({});
-  const CheckedModule module = check_source(sources, sources.add(file.name, file.bytes), *resolver, diagnostics);
-  if (diagnostics.has_errors()) return first_error(diagnostics, sources);
-  std::vector<TrustedDevice> devices;
-  for (const auto& [name, entry] : module.declarations().devices.own())
-    if (entry.exported && !entry.imported) devices.push_back(TrustedDevice::by_owner(entry.what, file.name));
-  return devices;
-}
 
 Result<TrustedFile> trusted_file(const std::string& path) {
   auto file = read_file(path);
@@ -50,9 +20,21 @@ Result<TrustedFile> trusted_file(const std::string& path) {
     error.place.name = path;
     return error;
   }
-  auto devices = exported_devices(*file);
-  if (!devices) return std::move(devices.error());
-  return TrustedFile{*std::move(file), *std::move(devices)};
+  auto checked = check_device_file(*file);
+  if (!checked) return std::move(checked.error());
+  return TrustedFile{*std::move(file), *std::move(checked)};
+}
+
+/// The error of a named file that exports nothing. The first device that it keeps to itself may have been meant.
+Error exports_nothing(const DeviceFile& file) {
+  Error error{Code::unknown_device,
+              "this file exports no device of its own",
+              "write `export device NAME { … }`, as `wale devices --identify` prints it",
+              {.name = file.name}};
+  if (file.without_export.empty()) return error;
+  const auto& [declared, line] = file.without_export.front();
+  error.mend = "write `export device " + declared.profile.name + "` in line " + std::to_string(line);
+  return error;
 }
 
 }  // namespace
@@ -62,17 +44,15 @@ Result<TrustedDeclarations> trusted_declarations(const std::vector<std::string>&
   TrustedDeclarations trusted;
   std::vector<TrustedDevice> of_owner;
   const auto take = [&](TrustedFile file) {
-    for (TrustedDevice& each : file.devices) of_owner.push_back(std::move(each));
+    for (const auto& [declared, line] : file.checked.exported)
+      of_owner.push_back(TrustedDevice::by_owner(declared, file.file.name));
     trusted.files.push_back(std::move(file.file));
+    trusted.checked.push_back(std::move(file.checked));
   };
   for (const std::string& path : files) {
     auto file = trusted_file(path);
     if (!file) return std::move(file.error());
-    if (file->devices.empty())
-      return Error{Code::unknown_device,
-                   "this file exports no device of its own",
-                   "write `export device NAME { … }`, as `wale devices --identify` prints it",
-                   {.name = path}};
+    if (file->checked.exported.empty()) return exports_nothing(file->checked);
     take(*std::move(file));
   }
   std::error_code ignored;

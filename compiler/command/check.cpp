@@ -38,6 +38,7 @@ std::string counted(std::size_t n, const char* what) { return fmt::format("{} {}
 
 int check(const CheckOptions& options) {
   const auto roots = library_folders(options.folders, std::getenv("WALE_LIBRARY"));
+  warn_of_library_variable();
   const bool mended = !options.fix || mend(options.files, roots, options.sandbox);
   const auto [sources, diagnostics] = check_files(options.files, roots, options.sandbox);
   if (options.json) {
@@ -62,7 +63,9 @@ Run declare_check(CLI::App& verb) {
   offer_sandbox(verb, options->sandbox);
   offer_json(verb, options->json, "the diagnostics as a JSON array");
   verb.add_flag("--fix", options->fix, "first writes the mends into the files, where only one meaning is possible");
-  verb.footer("for example: wale check --fix my.wale");
+  verb.footer(
+      "Materials are checked as for sandpaper; `wale describe FILE --device NAME` checks them for another device.\n"
+      "for example: wale check --fix my.wale");
   return [options] { return check(*options); };
 }
 

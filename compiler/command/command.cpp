@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 
 #include "compiler/command/print.hpp"
+#include "compiler/device_file.hpp"
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
@@ -43,12 +45,43 @@ bool is_misuse(const Error& error) {
     case Code::unknown_unit:
     case Code::number_out_of_range:
     case Code::unknown_device:
+    case Code::private_name:
     case Code::unknown_material:
     case Code::unknown_name:
     case Code::other_device:
     case Code::unknown_setting: return true;
     default: return false;
   }
+}
+
+/// The owner's devices.wale; nothing if it cannot be read.
+std::optional<ResolvedFile> owners_file_of_devices() {
+  auto owners = read_file(owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")));
+  if (!owners) return std::nullopt;
+  return *std::move(owners);
+}
+
+/// The files of devices that a choice knows, as checked.
+struct KnownDeviceFiles {
+  std::vector<DeviceFile> sound;
+  std::string owners;                   ///< the name of the owner's file
+  std::optional<Error> owners_problem;  ///< the first error in it
+};
+
+KnownDeviceFiles device_files_of(const Choice& choice) {
+  KnownDeviceFiles known;
+  const std::vector<std::string> roots = library_folders(choice.folders, std::getenv("WALE_LIBRARY"));
+  for (const ResolvedFile& file : choice.devices)
+    if (auto checked = check_device_file(file, roots)) known.sound.push_back(*std::move(checked));
+  const auto owners = choice.knows_owners ? owners_file_of_devices() : std::nullopt;
+  if (!owners) return known;
+  known.owners = owners->name;
+  auto checked = check_device_file(*owners, roots);
+  if (checked)
+    known.sound.push_back(*std::move(checked));
+  else
+    known.owners_problem = std::move(checked.error());
+  return known;
 }
 
 Error no_parameter(const PatchProgram& program, const std::string& name) {
@@ -105,7 +138,7 @@ FileRequest Choice::request() const {
                       .sandbox = sandbox};
   const bool is_shipped = device.empty() || common_modules()->declarations.devices.contains(device);
   if (is_shipped || !knows_owners) return request;
-  if (auto owners = read_file(owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME"))))
+  if (auto owners = owners_file_of_devices(); owners && check_device_file(*owners, request.roots))
     request.devices.push_back(*std::move(owners));
   return request;
 }
@@ -162,6 +195,12 @@ Result<> has_use_for_options(const OpenedFile& opened, const Choice& choice) {
                .place = {.name = useless}};
 }
 
+void warn_of_library_variable() {
+  for (const std::string& folder : library_folders({}, std::getenv("WALE_LIBRARY")))
+    if (std::error_code ignored; !std::filesystem::is_directory(folder, ignored))
+      print_error("wale: warning: WALE_LIBRARY names `{}`, which is no folder\n", visible_text(folder));
+}
+
 void say_unread(const std::vector<std::string>& roots) {
   for (const std::string& folder : file_resolver(roots)->unreadable_folders("here"))
     print_error("wale: warning: the folder `{}` cannot be read, so its materials are not known\n",
@@ -172,6 +211,9 @@ Result<> has_device(const CheckedModule& module, const Choice& choice) {
   if (choice.device_option.empty() || choice.device.empty()) return {};
   const auto known = module.declarations().devices.spellings();
   if (std::ranges::find(known, choice.device) != known.end()) return {};
+  const KnownDeviceFiles files = device_files_of(choice);
+  if (auto hidden = private_device(choice.device, files.sound, choice.device_option)) return *std::move(hidden);
+  if (files.owners_problem) return *files.owners_problem;
   const auto near = nearest_spelling(choice.device, known);
   return Error{
       .code = Code::unknown_device,
@@ -180,24 +222,16 @@ Result<> has_device(const CheckedModule& module, const Choice& choice) {
       .place = {.name = choice.device_option, .text = choice.device}};
 }
 
-namespace {
-
-/// Opens a file. If it only fails for an error in the owner's devices.wale, and has its device without that, the error
-/// is a warning.
-Result<OpenedFile> opened_without_need(const Choice& choice, const FileRequest& request) {
-  auto opened = open_file(request);
-  const bool has_owners = request.devices.size() > choice.devices.size();
-  if (!opened || !opened->diagnostics.has_errors() || !has_owners) return opened;
-  Choice without = choice;
-  without.knows_owners = false;
-  auto again = open_file(without.recording_request());
-  if (!again || again->diagnostics.has_errors() || !has_device(*again->module, choice)) return opened;
-  print_error("wale: warning: nothing in {} is used, since it has an error; `wale check` shows it\n",
-              visible_text(request.devices.back().name));
-  return again;
+void warn_of_owners_file(const std::string& file, const Error& problem) {
+  print_error("wale: warning: nothing in {} is used: {}\n", visible_text(file), error_text(problem));
 }
 
-}  // namespace
+void warn_of_device_files(const Choice& choice) {
+  if (choice.device_option.empty()) return;
+  const KnownDeviceFiles files = device_files_of(choice);
+  if (files.owners_problem) warn_of_owners_file(files.owners, *files.owners_problem);
+  for (const Error& hidden : hidden_devices(files.sound)) warn(hidden);
+}
 
 OrStatus<OpenedFile> open(const Choice& choice) {
   const std::string named = named_material(choice.file).material;
@@ -208,7 +242,8 @@ OrStatus<OpenedFile> open(const Choice& choice) {
         .mend = "name only one of the two",
         .place = {.text = choice.material}});
   const FileRequest request = choice.recording_request();
-  auto opened = opened_without_need(choice, request);
+  if (choice.file_option.empty()) warn_of_library_variable();  // the first file of a command
+  auto opened = open_file(request);
   if (is_searched_for(choice.file)) say_unread(request.roots);
   if (!opened) {
     if (opened.error().code == Code::unknown_name) opened.error().place.name = choice.file_option;
@@ -224,7 +259,10 @@ OrStatus<OpenedFile> open(const Choice& choice) {
     if (const auto has = has_material(*opened, choice); !has) return refuse(has.error());
   if (opened->module)
     if (const auto has = has_device(*opened->module, choice); !has) return refuse(has.error());
-  if (!opened->diagnostics.has_errors()) return *std::move(opened);
+  if (!opened->diagnostics.has_errors()) {
+    warn_of_device_files(choice);
+    return *std::move(opened);
+  }
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   return refused;
 }
@@ -277,8 +315,8 @@ Result<std::vector<float>> chosen_parameters(const Program& program, const std::
   std::vector<std::string> set;
   for (const auto& setting : settings) {
     const auto equals = setting.find('=');
-    if (equals == std::string::npos) return not_a_setting(setting);
     const std::string name = setting_name(setting);
+    if (equals == std::string::npos || name.empty()) return not_a_setting(setting);
     const auto index = program.parameter(name);
     if (!index) return no_parameter(program.description(), name);
     if (std::ranges::find(set, name) != set.end())

@@ -53,7 +53,7 @@ struct Choice {
   std::shared_ptr<InputFiles> inputs = std::make_shared<InputFiles>();
   Sandbox sandbox = Sandbox::required;  ///< of the decoder of its pictures
 
-  /// Includes the owner's devices.wale if that is to be known and the device is not a shipped one.
+  /// Includes the owner's devices.wale if that is to be known, has no error, and the device is not a shipped one.
   FileRequest request() const;
   /// The same; what is read for it becomes one of the `inputs`. For one thread at a time.
   FileRequest recording_request() const;
@@ -73,11 +73,22 @@ Result<> has_material(const OpenedFile& opened, const Choice& choice);
 /// Error: W0801.
 Result<> has_use_for_options(const OpenedFile& opened, const Choice& choice);
 
+/// Warns of what WALE_LIBRARY names and is no folder. Called once by a verb that imports.
+void warn_of_library_variable();
+
 /// Warns of the folders that the search for materials could not read.
 void say_unread(const std::vector<std::string>& roots);
 
-/// Checks that a device which an option named is declared where a file can see it. Error: W0601.
+/// Checks that a device which an option named is declared where a file can see it. Errors: W0601; W0215 if a file of
+/// devices keeps it to itself; the first error in the owner's devices.wale, which might have declared it.
 Result<> has_device(const CheckedModule& module, const Choice& choice);
+
+/// Warns that the owner's file of devices has an error, and that nothing in it is used.
+void warn_of_owners_file(const std::string& file, const Error& problem);
+
+/// If an option named a device: warns of an error in the owner's devices.wale, and of devices in the files of `choice`
+/// that have the name of an earlier one. Called once by a verb, when `has_device` has found the device.
+void warn_of_device_files(const Choice& choice);
 
 /// A value; or, after an error that has been printed, the exit status of the command, which has nothing more to do.
 ///

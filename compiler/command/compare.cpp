@@ -26,6 +26,7 @@ struct CompareOptions {
 int compare(const CompareOptions& options) {
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   const FileRequest request = options.choice.request();
+  warn_of_library_variable();
   std::vector<ComparedFile> files = read_cues(options.names, request, common->declarations);
   if (std::ranges::any_of(options.names, is_searched_for)) say_unread(request.roots);
   Choice choice = options.choice;
@@ -51,6 +52,7 @@ int compare(const CompareOptions& options) {
       refuse(fmt::format("`{}` has no material and is left out", visible_text(file.name.file)));
   }
   if (status != done) return status;
+  warn_of_device_files(options.choice);
   if (const auto fit = comparable(files); !fit) return refuse(fit.error());
   std::vector<Cues> materials;
   for (ComparedFile& file : files) materials.insert(materials.end(), file.cues.begin(), file.cues.end());

@@ -57,6 +57,7 @@ int describe_fates(const DescribeOptions& options) {
   choice.device = default_device, choice.device_option.clear();  // `all` is no device
   auto opened = open(choice);
   if (!opened) return opened.status();
+  warn_of_device_files(options.choice);
   if (opened->program)
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = fmt::format("expected a Wale file, found `{}`, which is built for `{}` already",

@@ -22,6 +22,7 @@ struct LevelsOptions {
 int levels(const LevelsOptions& options) {
   const CheckedModule known = known_here(options.choice.request());
   if (const auto has = has_device(known, options.choice); !has) return refuse(has.error());
+  warn_of_device_files(options.choice);
   const auto proposed = propose_levels(options.percept, options.choice.device, options.steps, options.apart.value_or(1),
                                        known.declarations());
   if (!proposed) return refuse(proposed.error());
@@ -38,7 +39,7 @@ Run declare_levels(CLI::App& verb) {
   must_say(verb.add_option("PERCEPT", options->percept, "a percept or its opposite, as in roughness or smoothness"),
            "the name of a percept")
       ->required();
-  offer_device(verb, options->choice);
+  offer_device(verb, options->choice, "--device", help_text::device_alone);
   offer_count(verb, "--steps", options->steps, {.least = 2, .most = 1000, .example = 5},
               "how many levels, as in 5 (default: as many as people can tell apart)");
   offer_number(

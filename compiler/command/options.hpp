@@ -33,6 +33,8 @@ inline constexpr const char* library = "a folder to search for imports, after th
 inline constexpr const char* material = "which material of the file (default: its first)";
 inline constexpr const char* device =
     "the device to build for: one of `wale devices`, of --devices or of the file itself (default: sandpaper)";
+/// For a verb that takes no file.
+inline constexpr const char* device_alone = "the device: one of `wale devices` or of --devices (default: sandpaper)";
 }  // namespace help_text
 
 /// --library DIR, which may be repeated. If DIR is not a folder, the command ends.

@@ -86,7 +86,7 @@ Error no_map(const Percept& percept, const MapChoice& choice, const std::string&
 
 Error too_many(std::size_t steps, std::size_t most, double apart, const std::string& name) {
   const std::string far =
-      apart == 1 ? "one just noticeable difference" : fmt::format("{:.3g} just noticeable differences", apart);
+      apart == 1 ? "one just noticeable difference" : fmt::format("{} just noticeable differences", apart);
   if (most < 2)
     return {Code::value_out_of_range, fmt::format("no two levels of {} are {} apart on this device", name, far)};
   return {Code::value_out_of_range, fmt::format("{} levels of {} would be less than {} apart", steps, name, far),

@@ -113,7 +113,7 @@ class Declarer {
     if (keyword == "device") declare_device(reader, declarations_);
     if (keyword == "levels") declare_levels(reader, declarations_);
     if (keyword == "hand") declare_hand(reader, declarations_);
-    reader.report_unknown_settings();
+    reader.report_keys();
   }
 
   void operator()(const MaterialDecl& node) {

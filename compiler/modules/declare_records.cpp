@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "schema/spelling.hpp"
+
 namespace wale {
 
 std::string words_of(const SettingItem& item) {
@@ -54,10 +56,7 @@ const Setting* RecordReader::setting(const std::string& key) {
 
 const Setting* RecordReader::required(const std::string& key, const std::string& example) {
   const Setting* found = setting(key);
-  if (!found)
-    report(Code::missing_setting, record.name.span,
-           fmt::format("the {} `{}` lacks `{}`", record.keyword.text, record.name.text, key),
-           fmt::format("add `{} {}`", key, example));
+  if (!found) missing_.emplace(key, example);
   return found;
 }
 
@@ -137,15 +136,20 @@ void RecordReader::reject(Code code, Span span, std::string message, Advice advi
   rejected_ = true;
 }
 
-void RecordReader::report_unknown_settings() {
+void RecordReader::report_keys() {
   if (rejected_) return;
+  const std::vector<std::string> known(asked_.begin(), asked_.end());
   for (const auto& setting : record.settings) {
     if (read_.contains(&setting)) continue;
     report(Code::unknown_setting, setting.key.span,
            fmt::format("a {} has no setting `{}`", record.keyword.text, setting.key.text),
-           did_you_mean(setting.key.span, setting.key.text, {asked_.begin(), asked_.end()},
-                        fmt::format("it has: {}", fmt::join(asked_, ", "))));
+           did_you_mean(setting.key.span, setting.key.text, known, fmt::format("it has: {}", fmt::join(known, ", "))));
+    if (const auto meant = nearest_spelling(setting.key.text, known)) missing_.erase(*meant);
   }
+  for (const auto& [key, example] : missing_)
+    report(Code::missing_setting, record.name.span,
+           fmt::format("the {} `{}` lacks `{}`", record.keyword.text, record.name.text, key),
+           fmt::format("add `{} {}`", key, example));
 }
 
 void declare_levels(RecordReader& reader, Declarations& declarations) {

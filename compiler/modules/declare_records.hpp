@@ -9,8 +9,8 @@
 
 namespace wale {
 
-/// Reads the settings of one record by their keys. At the end, `report_unknown_settings` reports those that nobody
-/// read.
+/// Reads the settings of one record by their keys. At the end, `report_keys` reports those that nobody read and those
+/// that were missed.
 class RecordReader {
  public:
   RecordReader(const SyntaxTree& tree, const RecordDecl& record, const SourceSet& sources,
@@ -18,7 +18,7 @@ class RecordReader {
 
   std::vector<const Setting*> settings(const std::string& key);                 ///< all with that key
   const Setting* setting(const std::string& key);                               ///< the only one with that key, or null
-  const Setting* required(const std::string& key, const std::string& example);  ///< as `setting`, but null is reported
+  const Setting* required(const std::string& key, const std::string& example);  ///< null is reported by `report_keys`
 
   /// Item `index` of a setting as a quantity of the named dimension ("number" for a plain one), in SI.
   std::optional<double> quantity(const Setting& setting, std::size_t index, const std::string& dimension);
@@ -38,7 +38,9 @@ class RecordReader {
   void report(Code code, Span span, std::string message, Advice advice);
   /// Reports an error about the record as a whole; its settings are then not read.
   void reject(Code code, Span span, std::string message, Advice advice);
-  void report_unknown_settings();
+  /// Reports the settings that nobody read, then those that are required and missing. A misspelt setting is one error:
+  /// what it is meant for is not missing.
+  void report_keys();
 
   const SyntaxTree& tree;
   const RecordDecl& record;
@@ -49,6 +51,7 @@ class RecordReader {
  private:
   std::set<const Setting*> read_;
   std::set<std::string> asked_;
+  std::map<std::string, std::string> missing_;  ///< required settings that are not there, each with an example
   bool rejected_ = false;
 };
 

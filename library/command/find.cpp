@@ -102,6 +102,7 @@ int find(const FindOptions& options) {
                             left_out.size() > 1 ? fmt::format(" and {} more are", left_out.size() - 1) : " is",
                             most_indexed >> 20));
   const std::vector<FoundMaterial> found = find_materials(*index, options.texts, options.kind);
+  warn_of_library_variable();
   say_unread(roots);
   if (options.json) print_out(found_json(found));
   if (found.empty()) return refuse(why_nothing_is_found(*index, options.texts, options.kind));

@@ -46,7 +46,7 @@ Result<> is_built_for(const PatchProgram& program, const DeviceProfile& declared
   if (differences.empty()) return {};
   return Error{Code::other_figures,
                "`" + program.material + "` is built for other figures of `" + built.name +
-                   "` than its trusted declaration has: " + differences,
+                   "` than its declaration has: " + differences,
                "build it again from its Wale file by this Wale; a declaration of your own belongs into your "
                "devices.wale, or into a file that `--devices FILE` names"};
 }

@@ -168,15 +168,18 @@ class Chooser {
     return real(is_it, "no " + name + " is plugged in", std::string(simulated_as) + name);
   }
 
-  /// A device that is declared, but by nothing that is trusted: it can only be simulated.
+  /// A device that is known, but from nothing that is trusted: it can only be simulated.
   Result<ChosenDevice> only_known(const DeclaredDevice& device) const {
-    if (device.wiring.usb.empty() && !device.wiring.is_generic) return simulate(device);
     const std::string& name = device.profile.name;
+    const bool is_of_program = name == request_.only_in_program;
+    if (!is_of_program && device.wiring.usb.empty() && !device.wiring.is_generic) return simulate(device);
+    const std::string from = is_of_program
+                                 ? "` is known only from the patch program, which does not say whether there is a real "
+                                   "one"
+                                 : "` is declared by a material, its imports or its project";
     return error(
         Code::untrusted_device,
-        "`" + name +
-            "` is declared by a material, its imports or its project, and only a declaration that you "
-            "trust says what a newton is on a real device",
+        "`" + name + from + ", and only a declaration that you trust says what a newton is on a real device",
         "`wale devices --identify` writes one of your own; `--devices FILE` trusts the declarations of a file; "
         "`--device " +
             std::string(simulated_as) + name + "` simulates it");

@@ -18,6 +18,8 @@ struct DeviceRequest {
   std::string built_for;        ///< the device that the program is built for; empty if that is still open
   std::string transport = {};   ///< the way to drive a real device; empty: its driver chooses
   bool only_simulated = false;  ///< virtual time or a simulated hand's motion was asked for as well
+  /// A known device whose figures are only in the patch program, which does not say whether a real one exists.
+  std::string only_in_program = {};
 };
 
 /// The device that was chosen.
@@ -36,7 +38,8 @@ struct ChosenDevice {
 /// declaration is about the chosen device, `said` names it and says what to do. Errors, each with what to do:
 /// `absent_device`: the requested real device is not plugged in; `unusable_device`: it is plugged in but cannot be
 /// used; `other_device`: the program is built for another device; `unknown_device`: no device has that name, or none is
-/// declared for the one that has it; `untrusted_device`: the name of a real device is only in an untrusted declaration;
+/// declared for the one that has it; `untrusted_device`: the name of a real device is only in an untrusted declaration,
+/// or only in the patch program;
 /// `malformed_value`: a real device was requested together with virtual time or a simulated hand, or with a transport
 /// that its driver lacks, also where it is not plugged in.
 Result<ChosenDevice> choose_device(const DeviceRequest& request, std::span<const DeclaredDevice> known,

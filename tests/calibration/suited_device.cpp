@@ -71,7 +71,7 @@ TEST(SuitedDevice, OtherFiguresOfForceAndPlaceAreRefused) {
     const Error error = on_plugged(program, change);
     EXPECT_EQ(code_name(error.code), "W0608") << figure << ": " << error.sentence;
     const std::string expected =
-        "`wall` is built for other figures of `openffboard` than its trusted declaration has: " + figure;
+        "`wall` is built for other figures of `openffboard` than its declaration has: " + figure;
     EXPECT_TRUE(error.sentence.starts_with(expected)) << error.sentence;
     EXPECT_TRUE(error.sentence.find(" in the program, ") != std::string::npos) << error.sentence;
     EXPECT_TRUE(error.sentence.ends_with(" declared")) << error.sentence;
@@ -114,17 +114,25 @@ TEST(SuitedDevice, AProgramForAnotherDeviceIsRefused) {
   EXPECT_EQ(error.sentence, "`wall` is built for `sandpaper`, not for `openffboard`");
 }
 
-// The simulation takes the figures of the program, so nothing can disagree.
-TEST(SuitedDevice, ASimulatedDeviceTakesTheFiguresOfTheProgram) {
+// Without a declaration, the simulation takes the figures of the program, so nothing can disagree.
+TEST(SuitedDevice, ASimulatedDeviceTakesTheFiguresOfTheProgramUnlessItWasNamed) {
   PatchProgram program = built_for("openffboard");
-  DeviceToFeel device;
-  device.chosen.declared = DeclaredDevice{.profile = program.device};
+  const DeclaredDevice declared{.profile = program.device};
   program.device.force_newton *= 3;
   const std::atomic<bool> stop{false};
-  const auto opened = open_to_feel(
-      device, program, {}, {.hand = "rest"}, [](const std::string&) {}, stop);
+  const auto simulated = [&](const std::optional<DeclaredDevice>& named) {
+    DeviceToFeel device;
+    device.chosen.declared = named;
+    return open_to_feel(
+        device, program, {}, {.hand = "rest"}, [](const std::string&) {}, stop);
+  };
+  const auto opened = simulated(std::nullopt);
   ASSERT_TRUE(opened) << opened.error().sentence;
   EXPECT_EQ(opened->device->profile().force_newton, program.device.force_newton);
+  const auto named = simulated(declared);
+  ASSERT_FALSE(named);
+  EXPECT_EQ(code_name(named.error().code), "W0608");
+  EXPECT_TRUE(named.error().mend.find("`--device simulated`") != std::string::npos) << named.error().mend;
 }
 
 }  // namespace

@@ -36,11 +36,11 @@ std::string pushing(double newton, const std::string& more = {}) {
 
 /// A stage with the program of a file, and the watch of that file.
 struct Watched {
-  explicit Watched(const std::string& file)
+  explicit Watched(const std::string& file, const std::vector<std::string>& settings = {})
       : program(compiled(file)),
         joystick(program.description().device, {.mass = 0.55, .damping = 6.5, .stiffness = 135}, Rest{}),
         stage(joystick),
-        watch({.file = file}, stage, program, [this](const std::string& text) { said += text; }) {
+        watch({.file = file}, stage, program, settings, [this](const std::string& text) { said += text; }) {
     stage.place(program);
     EXPECT_EQ(watch.attend(short_while), Outcome::nothing);
   }
@@ -87,6 +87,35 @@ TEST(Watching, EveryWayOfSavingActivatesTheNewVersion) {
   folder.write("other.wale", pushing(0.5));
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << "the target of the link changed";
   EXPECT_EQ(watched.felt(), 0.5);
+}
+
+TEST(Watching, WhatWasSetHoldsForEveryVersionOrThePersonIsTold) {
+  const TemporaryFolder folder;
+  const auto with = [](const std::string& parameter, double more) {
+    return "wale 1\nmaterial m {\n  physical {\n    " + parameter + "\n    force = vector(" +
+           (parameter.empty() ? "" : "f + ") + std::to_string(more) + " N, 0 N)\n  }\n}\n";
+  };
+  const std::string active = "wale: the new version of `m` is active\n";
+  Watched watched(folder.write("m.wale", with("param f = 1 N in 0 N .. 5 N", 0)), {"f=2 N"});
+  ASSERT_TRUE(watched.stage.set("f", 2.0f));
+  const auto save = [&](const std::string& text) {
+    folder.write("m.wale", text);
+    EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;
+    return watched.take_said();
+  };
+  EXPECT_EQ(save(with("param f = 1 N in 0 N .. 1.5 N", 0)),
+            "wale: `--set f=2 N` is outside 0 .. 1.5 N now: 1.5 N is used\n" + active);
+  EXPECT_EQ(watched.felt(), 1.5);
+  EXPECT_EQ(save(with("param f = 1 N in 0 N .. 1.5 N", 0.25)), active) << "it is told once";
+  EXPECT_EQ(save(with("param f = 1000 mN in 0 mN .. 1500 mN", 0)),
+            "wale: `--set f=2 N` is outside 0 .. 1500 mN now: 1500 mN is used\n" + active);
+  EXPECT_EQ(save(with("", 1)), "wale: `f` is gone: `--set f=2 N` has no effect\n" + active);
+  EXPECT_EQ(save(with("param f = 1 N in 0 N .. 5 N", 0)), active) << "it is back, and the setting holds again";
+  EXPECT_EQ(watched.felt(), 2);
+  const std::string said = save(
+      "wale 1\nmaterial m {\n  physical {\n    param f = 1 mm in 0 mm .. 5 mm\n"
+      "    force = vector(f * 1 N/mm, 0 N)\n  }\n}\n");
+  EXPECT_TRUE(said.starts_with("wale: `--set f=2 N` does not fit `f` now: ") && said.ends_with(active)) << said;
 }
 
 TEST(Watching, OtherFilesAndUnchangedTextChangeNothing) {

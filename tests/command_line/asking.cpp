@@ -217,6 +217,49 @@ TEST(Devices, HaveTheirStepsInWholeNumbers) {
   EXPECT_FALSE(contains(text, "e+0")) << text;
 }
 
+TEST(Devices, HaveNoFigureForAnUnknownHandle) {
+  const TemporaryFolder folder;
+  std::string text = bytes_of(std::string(WALE_SOURCE_DIR) + "/calibration/devices/falcon.wale");
+  text = text.substr(text.find("device falcon"));
+  text.replace(text.find("falcon"), 6, "mine");
+  text.replace(text.find("  usb"), 5, "  // ");
+  for (const char* key : {"mass", "damping", "friction"}) {
+    const auto at = text.find(std::string("\n  ") + key + " ");
+    ASSERT_NE(at, std::string::npos) << key;
+    text.replace(at + 1, text.find('\n', at + 1) - at - 1, std::string(key) + " unknown");
+  }
+  const std::string file = folder.write("mine.wale", "wale 1\nexport " + text);
+  const Outcome shown = wale({"devices", "--devices", file});
+  EXPECT_TRUE(contains(shown.out, "moving mass unknown, damping unknown, friction unknown\n"))
+      << shown.out << shown.err;
+  bool is_found = false;
+  for (const auto& device : wale({"devices", "--json", "--devices", file}).json()) {
+    if (device["name"] != "mine") continue;
+    is_found = true;
+    for (const char* figure : {"mass_kg", "damping_newton_second_per_m", "friction_newton"})
+      EXPECT_TRUE(device.at(figure).is_null()) << figure;
+  }
+  EXPECT_TRUE(is_found);
+}
+
+TEST(Options, AnUnknownOneIsToldBeforeWhatIsMissing) {
+  const Outcome outcome = wale({"feel", "--hlp"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(contains(outcome.err, "there is no option `--hlp`; did you mean `--help`?")) << outcome.err;
+  EXPECT_TRUE(contains(wale({"feel"}).err, "FILE is required"));
+}
+
+TEST(Options, ASettingNeedsAName) {
+  const Outcome outcome = wale({"describe", corduroy, "--set", "=3"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(contains(outcome.err, "--set: expected NAME=VALUE, found \"=3\"")) << outcome.err;
+}
+
+TEST(Options, CheckSaysForWhichDevice) {
+  const std::string help = wale({"check", "--help"}).out;
+  EXPECT_TRUE(contains(help, "sandpaper") && contains(help, "wale describe FILE --device")) << help;
+}
+
 TEST(Devices, HaveNoFigureForAnUnknownBandwidth) {
   std::size_t unknown = 0;
   for (const auto& device : wale({"devices", "--json"}).json()) {

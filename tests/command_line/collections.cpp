@@ -94,6 +94,15 @@ TEST(Libraries, AreGivenByTheEnvironment) {
   const Borrower borrower;
   setenv("WALE_LIBRARY", ((borrower.folder / "other") + "::" + (borrower.folder / "shared")).c_str(), 1);
   const Outcome outcome = wale({"sample", borrower.file, "--at", "10 mm, 0 mm", "--json"});
+  setenv("WALE_LIBRARY", "/nope", 1);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"describe", corduroy},
+                                                {"check", corduroy},
+                                                {"find", "corduroy"},
+                                                {"compare", corduroy, "denim"}}) {
+    const Outcome warned = wale(words);
+    EXPECT_EQ(warned.status, 0) << warned.err;
+    EXPECT_TRUE(contains(warned.err, "warning: WALE_LIBRARY names `/nope`, which is no folder\n")) << warned.err;
+  }
   unsetenv("WALE_LIBRARY");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NEAR(outcome.json().at(0).at("fx").get<double>(), -0.3, 1e-6);  // 30 N/m, 10 mm

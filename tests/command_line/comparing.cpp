@@ -130,11 +130,17 @@ TEST(Levels, ThatCannotBeProposedAreExplained) {
   EXPECT_TRUE(contains(wale({"levels", "smoothness", "--steps", "3"}).out, "3 levels of smoothness"));
 }
 
+TEST(Levels, SayTheDistanceAsItWasTyped) {
+  EXPECT_TRUE(contains(wale({"levels", "roughness", "--jnd", "1000"}).err, " 1000 just noticeable differences apart"));
+  EXPECT_TRUE(contains(wale({"levels", "roughness", "--jnd", "999.5"}).err, " 999.5 just noticeable differences"));
+  EXPECT_FALSE(contains(wale({"levels", "--help"}).out, "file itself")) << "it takes no file";
+}
+
 TEST(Blind, PlaysAsksAndScores) {
-  const std::vector<std::string> words = {"feel",    corduroy,    "--against", library + "fabric/denim.wale",
-                                          "--blind", "--trials",  "3",         "--seed",
-                                          "5",       "--seconds", "0.2",       "--virtual-time",
-                                          "--json"};
+  const std::vector<std::string> words = {"feel",      corduroy,    "--against", library + "fabric/denim.wale",
+                                          "--blind",   "--trials",  "3",         "--seed",
+                                          "5",         "--seconds", "0.1",       "--device",
+                                          "simulated", "--json"};
   const Outcome run = wale(words, "1\nneither\n2\n1\n");
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = run.json();
@@ -158,9 +164,10 @@ TEST(Blind, PlaysAsksAndScores) {
 }
 
 TEST(Blind, SaysHowOftenGuessingDoesAsWell) {
-  const std::vector<std::string> words = {"feel",    corduroy,   "--against", library + "fabric/denim.wale",
-                                          "--blind", "--seed",   "5",         "--seconds",
-                                          "0.1",     "--trials", "1",         "--virtual-time"};
+  const std::vector<std::string> words = {"feel",     corduroy,   "--against", library + "fabric/denim.wale",
+                                          "--blind",  "--seed",   "5",         "--seconds",
+                                          "0.1",      "--trials", "1",         "--device",
+                                          "simulated"};
   // Of the two possible answers one is right: none or more right is certain, one right has half of all guesses.
   const std::string both = wale(words, "1\n").out + wale(words, "2\n").out;
   EXPECT_TRUE(contains(both, "0 of 1: ") && contains(both, "as many or more in 100 % of sessions")) << both;
@@ -168,8 +175,9 @@ TEST(Blind, SaysHowOftenGuessingDoesAsWell) {
 }
 
 TEST(Blind, EndsWithTheAnswers) {
-  std::vector<std::string> words = {"feel",    corduroy,    "--against", library + "fabric/denim.wale",
-                                    "--blind", "--seconds", "0.2",       "--virtual-time"};
+  std::vector<std::string> words = {"feel",     corduroy,    "--against", library + "fabric/denim.wale",
+                                    "--blind",  "--seconds", "0.1",       "--device",
+                                    "simulated"};
   const Outcome some = wale(words, "1\nq\n1\n");
   EXPECT_EQ(some.status, 0) << some.err;
   EXPECT_TRUE(contains(some.out, "1 of 12 trials was answered: you ended it with q")) << some.out;
@@ -180,8 +188,23 @@ TEST(Blind, EndsWithTheAnswers) {
   EXPECT_EQ(none.out, "");
   EXPECT_TRUE(contains(none.err, "no trial was answered")) << none.err;
   EXPECT_EQ(wale({"feel", corduroy, "--blind"}).status, 2);
-  EXPECT_EQ(wale({"feel", corduroy, "--against", corduroy}).status, 2);
+  const Outcome unheard = wale(words, "neither\nq\n");
+  EXPECT_TRUE(contains(unheard.err, "expected 1, 2 or q, found \"neither\"\n")) << unheard.err;
+  words.emplace_back("--virtual-time");
+  EXPECT_EQ(wale(words, "1\n").status, 2) << "nobody feels it";
 }
+
+TEST(Blind, NeedsTwoMaterials) {
+  const Outcome same = wale({"feel", corduroy, "--against", "corduroy", "--blind", "--device", "simulated"});
+  EXPECT_EQ(same.status, 2);
+  EXPECT_TRUE(contains(same.err, "error[W0801]: --against: expected another material than A")) << same.err;
+  const Outcome set = wale({"feel", corduroy, "--against", "corduroy", "--blind", "--device", "simulated", "--set",
+                            "wale=2mm", "--trials", "1", "--seconds", "0.1"},
+                           "1\n");
+  EXPECT_EQ(set.status, 0) << set.err;
+}
+
+TEST(Blind, NeedsAnOption) { EXPECT_EQ(wale({"feel", corduroy, "--against", corduroy}).status, 2); }
 
 TEST(Describe, TheTextureAndItsClassAreInTheJson) {
   const Outcome run = wale({"describe", "--json", corduroy});

@@ -134,7 +134,7 @@ std::vector<Words> reading(const std::string& file, const TemporaryFolder& folde
           {"feel", file, "--virtual-time", "--seconds", "0.1", "--record", run},
           {"feel", file, "--virtual-time", "--seconds", "0.1", "--json"},
           {"feel", file, "--virtual-time", "--seconds", "0.1", "--record", folder / "table.csv"},
-          {"feel", file, "--against", "velvet", "--blind", "--virtual-time", "--seconds", "0.1"},
+          {"feel", file, "--against", "velvet", "--blind", "--device", "simulated", "--seconds", "0.1"},
           {"replay", run},
           {"replay", run, "--json"},
           {"replay", file},

@@ -143,8 +143,8 @@ TEST(Replay, DamagedFilesAndOtherFilesAreRefused) {
 }
 
 TEST(Blind, AllowsALargestForce) {
-  const Outcome outcome = wale({"feel", corduroy, "--against", corduroy, "--blind", "--trials", "1", "--virtual-time",
-                                "--seconds", "0.2", "--max-force", "0.5 N"},
+  const Outcome outcome = wale({"feel", corduroy, "--against", "denim", "--blind", "--trials", "1", "--device",
+                                "simulated", "--seconds", "0.1", "--max-force", "0.5 N"},
                                "1\n");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }

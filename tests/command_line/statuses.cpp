@@ -32,8 +32,8 @@ TEST(Statuses, AnUnknownNameInAnOptionIsWrongUsage) {
                     {"find", "--kind", "nope"},
                     {"find", "--library", folder / "nope"},
                     {"check", corduroy, "--library", folder / "nope"},
-                    {"feel", corduroy, "--against", "nope", "--blind", "--virtual-time"},
-                    {"feel", corduroy, "--against", corduroy + ":nope", "--blind", "--virtual-time"},
+                    {"feel", corduroy, "--against", "nope", "--blind"},
+                    {"feel", corduroy, "--against", corduroy + ":nope", "--blind"},
                     {"feel", corduroy, "--hand", "nope", "--virtual-time"},
                     {"feel", corduroy, "--device", "nope"},
                     {"feel", corduroy, "--built-for", "nope", "--virtual-time"},
@@ -59,7 +59,7 @@ TEST(Statuses, AMissingFileCannotBeReadWhereverItIsNamed) {
   expect_status(1, {{"describe", "nope.wale"},
                     {"describe", corduroy, "--devices", "nope.wale"},
                     {"feel", corduroy, "--devices", "nope.wale", "--virtual-time"},
-                    {"feel", corduroy, "--against", "nope.wale", "--blind", "--virtual-time"},
+                    {"feel", corduroy, "--against", "nope.wale", "--blind"},
                     {"feel", corduroy, "--hand", "nope.csv", "--virtual-time"},
                     {"sample", corduroy, "--trace", "nope.csv"}});
 }

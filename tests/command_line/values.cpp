@@ -17,8 +17,8 @@ const std::vector<ValueOption> options{
     {{"levels", "roughness"}, "--jnd"},
     {{"feel", corduroy, "--virtual-time"}, "--seconds"},
     {{"feel", corduroy, "--virtual-time"}, "--max-force"},
-    {{"feel", corduroy, "--virtual-time", "--against", corduroy, "--blind"}, "--trials"},
-    {{"feel", corduroy, "--virtual-time", "--against", corduroy, "--blind"}, "--seed"},
+    {{"feel", corduroy, "--against", "denim", "--blind"}, "--trials"},
+    {{"feel", corduroy, "--against", "denim", "--blind"}, "--seed"},
     {{"replay", "missing.wrec"}, "--ticks"},
     {{"devices", "--identify"}, "--max-force"},
     {{"sample", corduroy}, "--at"},
@@ -119,7 +119,7 @@ TEST(Values, AreExpectedOnce) {
 }
 
 TEST(Values, WholeNumbersSayThatTheyAreNotNegative) {
-  expect_refused({{{"feel", corduroy, "--virtual-time", "--against", corduroy, "--blind", "--seed", "-1"},
+  expect_refused({{{"feel", corduroy, "--against", "denim", "--blind", "--seed", "-1"},
                    2,
                    "expected a whole number of 0 or more, found \"-1\""}});
 }
