@@ -44,6 +44,15 @@ function inner(a) = a
 export function twice(a) = inner(2 * a)
 )";
 
+// The share of a component is its weight over the sum of all, which is at most 1, also if all weights are nearly 0.
+TEST(Describe, ABlendIsNotSaidToAskForMoreThanItsComponents) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mix.wale", "wale 1\nmaterial mix = 70 % corduroy + 0.3 denim\n");
+  const Outcome outcome = wale({"describe", file});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_FALSE(contains(outcome.out, "limited by the compiler")) << outcome.out;
+}
+
 TEST(Describe, ProvesABoundAndGrades) {
   const TemporaryFolder folder;
   const auto of = [&](const std::string& physical) {
