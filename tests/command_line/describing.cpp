@@ -165,6 +165,19 @@ TEST(Describe, ListsTheExportsOfAModule) {
   EXPECT_FALSE(contains(text, "hidden =")) << text;
 }
 
+TEST(Describe, ListsExportedRecords) {
+  const TemporaryFolder folder;
+  const std::string levels =
+      folder.write("levels.wale", "wale 1\nexport levels roughness { mild 0.31 }\nlevels hardness { mild 0.3 }\n");
+  const auto described = wale({"describe", levels, "--json"}).json();
+  EXPECT_EQ(described.at("records"), (nlohmann::json{{{"what", "levels"}, {"name", "roughness"}}}));
+  const std::string text = wale({"describe", "--exports", levels}).out;
+  EXPECT_TRUE(contains(text, "levels       roughness\n")) << text;
+  EXPECT_FALSE(contains(text, "hardness")) << text;
+  const std::string nothing = folder.write("nothing.wale", "wale 1\nlet a = 1\n");
+  EXPECT_TRUE(contains(wale({"describe", "--exports", nothing}).out, "exports nothing"));
+}
+
 TEST(Describe, ReadsTheFilesOfTheLanguageAsModules) {
   const auto described = wale({"describe", std::string(WALE_SOURCE_DIR) + "/schema/units.wale", "--json"}).json();
   EXPECT_EQ(described.at("functions").size(), 0u);
