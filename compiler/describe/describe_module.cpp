@@ -90,6 +90,7 @@ ModuleDescription describe_module(const CheckedModule& module, const SourceSet& 
                                  .documentation = unit_documentation(module, entry->declared)});
   for (const auto& [name, entry] : offered(declarations.dimensions, module))
     description.dimensions.push_back({.name = name, .factors = names.factors(entry->what)});
+  description.known_everywhere = module.modules.modules.empty();
   description.records = records_of(module, description.file);
   return description;
 }
@@ -117,7 +118,7 @@ std::string module_text(const ModuleDescription& description) {
     text += fmt::format("  {:<12} {}\n", dimension.name, dimension.factors);
   if (!description.records.empty()) text += "\nrecords\n";
   for (const auto& record : description.records) text += fmt::format("  {:<12} {}\n", record.what, record.name);
-  if (description.empty()) text += "\nexports nothing\n";
+  if (description.empty() && !description.known_everywhere) text += "\nexports nothing\n";
   return text;
 }
 

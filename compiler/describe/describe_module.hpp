@@ -54,6 +54,7 @@ struct ModuleDescription {
   std::vector<DescribedUnit> units;
   std::vector<DescribedDimension> dimensions;
   std::vector<DescribedRecord> records;
+  bool known_everywhere = false;  ///< every file knows it; its records are not listed
 
   bool empty() const {
     return functions.empty() && constants.empty() && units.empty() && dimensions.empty() && records.empty();
