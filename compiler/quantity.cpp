@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/parse/parse.hpp"
+#include "compiler/text/characters.hpp"
 #include "compiler/typed_number.hpp"
 
 namespace wale {
@@ -126,8 +128,12 @@ Result<double> read_parameter_anyway(const Declarations& known, const std::strin
   if (!names.units.contains(parameter.unit))
     names.units.add(parameter.unit, {.what = {parameter.unit_in_si, *dimension}, .declared = {}});
   const auto values = read_list(names, where, text, {*dimension}, 1, expected_of(option, parameter));
-  if (!values) return values.error();
-  return values->front();
+  if (values) return values->front();
+  Error error = values.error();
+  const bool is_word = std::ranges::all_of(text, [](char c) { return continues_name(c); }) && !text.empty();
+  if (is_word && begins_name(text.front()) && known.percept_named(parameter.name).percept)
+    error.mend += "; names of levels work in a file only, as in `" + parameter.name + " " + text + "`";
+  return error;
 }
 
 Result<ParameterValue> read_parameter(const Declarations& known, const std::string& option, const Parameter& parameter,

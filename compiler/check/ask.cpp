@@ -97,6 +97,7 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
   AskedPercept asked{.name = meant.percept->name, .span = node.span, .essential = node.essential};
   if (node.by) {
     asked.by = node.by->text;
+    asked.by_span = node.by->span;
     bool is_known = false;
     declarations.each_map([&](const Map& map) { is_known = is_known || map.name == asked.by; });
     if (auto imported = is_known ? std::nullopt : import_mend(surroundings, asked.by, {"map"}))

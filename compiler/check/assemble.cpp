@@ -178,7 +178,7 @@ class Assembler {
         good = false;
         continue;
       }
-      const Mixture value{{{1, from.tree, argument.value, from.home}}};
+      const Mixture value{.parts = {{1, from.tree, argument.value, from.home}}};
       if (set_default(*result, argument.name->text, value)) continue;
       if (const Dial dial = dial_named(*result, argument.name->text); dial != Dial::none) {
         const auto number = plain_constant(from, argument.value, surroundings_);
@@ -201,6 +201,7 @@ class Assembler {
           // A name means the same place on the scale for the percept and for its antonym.
           percept->level = meant.reversed && !is_named ? 1 - *level : *level;
           percept->span = span;
+          percept->made_at.reset();
           percept->blended = false;
         }
         continue;
@@ -265,7 +266,7 @@ class Assembler {
     }
     if (!same_structure(*first, *second, span)) return nullptr;
     auto result = std::make_shared<AssembledMaterial>(*first);
-    mix(*result, *second, *way);
+    mix(*result, *second, *way, span);
     return result;
   }
 
@@ -317,6 +318,7 @@ class Assembler {
           result->percepts.push_back({.name = asked.name,
                                       .span = from.tree->span(expr),
                                       .by = asked.by,
+                                      .by_span = asked.by_span,
                                       .essential = asked.essential,
                                       .blended = true});
     }

@@ -68,27 +68,29 @@ void turn(AssembledMaterial& material, std::string_view name, double value) {
   blend_levels(material);
 }
 
-void mix(AssembledMaterial& a, const AssembledMaterial& b, double share) {
+void mix(AssembledMaterial& a, const AssembledMaterial& b, double share, Span made_at) {
   for (std::size_t i = 0; i < a.statements.size(); ++i) {
     const auto* param = std::get_if<ParamStatement>(&a.statements[i].statement->what);
     if (!param) continue;
+    if (!a.statements[i].value && !b.statements[i].value) continue;  // both have the parameter's own default
     const auto own = [&](const AssembledStatement& each) {
-      return each.value.value_or(Mixture{{{1, each.tree, param->value, each.home}}});
+      return each.value.value_or(Mixture{.parts = {{1, each.tree, param->value, each.home}}});
     };
-    Mixture mixed;
+    Mixture mixed{.parts = {}, .made_at = made_at};
     for (auto part : own(a.statements[i]).parts) part.weight *= 1 - share, mixed.parts.push_back(part);
     for (auto part : own(b.statements[i]).parts) part.weight *= share, mixed.parts.push_back(part);
     a.statements[i].value = std::move(mixed);
   }
   for (auto& percept : a.percepts) {
     const auto& other = *std::ranges::find(b.percepts, percept.name, &AskedPercept::name);
+    if (percept.level != other.level) percept.made_at = made_at;
     percept.level += share * (other.level - percept.level);
     percept.blended = percept.blended && other.blended;
   }
   for (std::size_t i = 0; i < a.components.size(); ++i) {
     auto& component = a.components[i];
     auto copy = std::make_shared<AssembledMaterial>(*component.material);
-    mix(*copy, *b.components[i].material, share);
+    mix(*copy, *b.components[i].material, share, made_at);
     component.material = copy;
     component.weight += share * (b.components[i].weight - component.weight);
   }

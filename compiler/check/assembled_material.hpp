@@ -19,6 +19,7 @@ struct Mixture {
     const Declarations* home = nullptr;
   };
   std::vector<Part> parts;
+  std::optional<Span> made_at{};  ///< the `between` that computed it; none if it is written as it stands
 };
 
 /// A statement of a material's physics, with the declaration whose names it uses.
@@ -68,8 +69,8 @@ Dial dial_named(const AssembledMaterial& material, std::string_view name);
 void turn(AssembledMaterial& material, std::string_view dial, double value);
 
 /// Takes each parameter, level and weight of `a` the `share` (0 .. 1) of the way to that of `b`, which has the same
-/// structure.
-void mix(AssembledMaterial& a, const AssembledMaterial& b, double share);
+/// structure. `made_at` is the `between` that asks for it: diagnostics of the computed values point there.
+void mix(AssembledMaterial& a, const AssembledMaterial& b, double share, Span made_at);
 
 /// Gives the weight of each component a name that no other has.
 void name_weights(std::vector<AssembledMaterial::Component>& components);

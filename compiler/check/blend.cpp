@@ -138,7 +138,7 @@ void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf
     found->second.erase(found->second.begin());
     if (found->second.empty()) by_force.erase(found);
     if (carrier->open) {
-      sum.textures.push_back({weight, *carrier});
+      sum.textures.push_back({weight, *carrier, name});
       sum.taken.insert(std::ranges::lower_bound(sum.taken, index), index);
       return;
     }
@@ -160,23 +160,37 @@ void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf
   sum.force = add(sum.force, weighed);
 }
 
+/// Whether the textures can be solved as one, by one size: all are of heights, by the same force function. Otherwise
+/// reports the first that cannot.
+bool Blender::can_be_one(const std::vector<Texture>& textures) {
+  const auto refuse = [&](std::string message, std::string help) {
+    surroundings_.diagnostics.report(
+        {.code = Code::different_structures, .span = span_, .message = std::move(message), .help = std::move(help)});
+    return false;
+  };
+  const Texture& first = textures.front();
+  for (const auto& texture : textures) {
+    if (!texture.carrier.relief)
+      return refuse(
+          fmt::format("`{}` of `{}` is left open, and it is not the texture of a height", texture.carrier.name,
+                      texture.component),
+          fmt::format("give it its size in `{}`: a blend has one open size, that of its texture", texture.component));
+    if (texture.carrier.name != first.carrier.name)
+      return refuse(fmt::format("`{}` of `{}` and `{}` of `{}` are both left open", first.carrier.name, first.component,
+                                texture.carrier.name, texture.component),
+                    "give one of them its size: a blend has one open size, so its open textures must be made by the "
+                    "same force function");
+  }
+  return true;
+}
+
 /// Replaces several textures by one: the same force function of the blended height, with its size open again.
 void Blender::add_textures(Superposition& sum) {
   const auto textures = sum.textures;
   constexpr std::size_t operations_of_a_texture = 32;
   if (!charge(operations_of_a_texture * textures.size())) return;
   const std::string function_name = textures.front().carrier.name.substr(0, textures.front().carrier.name.find(' '));
-  for (const auto& texture : textures) {
-    if (texture.carrier.relief && texture.carrier.name == textures.front().carrier.name) continue;
-    surroundings_.diagnostics.report(
-        {.code = Code::different_structures,
-         .span = span_,
-         .message = fmt::format("`{}` is left open in one material and `{}` in another", textures.front().carrier.name,
-                                texture.carrier.name),
-         .help =
-             "only textures of heights can be blended while their sizes are open; give the other forces their sizes"});
-    return;
-  }
+  if (!can_be_one(textures)) return;
   for (const auto& texture : textures) material_.blended_opens.insert(material_.terms[texture.carrier.size].index);
   const auto* function = surroundings_.declarations.functions.find(function_name);
   const auto height = blended_height(textures);
@@ -198,7 +212,7 @@ std::optional<Value> Blender::blended_height(const std::vector<Texture>& texture
   std::vector<TermId> weights;
   for (const auto& texture : textures) weights.push_back(texture.weight);
   std::optional<TermId> height, whole;
-  for (const auto& [weight, carrier] : textures) {
+  for (const auto& [weight, carrier, component] : textures) {
     const TermId along_x = terms.add({.kind = TermKind::gradient, .a = *carrier.relief, .index = 0, .span = span_});
     const TermId along_y = terms.add({.kind = TermKind::gradient, .a = *carrier.relief, .index = 1, .span = span_});
     const TermId squares = terms.apply(Operation::add, terms.apply(Operation::multiply, along_x, along_x, span_),

@@ -32,6 +32,7 @@ class Blender {
   struct Texture {
     TermId weight;
     Carrier carrier;
+    std::string component;  ///< its material's name
   };
   struct Superposition {
     std::optional<Value> force;
@@ -50,6 +51,7 @@ class Blender {
   using CarriersByForce = std::map<std::pair<TermId, TermId>, std::vector<std::size_t>>;
   void add_leaf(TermId weight, const std::string& name, const Value& leaf, CarriersByForce& by_force,
                 Superposition& sum);
+  bool can_be_one(const std::vector<Texture>& textures);
   void add_textures(Superposition& sum);
   std::optional<Value> blended_height(const std::vector<Texture>& textures);
   /// Takes operations from the budget before they are done; false if it is spent, which has been reported.

@@ -8,6 +8,15 @@
 
 namespace wale {
 
+namespace {
+
+/// "3.25 mm", "0.5".
+std::string with_unit(double value, const std::string& unit) {
+  return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
+}  // namespace
+
 StatementChecker::StatementChecker(CheckedMaterial& material, ExpressionChecker& checker,
                                    const Surroundings& surroundings, std::string prefix)
     : material_(material), checker_(checker), surroundings_(surroundings), prefix_(std::move(prefix)) {
@@ -163,7 +172,8 @@ void StatementChecker::operator()(const ShowStatement& node) {
 
 void StatementChecker::operator()(const ParamStatement& node) {
   const Value value = checker_.check(tree(), node.value, scope_);
-  if (value.failed() || lacks_its_unit(node, value)) return declare_failed(node.name);
+  if (value.failed() || lacks_its_unit(node, value) || disagrees_with_its_range(node, value))
+    return declare_failed(node.name);
   if (value.type != Value::Type::number) {
     report(Code::wrong_type, value.span, fmt::format("a parameter must be a number, not {}", type_words(value.type)),
            "use one `param` for each part");
@@ -175,9 +185,8 @@ void StatementChecker::operator()(const ParamStatement& node) {
                       .description = std::string(node.description.empty() ? node.documentation : node.description)};
   parameter.value = static_cast<float>(*number);
   double low = *number, high = *number;
-  const Span default_span = statement_->value
-                                ? statement_->value->parts.front().tree->span(statement_->value->parts.front().value)
-                                : tree().span(node.value);
+  const Span default_span = place_of_default(node);
+  if (node.range && range_lacks_its_unit(node, *node.range, value.dimension)) return declare_failed(node.name);
   if (node.range) {
     const auto from = checker_.constant(tree(), node.range->low, scope_, value.dimension);
     const auto to = checker_.constant(tree(), node.range->high, scope_, value.dimension);
@@ -189,9 +198,11 @@ void StatementChecker::operator()(const ParamStatement& node) {
     else if (!(*number >= low && *number <= high)) {
       const Span range = {tree().source, tree().span(node.range->low).begin, tree().span(node.range->high).end};
       const auto [unit, size] = written_unit(node, value.dimension);
+      const bool computed = statement_->value && statement_->value->made_at;
       report(Code::value_out_of_range, default_span,
-             statement_->value ? fmt::format("this is outside the range of `{}`", node.name.text)
-                               : fmt::format("the default of `{}` is outside its range", node.name.text),
+             computed ? fmt::format("`{}` is {}, outside its range", node.name.text, with_unit(*number / size, unit))
+             : statement_->value ? fmt::format("this is outside the range of `{}`", node.name.text)
+                                 : fmt::format("the default of `{}` is outside its range", node.name.text),
              Advice(statement_->value ? fmt::format("its range is {}", surroundings_.sources.text(range))
                                       : "widen the range or change the default")
                  .see(range, "the range")
@@ -249,12 +260,19 @@ std::optional<double> StatementChecker::parameter_value(const ParamStatement& no
   return sum;
 }
 
+/// The place of the default: the `between` that computed it, the argument that gave it, or the declaration.
+Span StatementChecker::place_of_default(const ParamStatement& node) const {
+  if (!statement_->value) return tree().span(node.value);
+  const Mixture::Part& first = statement_->value->parts.front();
+  return statement_->value->made_at.value_or(first.tree->span(first.value));
+}
+
 /// Sets the usual range, for sliders: the soft range, or the hard one if the author gives no soft one.
 void StatementChecker::check_soft_range(const ParamStatement& node, const Dimension& dimension, double value,
                                         Parameter& parameter) {
   parameter.soft_low = parameter.low;
   parameter.soft_high = parameter.high;
-  if (!node.soft_range) return;
+  if (!node.soft_range || range_lacks_its_unit(node, *node.soft_range, dimension)) return;
   const auto from = checker_.constant(tree(), node.soft_range->low, scope_, dimension);
   const auto to = checker_.constant(tree(), node.soft_range->high, scope_, dimension);
   if (!from || !to) return;
@@ -265,12 +283,12 @@ void StatementChecker::check_soft_range(const ParamStatement& node, const Dimens
                   *from <= *to ? "widen the range after `in`, or narrow this one" : "swap its ends");
   parameter.soft_low = static_cast<float>(*from);
   parameter.soft_high = static_cast<float>(*to);
-  if (!(value >= *from && value <= *to)) {
-    const Span at = statement_->value
-                        ? statement_->value->parts.front().tree->span(statement_->value->parts.front().value)
-                        : tree().span(node.value);
+  const auto as_float = static_cast<float>(value);
+  const bool allowed = as_float >= parameter.low && as_float <= parameter.high;  // otherwise W0305 has been reported
+  if (allowed && !(value >= *from && value <= *to)) {
     const auto [unit, size] = written_unit(node, dimension);
-    report(Code::beyond_soft_range, at, fmt::format("`{}` is outside its usual range here", node.name.text),
+    report(Code::beyond_soft_range, place_of_default(node),
+           fmt::format("`{}` is {}, outside its usual range", node.name.text, with_unit(value / size, unit)),
            Advice(fmt::format("the usual range is {}", surroundings_.sources.text(span)))
                .see(span, "the usual range")
                .fact("low", *from / size, unit)
@@ -300,6 +318,62 @@ bool StatementChecker::lacks_its_unit(const ParamStatement& node, const Value& v
   diagnostic.found = sides[1];
   surroundings_.diagnostics.report(std::move(diagnostic));
   return true;
+}
+
+/// Whether both ends of the range agree with each other and not with the default. That is one error, at the default.
+bool StatementChecker::disagrees_with_its_range(const ParamStatement& node, const Value& value) {
+  if (!node.range || value.type != Value::Type::number) return false;
+  const Value low = checker_.check(tree(), node.range->low, scope_);
+  if (low.failed() || low.type != Value::Type::number || low.dimension == value.dimension || low.dimension.plain())
+    return false;
+  const Value high = checker_.check(tree(), node.range->high, scope_);
+  if (high.failed() || high.type != Value::Type::number || high.dimension != low.dimension) return false;
+  const auto& names = declarations().names();
+  const auto sides = names.side_by_side(low.dimension, value.dimension);
+  const Span range = {tree().source, tree().span(node.range->low).begin, tree().span(node.range->high).end};
+  Diagnostic diagnostic =
+      Advice(fmt::format("give the default in {}, or the range in {}", customary_unit(declarations(), low.dimension),
+                         customary_unit(declarations(), value.dimension)))
+          .see(range, with_article(names.words(low.dimension)))
+          .fact("expected", names.words(low.dimension))
+          .fact("found", names.words(value.dimension))
+          .about(Code::wrong_dimension, value.span,
+                 fmt::format("the default of `{}` is {}, its range is of {}", node.name.text,
+                             with_article(names.words(value.dimension)), with_article(names.words(low.dimension))));
+  diagnostic.label = names.unit_beside(low.dimension, value.dimension);
+  diagnostic.expected = sides[0];
+  diagnostic.found = sides[1];
+  surroundings_.diagnostics.report(std::move(diagnostic));
+  return true;
+}
+
+/// Whether an end of a range is a bare number where the default has a unit, which is reported. The mend is in the unit
+/// that the author wrote, since `1 .. 5 N/mm` does not mean 1 N/m.
+bool StatementChecker::range_lacks_its_unit(const ParamStatement& node, const Range& range,
+                                            const Dimension& dimension) {
+  if (dimension.plain()) return false;
+  for (const ExprId end : {range.low, range.high}) {
+    ExprId bare = end;
+    while (const auto* unary = std::get_if<Unary>(&tree().expr(bare))) bare = unary->operand;
+    const auto* literal = std::get_if<NumberLiteral>(&tree().expr(bare));
+    if (!literal || literal->suffix.count > 0 || literal->value == 0) continue;
+    const auto& names = declarations().names();
+    const std::string unit = written_unit(node, dimension).first;
+    const Span span = tree().span(end);
+    const auto sides = names.side_by_side(dimension, Dimension{});
+    Diagnostic diagnostic =
+        Advice(fmt::format("a plain number needs its unit: write `{} {}`", surroundings_.sources.text(span), unit))
+            .fix(append_unit(tree(), end, unit, surroundings_.sources))
+            .fact("expected", names.words(dimension))
+            .fact("found", names.words(Dimension{}))
+            .about(Code::wrong_dimension, span,
+                   fmt::format("expected {}, found {}", names.words(dimension), names.words(Dimension{})));
+    diagnostic.expected = sides[0];
+    diagnostic.found = sides[1];
+    surroundings_.diagnostics.report(std::move(diagnostic));
+    return true;
+  }
+  return false;
 }
 
 /// The unit that the author wrote for a parameter, and its factor to SI.

@@ -56,7 +56,10 @@ class StatementChecker {
   std::optional<TermId> force_limit(ExprId expr);
   std::optional<double> parameter_value(const ParamStatement& node, const Value& own_value);
   std::optional<double> mixed(const Mixture& mixture, const Dimension& dimension);
+  Span place_of_default(const ParamStatement& node) const;
   bool lacks_its_unit(const ParamStatement& node, const Value& value);
+  bool disagrees_with_its_range(const ParamStatement& node, const Value& value);
+  bool range_lacks_its_unit(const ParamStatement& node, const Range& range, const Dimension& dimension);
   std::pair<std::string, double> written_unit(const ParamStatement& node, const Dimension& dimension) const;
   void check_soft_range(const ParamStatement& node, const Dimension& dimension, double value, Parameter& parameter);
 

@@ -109,9 +109,11 @@ Diagnostics without_follow_ons(const Diagnostics& diagnostics, const std::vector
   if (!diagnostics.has_errors()) return diagnostics;
   Places errors, unread;
   std::set<std::string> unread_words;
+  std::set<SourceId> lacking;  // files that lack an import, which may declare any name
   for (const Diagnostic& each : diagnostics.all()) {
     if (severity_of(each.code) != Severity::error) continue;
     errors.add(each.span);
+    if (each.code == Code::unknown_import) lacking.insert(each.span.source);
     if (!is_unread(each)) continue;
     unread.add(each.span);
     add_words(each.span, sources, unread_words);
@@ -137,6 +139,8 @@ Diagnostics without_follow_ons(const Diagnostics& diagnostics, const std::vector
     if (each.code != Code::unknown_name && each.code != Code::unknown_unit) return false;
     const std::string name = subject(each);
     if (unread_words.contains(name)) return true;
+    const bool is_misspelt = std::ranges::any_of(each.facts, [](const Fact& fact) { return fact.name == "meant"; });
+    if (lacking.contains(each.span.source) && !is_misspelt) return true;
     const auto [first, last] = failed.equal_range(name);
     return std::any_of(first, last, [&](const auto& declared) {
       // A name that is used above its declaration is unknown even if the declaration is correct.

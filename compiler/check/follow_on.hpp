@@ -11,6 +11,8 @@ namespace wale {
 ///
 /// * an unknown name or unit (W0201, W0203) whose own declaration, above or in another file, has an error, or which
 ///   is in a line that could not be read and may declare it;
+/// * a name or unit that is unknown in a file with an import that is not found (W0212), unless it is a misspelling of a
+///   known one;
 /// * a missing setting of a record (W0207) if part of the record could not be read;
 /// * anything in the compiler's own files if the file that is being checked has an error: the compiler's files are
 ///   correct on their own.

@@ -61,7 +61,8 @@ Run declare_check(CLI::App& verb) {
       ->required();
   offer_library(verb, options->folders);
   offer_sandbox(verb, options->sandbox);
-  offer_json(verb, options->json, "the diagnostics as a JSON array");
+  verb.add_flag("--json", options->json,
+                "the diagnostics as a JSON array, on standard output also if there are errors");
   verb.add_flag("--fix", options->fix, "first writes the mends into the files, where only one meaning is possible");
   verb.footer(
       "Materials are checked as for sandpaper; `wale describe FILE --device NAME` checks them for another device.\n"

@@ -89,10 +89,11 @@ Error no_parameter(const PatchProgram& program, const std::string& name) {
   for (const auto& parameter : program.parameters) known.push_back(parameter.name);
   const auto near = nearest_spelling(name, known);
   return {.code = Code::unknown_setting,
-          .sentence = fmt::format("`{}` has no parameter `{}`", program.material, name),
-          .mend = near            ? fmt::format("did you mean `{}`?", *near)
-                  : known.empty() ? "it has no parameters"
-                                  : fmt::format("its parameters: {}", fmt::join(known, ", ")),
+          .sentence = fmt::format("the material `{}` has no parameter `{}`", program.material, name),
+          .mend = (near            ? fmt::format("did you mean `{}`?", *near)
+                   : known.empty() ? std::string("it has no parameters")
+                                   : fmt::format("its parameters: {}", fmt::join(known, ", "))) +
+                  "; of a file with several materials, `--material` chooses one",
           .place = {.name = "--set", .text = name}};
 }
 

@@ -132,7 +132,12 @@ void offer_settings(CLI::App& verb, std::vector<std::string>& settings) {
                       ->type_name("NAME=VALUE"));
 }
 
-CLI::Option* offer_json(CLI::App& verb, bool& json, const char* about) { return verb.add_flag("--json", json, about); }
+CLI::Option* offer_json(CLI::App& verb, bool& json, const char* about) {
+  return verb.add_flag("--json", json,
+                       std::string(about) +
+                           "; the errors of a failed command are text on standard error "
+                           "(`wale check --json` lists those of a file as JSON)");
+}
 
 CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about) {
   return verb.add_option("-o,--output", out, about)->type_name("FILE");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/modules/library_index.hpp"
 #include "compiler/text/json_text.hpp"
 #include "schema/visible_text.hpp"
 
@@ -36,6 +37,18 @@ std::string unit_documentation(const CheckedModule& module, const Span& declared
     if (const auto* unit = std::get_if<UnitDecl>(&declaration); unit && unit->name.span == declared)
       return std::string(unit->documentation);
   return {};
+}
+
+/// The records that the file exports. Of a file that every file knows there is no tree here, and so none.
+std::vector<DescribedRecord> records_of(const CheckedModule& module, const std::string& file) {
+  std::vector<DescribedRecord> records;
+  if (module.modules.modules.empty()) return records;
+  LibraryIndex index;
+  index.add(file, file, module.modules.modules.back()->tree);
+  for (const ExportedName& each : index.exports())
+    if (each.what != "function" && each.what != "constant" && each.what != "unit" && each.what != "dimension")
+      records.push_back({std::string(each.what), each.name});
+  return records;
 }
 
 /// "woven(place: length, over = 1)", as in its declaration.
@@ -77,6 +90,8 @@ ModuleDescription describe_module(const CheckedModule& module, const SourceSet& 
                                  .documentation = unit_documentation(module, entry->declared)});
   for (const auto& [name, entry] : offered(declarations.dimensions, module))
     description.dimensions.push_back({.name = name, .factors = names.factors(entry->what)});
+  description.known_everywhere = module.modules.modules.empty();
+  description.records = records_of(module, description.file);
   return description;
 }
 
@@ -101,6 +116,9 @@ std::string module_text(const ModuleDescription& description) {
   if (!description.dimensions.empty()) text += "\ndimensions\n";
   for (const auto& dimension : description.dimensions)
     text += fmt::format("  {:<12} {}\n", dimension.name, dimension.factors);
+  if (!description.records.empty()) text += "\nrecords\n";
+  for (const auto& record : description.records) text += fmt::format("  {:<12} {}\n", record.what, record.name);
+  if (description.empty() && !description.known_everywhere) text += "\nexports nothing\n";
   return text;
 }
 
@@ -133,6 +151,8 @@ std::string module_json(const ModuleDescription& description) {
   Json& dimensions = json["dimensions"] = Json::array();
   for (const auto& dimension : description.dimensions)
     dimensions.push_back({{"name", dimension.name}, {"factors", dimension.factors}});
+  Json& records = json["records"] = Json::array();
+  for (const auto& record : description.records) records.push_back({{"what", record.what}, {"name", record.name}});
   return json_lines(json);
 }
 

@@ -40,6 +40,12 @@ struct DescribedDimension {
   std::string factors;  ///< "kg m^2 s^-2"
 };
 
+/// A device, a map, a percept and so on.
+struct DescribedRecord {
+  std::string what;  ///< the word that declares it: "device"
+  std::string name;
+};
+
 /// The exports of a file, each kind in the order written.
 struct ModuleDescription {
   std::string file;
@@ -47,8 +53,12 @@ struct ModuleDescription {
   std::vector<DescribedConstant> constants;
   std::vector<DescribedUnit> units;
   std::vector<DescribedDimension> dimensions;
+  std::vector<DescribedRecord> records;
+  bool known_everywhere = false;  ///< every file knows it; its records are not listed
 
-  bool empty() const { return functions.empty() && constants.empty() && units.empty() && dimensions.empty(); }
+  bool empty() const {
+    return functions.empty() && constants.empty() && units.empty() && dimensions.empty() && records.empty();
+  }
 };
 
 /// Describes the exports of a file; for a file that every file knows, all its declarations. Materials are described by

@@ -27,12 +27,17 @@ struct AskedPercept {
   double level = 0;
   double tolerance = 0;  ///< in both directions
   Span span;
-  std::string by{};        ///< the map that the author chose; empty if none
-  bool essential = false;  ///< a device that cannot render it is refused
+  std::string by{};               ///< the map that the author chose; empty if none
+  std::optional<Span> by_span{};  ///< of that name
+  std::optional<Span> made_at{};  ///< the `between` that computed the level; diagnostics of the level point there
+  bool essential = false;         ///< a device that cannot render it is refused
   /// The blend states no level of its own, so its level is the mean of its components' levels by weight; `level` is
   /// that mean at the default weights.
   bool blended = false;
   std::vector<LevelShare> shares{};  ///< of a blended percept
+
+  /// Where the author asked for the level.
+  Span place() const { return made_at.value_or(span); }
 };
 
 /// One number that is kept from tick to tick; a vector needs two.

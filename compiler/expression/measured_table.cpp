@@ -9,6 +9,7 @@
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/parse/parse.hpp"
 #include "schema/csv.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 
@@ -86,6 +87,14 @@ struct Column {
   Unit unit;
 };
 
+/// The nearest declared unit, in the column's own heading; else how to declare one.
+std::string mend_of_unit(const CsvHeading& heading, const Declarations& declarations) {
+  const std::string unit(heading.unit);
+  if (const auto near = nearest_spelling(unit, declarations.units.spellings()))
+    return fmt::format("did you mean `{} ({})`?", heading.name, *near);
+  return fmt::format("name a unit of schema/units.wale in `{} (…)`", heading.name);
+}
+
 Result<Column> column_called(const CsvRow& headings, const std::string& name, std::size_t otherwise,
                              const Declarations& declarations) {
   Column column{.number = otherwise};
@@ -105,7 +114,7 @@ Result<Column> column_called(const CsvRow& headings, const std::string& name, st
   const auto unit = unit_of(heading.unit, declarations);
   if (!unit)
     return unlike_csv(headings.line, fmt::format("a declared unit for `{}`", heading.name),
-                      fmt::format("`{}`", heading.unit), "write, for example, `x (mm)`");
+                      fmt::format("`{}`", heading.unit), mend_of_unit(heading, declarations));
   column.name = heading.name;
   column.unit = *unit;
   return column;

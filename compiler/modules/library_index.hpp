@@ -64,6 +64,9 @@ class LibraryIndex {
   /// All texts that may mean a material.
   std::vector<std::string> spellings() const;
 
+  /// All exported names but those of materials, in the order written.
+  const std::vector<ExportedName>& exports() const { return exports_; }
+
  private:
   std::vector<IndexedMaterial> materials_;
   std::vector<ExportedName> exports_;

@@ -156,7 +156,9 @@ class ModuleLoader {
           {.code = Code::unknown_import,
            .span = module.span,
            .message = fmt::format("`{}` cannot be imported: {}", module.text, resolved.error().sentence),
-           .help = "dots separate folders: `import fabric.denim` means the file fabric/denim.wale"});
+           .help = "dots separate folders: `import fabric.denim` means the file fabric/denim.wale; if that is in the "
+                   "folder "
+                   "of a library, name it with `--library DIR` or in the environment's `WALE_LIBRARY`"});
       return nullptr;
     }
     ResolvedFile& file = *resolved;

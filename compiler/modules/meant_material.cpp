@@ -44,6 +44,7 @@ void keep_preferred(std::vector<const IndexedMaterial*>& found, const std::vecto
   };
   keep([&](const IndexedMaterial* each) { return std::ranges::find(imported, each->module) != imported.end(); });
   keep([](const IndexedMaterial* each) { return !each->shipped(); });
+  keep([](const IndexedMaterial* each) { return each->origin != Origin::hidden; });
 }
 
 Result<const IndexedMaterial*> meant_material(const LibraryIndex& index, std::string_view text) {

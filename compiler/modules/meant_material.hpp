@@ -12,7 +12,8 @@ namespace wale {
 // The rule by which a name means a material of a library, in a file (`like`, `=`, blends, `between`) and on the command
 // line. First, `LibraryIndex::meant_by` finds candidates: by name; else by title or `called`; else by kind; else by
 // module (`fabric.denim`, `sandpaper.chapter4.Viscous`). Of several candidates, those of `imported` modules take
-// precedence over others, and those of the user's own files over the shipped ones.
+// precedence over others, and those of the user's own files over the shipped ones, and
+// files that an import can find over files that another one of the same module name hides.
 
 /// Keeps only the materials that take precedence over the others.
 void keep_preferred(std::vector<const IndexedMaterial*>& found, const std::vector<std::string_view>& imported);

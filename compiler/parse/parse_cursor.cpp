@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "compiler/diagnostics/fix.hpp"
 #include "compiler/parse/parser.hpp"
@@ -201,6 +202,21 @@ void Parser::fail(std::string message, std::string expected, std::string help, s
   throw Abandon{};
 }
 
+/// Whether a word of the language stands here with what follows it at the beginning of a statement: `active 1 W`,
+/// `material p`. The names of values may be the same words: `2 height`.
+bool Parser::begins_another_statement(const Token& word, const Token& after) const {
+  static constexpr std::string_view before_a_name[] = {"material", "param",    "let",     "height", "force",
+                                                       "state",    "memory",   "next",    "show",   "import",
+                                                       "unit",     "function", "percept", "device", "export"};
+  static constexpr std::string_view before_a_number[] = {"active", "patch"};
+  if (word.kind != TokenKind::name || ends_statement(at_ + 1)) return false;
+  const auto holds = [&](std::span<const std::string_view> words) {
+    return std::ranges::find(words, spelling(word)) != words.end();
+  };
+  return (after.kind == TokenKind::name && holds(before_a_name)) ||
+         (after.kind == TokenKind::number && holds(before_a_number));
+}
+
 /// What to write instead of the token here, which cannot follow a complete value.
 std::string Parser::mend_here() const {
   const Token& next = here();
@@ -214,6 +230,7 @@ std::string Parser::mend_here() const {
     case TokenKind::number:
     case TokenKind::left_parenthesis:
       if (!ends_value(previous.kind)) return {};
+      if (begins_another_statement(next, after)) return fmt::format("put `{}` on a line of its own", spelling(next));
       if (next.kind == TokenKind::left_parenthesis)
         return fmt::format("to multiply, write `{} * (…)`", spelling(previous));
       return fmt::format("to multiply, write `{} * {}{}`", spelling(previous), spelling(next),

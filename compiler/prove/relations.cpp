@@ -234,6 +234,34 @@ bool Relations::is_smooth_step(const Definition& product, const KnownRanges& kno
   return false;
 }
 
+/// w / sum or w / max(sum, least), where w is one of the terms of the sum and none of them is negative: a rounded sum
+/// is not below any of its terms. A term that is not-a-number would let `least` stand for the sum.
+bool Relations::is_share(const Definition& quotient, const KnownRanges& known) const {
+  const auto [weight, divisor, unused] = quotient.operands;
+  if (!(known(divisor).low > 0)) return false;
+  const auto is_whole = [&](ValueNumber sum) {
+    bool found = false;
+    std::vector<ValueNumber> waiting{sum};
+    for (int left = most_pairs; !waiting.empty(); --left) {
+      if (left == 0) return false;
+      const ValueNumber term = waiting.back();
+      waiting.pop_back();
+      const Definition* both = term == weight ? nullptr : made_by(term, Operation::add);
+      if (both == nullptr) {
+        if (!(known(term).low >= 0) || known(term).maybe_nan) return false;
+        found = found || term == weight;
+        continue;
+      }
+      waiting.push_back(both->operands[0]);
+      waiting.push_back(both->operands[1]);
+    }
+    return found;
+  };
+  if (is_whole(divisor)) return true;
+  const Definition* larger = made_by(divisor, Operation::maximum);
+  return larger != nullptr && (is_whole(larger->operands[0]) || is_whole(larger->operands[1]));
+}
+
 std::optional<Interval> Relations::bound(std::size_t number, const KnownRanges& known) const {
   const Definition& made = operands_[number];
   switch (made.operation) {
@@ -241,6 +269,7 @@ std::optional<Interval> Relations::bound(std::size_t number, const KnownRanges& 
       if (known(made.operands[1]).low > 0 && is_length_of(made.operands[1], made.operands[0])) {
         return Interval{-one, one, true};
       }
+      if (is_share(made, known)) return Interval{0, one, true};
       return {};
     case Operation::subtract: {
       const Definition* whole = made_by(made.operands[1], Operation::floor);

@@ -41,8 +41,8 @@ class Relations {
   /// A range for the result of instruction `number` beyond the ranges of its operands, a few roundings wider. A
   /// component over its length, if not zero, is within [-1, 1]; a fraction x - floor(x) within [0, 1]; a remainder x -
   /// p floor(x / p) within [0, p]; the smooth steps t t (3 - 2 t) and t t t (t (6 t - 15) + 10) of a t in [0, 1] within
-  /// [0, 1]; a mixture a + t (b - a) between a and b; the component of a vector in a direction within its length; g
-  /// times a value limited to C / g within C.
+  /// [0, 1]; a term's share in a sum of terms that are not negative within [0, 1]; a mixture a + t (b - a) between a
+  /// and b; the component of a vector in a direction within its length; g times a value limited to C / g within C.
   std::optional<Interval> bound(std::size_t number, const KnownRanges& known) const;
   /// For the `select` instruction `number` with a condition that compares the divisor of one of its choices with a
   /// bound: the range of that choice, 1 (b) or 2 (c), when it is taken.
@@ -68,6 +68,7 @@ class Relations {
   std::vector<ValueNumber> components(ValueNumber length) const;
   bool is_length_of(ValueNumber length, ValueNumber component) const;
   std::optional<Interval> remainder(const Definition& difference, const KnownRanges& known) const;
+  bool is_share(const Definition& quotient, const KnownRanges& known) const;
   bool is_smooth_step(const Definition& product, const KnownRanges& known) const;
   bool is_smoother_step(const Definition& product, const KnownRanges& known) const;
   std::optional<ValueNumber> times(ValueNumber product, ValueNumber factor) const;

@@ -94,7 +94,7 @@ void PerceptSolver::warn_of_range(const Told& told) {
   const double size = told.size;
   constexpr double rounding = 1e-6;  // a reference stimulus exactly at the end of the range is inside it
   if (size > most)
-    report(Code::saturates, asked.span,
+    report(Code::saturates, asked.place(),
            fmt::format("{} {:.3g} needs {:.3g} {}, and `{}` {} {:.3g} {} at most", asked.name, asked.level, size,
                        of_carrier, device_.profile.name, device_.profile.shaker ? "shakes with" : "pushes", most,
                        of_carrier),
@@ -104,7 +104,7 @@ void PerceptSolver::warn_of_range(const Told& told) {
                .fact("most", most, of_carrier));
   if (asked.level < percept.near_threshold || size < map.valid_low * (1 - rounding) ||
       size > map.valid_high * (1 + rounding))
-    report(Code::beyond_validity, asked.span,
+    report(Code::beyond_validity, asked.place(),
            asked.level < percept.near_threshold
                ? fmt::format("expected {} {:.2g} or more, found {:.3g}, which few people can feel", asked.name,
                              percept.near_threshold, asked.level)
@@ -113,7 +113,7 @@ void PerceptSolver::warn_of_range(const Told& told) {
            fmt::format("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
                        law.level_of(map.valid_high), map.valid_low, map.valid_high, of_carrier));
   if (map.recalled())
-    report(Code::unverified_basis, asked.span,
+    report(Code::unverified_basis, asked.place(),
            fmt::format("{} rests on a figure that was recalled and not looked up ({})", asked.name, map.source),
            Advice("take it as a guess until somebody has seen the source").see(map.span, "the map"));
 }

@@ -217,11 +217,11 @@ class Solver {
     const char* unknown = device_->profile.shaker && !told_by_shaking ? ", and no map ties it to shaking" : "";
     lost_[asked.name] = why.empty() ? fmt::format("`{}` has no rule for {}{}", device, asked.name, unknown) : why;
     if (asked.essential)
-      report(Code::percept_unrealised, asked.span,
+      report(Code::percept_unrealised, asked.place(),
              fmt::format("`{}` cannot render {}, which is essential here", device, asked.name),
              "build it for another device, or write the physics: `physical { force = … }`");
     else if (material_.percepts.size() > 1 || device_->profile.shaker)
-      report(Code::lost_percept, asked.span, lost_[asked.name] + ", so it is lost",
+      report(Code::lost_percept, asked.place(), lost_[asked.name] + ", so it is lost",
              "leave it out, write the physics, or mark it `essential` to refuse such a device");
   }
 
@@ -229,10 +229,10 @@ class Solver {
   void lose_all() {
     const auto& asked = material_.percepts.front();
     if (!declarations_.percepts.find(asked.name)->has_reference)
-      return report(Code::untied_map, asked.span,
+      return report(Code::untied_map, asked.place(),
                     fmt::format("expected a percept that has levels, found {}, which can only be compared", asked.name),
                     "leave it out: `wale describe` and `wale compare` report it for finished materials");
-    report(Code::percept_unrealised, asked.span,
+    report(Code::percept_unrealised, asked.place(),
            fmt::format("expected physics for {}, found none, and `{}` has no rule that makes it from a level",
                        asked.name, device_->profile.name),
            "write the physics: `physical { force = … }`");

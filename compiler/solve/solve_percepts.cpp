@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "compiler/declarations/discrimination.hpp"
+#include "compiler/diagnostics/advice.hpp"
 #include "compiler/expression/check_expression.hpp"
 
 namespace wale {
@@ -159,13 +160,13 @@ void PerceptSolver::match(const AskedPercept& asked) {
   };
   if (!percept.has_reference) {
     settle_all();
-    return report(Code::untied_map, asked.span,
+    return report(Code::untied_map, asked.place(),
                   fmt::format("expected a percept that has levels, found {}, which can only be compared", asked.name),
                   Advice("leave it out: `wale describe` and `wale compare` report it for finished materials")
                       .see(percept.span, "declared here"));
   }
   if (mine.empty())
-    return report(Code::percept_unrealised, asked.span,
+    return report(Code::percept_unrealised, asked.place(),
                   fmt::format("expected a force that carries {}, found none", asked.name),
                   fmt::format("{} is carried by the {}; add such a force", asked.name, percept.carrier));
   if (open.size() > 1) {
@@ -215,7 +216,7 @@ void PerceptSolver::report_choice(const Percept& percept, const AskedPercept& as
     Advice advice = fmt::format("choose one after the level, as in `{} {:.2g}, by {}`: {}", asked.name, asked.level,
                                 names.front(), fmt::join(names, ", "));
     for (const Map* map : choice.rivals) advice = std::move(advice).see(map->span, map->source);
-    return report(Code::several_maps, asked.span,
+    return report(Code::several_maps, asked.place(),
                   fmt::format("{} maps for {} fit `{}` equally well: {}", choice.rivals.size(), asked.name,
                               device_.profile.name, sources_of(choice.rivals)),
                   std::move(advice));
@@ -223,7 +224,7 @@ void PerceptSolver::report_choice(const Percept& percept, const AskedPercept& as
   if (!choice.untied.empty()) {
     Advice advice = "remove the level, or measure a map with the percept's reference stimulus as its anchor";
     for (const Map* map : choice.untied) advice = std::move(advice).see(map->span, map->source);
-    return report(Code::untied_map, asked.span,
+    return report(Code::untied_map, asked.place(),
                   fmt::format("expected a map that can set a level of {}, found only maps that compare ({})",
                               asked.name, sources_of(choice.untied)),
                   std::move(advice));
@@ -232,10 +233,15 @@ void PerceptSolver::report_choice(const Percept& percept, const AskedPercept& as
     std::vector<std::string> names;
     for (const Map* map : declarations_.maps())
       if (map->percept == percept.name && !map->name.empty()) names.push_back(map->name);
-    return report(Code::unknown_name, asked.span, fmt::format("no map for {} is called `{}`", asked.name, by),
-                  names.empty() ? "there is none with a name" : fmt::format("there are: {}", fmt::join(names, ", ")));
+    const Span place = asked.by_span.value_or(asked.span);  // without one, the device's rule names the map
+    return report(
+        Code::unknown_name, place, fmt::format("no map for {} is called `{}`", asked.name, by),
+        did_you_mean(place, by, names,
+                     names.empty() ? "there is none with a name" : fmt::format("there are: {}", fmt::join(names, ", ")),
+                     false));
   }
-  report(Code::no_map, asked.span, fmt::format("no map ties {} to a force on `{}`", percept.name, device_.profile.name),
+  report(Code::no_map, asked.place(),
+         fmt::format("no map ties {} to a force on `{}`", percept.name, device_.profile.name),
          "declare one, as in calibration/maps/minsky1995.wale");
 }
 
@@ -254,7 +260,7 @@ void PerceptSolver::check_conflict(const Told& told) {
   if (std::abs(level - asked.level) <= asked.tolerance) return;
   const Discrimination people(declarations_, told.percept->cue, device_.profile.name, told.percept->exerts);
   if (const Threshold* threshold = people.threshold(*size, asked_size); threshold && threshold->recalled())
-    report(Code::unverified_basis, asked.span,
+    report(Code::unverified_basis, asked.place(),
            fmt::format("the threshold for {} rests on a figure that was recalled and not looked up ({})", asked.name,
                        threshold->source),
            Advice("take it as a guess until somebody has seen the source").see(threshold->span, "the threshold"));
@@ -263,7 +269,7 @@ void PerceptSolver::check_conflict(const Told& told) {
   const std::string argument = told.percept->argument();
   diagnostics_.report(
       {.code = Code::percept_conflict,
-       .span = asked.span,
+       .span = asked.place(),
        .message = fmt::format("{} {:.3g} is asked for, but the given {} makes it {:.2g}", asked.name, asked.level,
                               argument, level),
        .expected = fmt::format("{} {} of {:.3g} {}", std::string("aeiou").find(argument[0]) < 5 ? "an" : "a", argument,

@@ -121,7 +121,7 @@ Run declare_find(CLI::App& verb) {
       ->type_name("KIND");
   offer_library(verb, options->folders, "a folder whose materials are listed too, as in my/materials; may be repeated");
   offer_json(verb, options->json, "an array with all facts about each material");
-  verb.footer("for example: wale find ribbed;  wale find --kind fabric soft");
+  verb.footer("for example: wale find ribbed;  wale find --kind fabric cotton");
   return [options] { return find(*options); };
 }
 

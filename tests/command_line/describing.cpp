@@ -44,6 +44,15 @@ function inner(a) = a
 export function twice(a) = inner(2 * a)
 )";
 
+// The share of a component is its weight over the sum of all, which is at most 1, also if all weights are nearly 0.
+TEST(Describe, ABlendIsNotSaidToAskForMoreThanItsComponents) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("mix.wale", "wale 1\nmaterial mix = 70 % corduroy + 0.3 denim\n");
+  const Outcome outcome = wale({"describe", file});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_FALSE(contains(outcome.out, "limited by the compiler")) << outcome.out;
+}
+
 TEST(Describe, ProvesABoundAndGrades) {
   const TemporaryFolder folder;
   const auto of = [&](const std::string& physical) {
@@ -154,6 +163,19 @@ TEST(Describe, ListsTheExportsOfAModule) {
   EXPECT_TRUE(contains(text, "A bump of a height of 1.")) << text;
   EXPECT_FALSE(contains(text, "inner")) << text;
   EXPECT_FALSE(contains(text, "hidden =")) << text;
+}
+
+TEST(Describe, ListsExportedRecords) {
+  const TemporaryFolder folder;
+  const std::string levels =
+      folder.write("levels.wale", "wale 1\nexport levels roughness { mild 0.31 }\nlevels hardness { mild 0.3 }\n");
+  const auto described = wale({"describe", levels, "--json"}).json();
+  EXPECT_EQ(described.at("records"), (nlohmann::json{{{"what", "levels"}, {"name", "roughness"}}}));
+  const std::string text = wale({"describe", "--exports", levels}).out;
+  EXPECT_TRUE(contains(text, "levels       roughness\n")) << text;
+  EXPECT_FALSE(contains(text, "hardness")) << text;
+  const std::string nothing = folder.write("nothing.wale", "wale 1\nlet a = 1\n");
+  EXPECT_TRUE(contains(wale({"describe", "--exports", nothing}).out, "exports nothing"));
 }
 
 TEST(Describe, ReadsTheFilesOfTheLanguageAsModules) {

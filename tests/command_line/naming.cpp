@@ -50,6 +50,26 @@ TEST(Names, InAGivenLibraryComeBeforeShippedOnes) {
   EXPECT_EQ(wale({"describe", "denim"}).err, "") << "there is one alone";
 }
 
+// Two folders with the same module: an import finds the file of the first, and so does a name, wherever it stands.
+TEST(Names, MeanTheSameInAFileAndOnTheCommandLine) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "first/cloth");
+  fs::create_directories(folder / "second/cloth");
+  folder.write("first/cloth/tweed.wale", own("tweed"));
+  folder.write("second/cloth/tweed.wale", "wale 1\nmaterial tweed { perceptual { roughness 0.7 } }\n");
+  const std::string liking = folder.write("liking.wale", "wale 1\nmaterial mine { representative { like tweed } }\n");
+  const auto level = [&](const std::string& name, const char* first, const char* second) {
+    const Outcome outcome =
+        wale({"describe", name, "--library", folder / first, "--library", folder / second, "--json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.json().at("percepts").at("roughness").at("level").get<double>();
+  };
+  for (const std::string& name : {std::string("tweed"), std::string("cloth.tweed"), liking}) {
+    EXPECT_NEAR(level(name, "first", "second"), 0.3, 1e-6) << name;
+    EXPECT_NEAR(level(name, "second", "first"), 0.7, 1e-6) << name;
+  }
+}
+
 TEST(Names, OfSeveralMaterialsAreListed) {
   const TemporaryFolder folder;
   folder.write("a.wale", own("one", "called \"twin\""));

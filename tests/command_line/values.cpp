@@ -25,6 +25,19 @@ const std::vector<ValueOption> options{
     {{"describe", corduroy}, "--set"},
 };
 
+TEST(Values, ASettingThatCannotBeSaysWhichMaterialWasTaken) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("two.wale", "wale 1\nmaterial a { perceptual { roughness 0.5 } }\nmaterial b = corduroy\n");
+  const Outcome of_first = wale({"preview", file, "-o", folder / "a.png", "--set", "wale=2.2mm"});
+  EXPECT_EQ(of_first.status, 2);
+  for (const char* part : {"`a` has no parameter `wale`", "`--material`"})
+    EXPECT_TRUE(contains(of_first.err, part)) << part << of_first.err;
+  const Outcome named = wale({"describe", corduroy, "--set", "roughness=smooth"});
+  EXPECT_EQ(named.status, 2);
+  EXPECT_TRUE(contains(named.err, "names of levels work in a file only")) << named.err;
+}
+
 TEST(Values, InvalidValuesAreRefusedWithTheirTextAndAnExample) {
   for (const ValueOption& each : options)
     for (const std::string typed : {"", "5x", "-1", "nan", "inf", "1e999", " ", "0x10", "١"}) {

@@ -126,6 +126,8 @@ TEST(Mends, SayWhatToWriteInstead) {
   } cases[] = {
       {"let a = 2 sin(x)", "to multiply, write `2 * sin(…)`"},
       {"let a = k hand", "to multiply, write `k * hand`"},
+      {"let a = k height", "to multiply, write `k * height`"},
+      {"force = steady() active 1 W", "put `active` on a line of its own"},
       {"let a = 2 (k + 1)", "to multiply, write `2 * (…)`"},
       {"let a = 2,5 * k", "write decimals with a point: `2.5`"},
       {"let a = f(x, p: 2,5 mm)", "write decimals with a point: `2.5`"},
