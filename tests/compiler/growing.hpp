@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 // Texts that grow, one construct of the language at a time or one inside another, to find those for which the compiler
@@ -69,23 +70,23 @@ inline Part chain_of_functions(const std::string& p, int n, const std::string& i
           "", fmt::format("{}{}({})", p, n, inner)};
 }
 
+inline Expressions lets(const char* name, const char* step) {
+  return {name,
+          [step](const std::string& p, int n, const std::string& inner) { return chain_of_lets(p, n, inner, step); }};
+}
+inline Expressions functions(const char* name, const char* step) {
+  return {name, [step](const std::string& p, int n, const std::string& inner) {
+            return chain_of_functions(p, n, inner, step);
+          }};
+}
+inline Expressions nested(const char* name, const char* before, const char* after) {
+  return {name, [before, after](const std::string&, int n, const std::string& inner) {
+            const auto part = [](const char* text) { return [text](int) { return std::string(text); }; };
+            return Part{"", "", repeated(n, part(before)) + inner + repeated(n, part(after))};
+          }};
+}
+
 inline std::vector<Expressions> expressions() {
-  const auto lets = [](const char* name, const char* step) {
-    return Expressions{name, [step](const std::string& p, int n, const std::string& inner) {
-                         return chain_of_lets(p, n, inner, step);
-                       }};
-  };
-  const auto functions = [](const char* name, const char* step) {
-    return Expressions{name, [step](const std::string& p, int n, const std::string& inner) {
-                         return chain_of_functions(p, n, inner, step);
-                       }};
-  };
-  const auto nested = [](const char* name, const char* before, const char* after) {
-    return Expressions{name, [before, after](const std::string&, int n, const std::string& inner) {
-                         const auto part = [](const char* text) { return [text](int) { return std::string(text); }; };
-                         return Part{"", "", repeated(n, part(before)) + inner + repeated(n, part(after))};
-                       }};
-  };
   return {
       lets("sums of a let with itself", "{0} + {0}"),
       lets("products of a let", "{0} * ({0} + 1)"),
@@ -211,40 +212,22 @@ inline std::vector<Materials> materials() {
   };
 }
 
-/// Files whose construct is no expression and no material, or that are wrong.
-inline std::vector<Texts> texts() {
-  const auto lines = [](const char* name, const char* line) {
-    return Texts{name, [line](int n) {
-                   return "wale 1\n" + repeated(n, [&](int i) { return fmt::format(fmt::runtime(line), i, i + 1); });
-                 }};
-  };
-  const auto in_material = [](const char* name, const char* statement, const char* end) {
-    return Texts{name, [statement, end](int n) {
-                   return "wale 1\nmaterial m {\nphysical {\n" +
-                          repeated(n, [&](int i) { return fmt::format(fmt::runtime(statement), i, i + 1); }) + end +
-                          "\n}\n}\n";
-                 }};
-  };
+inline Texts lines(const char* name, const char* line) {
+  return {name, [line](int n) {
+            return "wale 1\n" + repeated(n, [&](int i) { return fmt::format(fmt::runtime(line), i, i + 1); });
+          }};
+}
+inline Texts in_material(const char* name, const char* statement, const char* end) {
+  return {name, [statement, end](int n) {
+            return "wale 1\nmaterial m {\nphysical {\n" +
+                   repeated(n, [&](int i) { return fmt::format(fmt::runtime(statement), i, i + 1); }) + end +
+                   "\n}\n}\n";
+          }};
+}
+
+/// Laws of maps that grow.
+inline std::vector<Texts> laws() {
   return {
-      lines("units", "unit u{1} = 2 mm\n"),
-      lines("dimensions", "dimension d{1} = length * length\n"),
-      lines("functions", "function f{1}(a) = a * f{0}(1)\n"),
-      lines("comments", "/* {0} */ // {1}\n/// of nothing\n"),
-      lines("unknown names", "let a{0} = nothing{0}\n"),
-      lines("unknown functions", "let a{0} = nothing{0}(1)\n"),
-      lines("unknown units", "let a{0} = 1 nothing{0}\n"),
-      lines("names declared twice", "let a = 1\n"),
-      lines("wrong dimensions", "let a{0} = 1 N + 1 m\n"),
-      lines("unreadable lines", "let a{0} = = 1\n"),
-      lines("percepts",
-            "percept p{0} {{ words \"w{0}\"; antonym q{0} \"v{0}\"; one lateral amplitude 1 N on sandpaper; zero "
-            "nothing; "
-            "extractor lateral_force, period 1 mm .. 9 mm; cue amplitude; near_threshold 0.1 }}\n"),
-      lines("maps",
-            "map roughness from amplitude {{ name n{0}; law log10(magnitude) = 0.7 * log10(amplitude / 1 pu); valid "
-            "amplitude 9 pu .. 194 pu; scatter 0.1; observers 9; evidence slope measured, anchor measured, handle "
-            "measured; on sandpaper; source \"s\" }}\n"),
-      lines("levels", "levels roughness {{ l{0} 0.1; r{0} 0.9 }}\n"),
       {"a law of functions",
        [](int n) {
          return chain_of_functions("p", n, "", "{0}(t) + {0}(t)").declarations.insert(0, "wale 1\n") +
@@ -268,45 +251,75 @@ inline std::vector<Texts> texts() {
                     "material m {{ perceptual {{ r 0.5 }} physical {{ force = lateral(sin(x / 1 mm)) }} }}\n",
                     n);
        }},
-      {"a sum of forces with itself",
-       [](int n) {
-         return "wale 1\nmaterial m {\nphysical {\nlet f0 = viscous(1 N s/m) + spring(1 N/m)\n" +
-                repeated(n, [](int i) { return fmt::format("let f{} = f{} + f{}\n", i + 1, i, i); }) +
-                fmt::format("force = f{}\n}}\n}}\n", n);
-       }},
-      {"a blend of a sum of forces with itself",
-       [](int n) {
-         return "wale 1\nmaterial m {\nphysical {\nlet f0 = viscous(1 N s/m) + spring(1 N/m)\n" +
-                repeated(n, [](int i) { return fmt::format("let f{} = f{} + f{}\n", i + 1, i, i); }) +
-                fmt::format("force = f{}\n}}\n}}\nmaterial b = 0.5 m + 0.5 m\n", n);
-       }},
-      {"percepts asked for",
-       [](int n) {
-         return "wale 1\nmaterial m {\nperceptual {\n" +
-                repeated(n, [](int) { return std::string("roughness 0.5\n"); }) + "}\n}\n";
-       }},
-      in_material("layers of force", "force f{0} = viscous(1 N s/m)\n", ""),
-      in_material("open textures", "force f{0} = lateral(sin(x / {1} mm))\n", ""),
-      in_material("fixed textures", "force f{0} = lateral(sin(x / {1} mm), amplitude: 1 N)\n", ""),
-      in_material("heights", "height h{0} = sin(x / {1} mm)\n", "force = vector(1 N, 0 N)"),
-      in_material("memories", "memory w{0} = 0 in 0 .. 1, cell 1 mm\n", "force = vector(1 N, 0 N)"),
-      in_material("marks", "show circle(vector({0} mm, 0 mm), 1 mm)\n", "force = vector(1 N, 0 N)"),
-      in_material("unused names", "let a{0} = {1}\n", "force = vector(1 N, 0 N)"),
-      in_material("unknown names of a material", "let a{0} = b{0}\n", "force = vector(1 N, 0 N)"),
-      in_material("long lines", "let a{0} = {1} * x / 1 mm;", "\nforce = vector(1 N, 0 N)"),
-      in_material("errors in a long line", "let a{0} = {1} N + 1 mm;", "\nforce = vector(1 N, 0 N)"),
-      {"a long name",
-       [](int n) {
-         const std::string name(static_cast<std::size_t>(16 * n), 'a');
-         return "wale 1\nlet " + name + "a = 1\nlet b = " + name + "\nlet c = " + name + "c\n";
-       }},
-      {"a long text",
-       [](int n) {
-         return "wale 1\nmaterial m { representative { title \"" + std::string(static_cast<std::size_t>(16 * n), 'a') +
-                "\" } physical { force = vector(1 N, 0 N) } }\n";
-       }},
-      {"blocks", [](int n) { return "wale 1\n" + repeated(n, [](int) { return std::string("material m {"); }); }},
   };
+}
+
+/// Files whose construct is no expression and no material, or that are wrong.
+inline std::vector<Texts> texts() {
+  std::vector<Texts> all = laws();
+  for (Texts& each : std::vector<Texts>{
+           lines("units", "unit u{1} = 2 mm\n"),
+           lines("dimensions", "dimension d{1} = length * length\n"),
+           lines("functions", "function f{1}(a) = a * f{0}(1)\n"),
+           lines("comments", "/* {0} */ // {1}\n/// of nothing\n"),
+           lines("unknown names", "let a{0} = nothing{0}\n"),
+           lines("unknown functions", "let a{0} = nothing{0}(1)\n"),
+           lines("unknown units", "let a{0} = 1 nothing{0}\n"),
+           lines("names declared twice", "let a = 1\n"),
+           lines("wrong dimensions", "let a{0} = 1 N + 1 m\n"),
+           lines("unreadable lines", "let a{0} = = 1\n"),
+           lines("percepts",
+                 "percept p{0} {{ words \"w{0}\"; antonym q{0} \"v{0}\"; one lateral amplitude 1 N on sandpaper; zero "
+                 "nothing; "
+                 "extractor lateral_force, period 1 mm .. 9 mm; cue amplitude; near_threshold 0.1 }}\n"),
+           lines(
+               "maps",
+               "map roughness from amplitude {{ name n{0}; law log10(magnitude) = 0.7 * log10(amplitude / 1 pu); valid "
+               "amplitude 9 pu .. 194 pu; scatter 0.1; observers 9; evidence slope measured, anchor measured, handle "
+               "measured; on sandpaper; source \"s\" }}\n"),
+           lines("levels", "levels roughness {{ l{0} 0.1; r{0} 0.9 }}\n"),
+           {"a sum of forces with itself",
+            [](int n) {
+              return "wale 1\nmaterial m {\nphysical {\nlet f0 = viscous(1 N s/m) + spring(1 N/m)\n" +
+                     repeated(n, [](int i) { return fmt::format("let f{} = f{} + f{}\n", i + 1, i, i); }) +
+                     fmt::format("force = f{}\n}}\n}}\n", n);
+            }},
+           {"a blend of a sum of forces with itself",
+            [](int n) {
+              return "wale 1\nmaterial m {\nphysical {\nlet f0 = viscous(1 N s/m) + spring(1 N/m)\n" +
+                     repeated(n, [](int i) { return fmt::format("let f{} = f{} + f{}\n", i + 1, i, i); }) +
+                     fmt::format("force = f{}\n}}\n}}\nmaterial b = 0.5 m + 0.5 m\n", n);
+            }},
+           {"percepts asked for",
+            [](int n) {
+              return "wale 1\nmaterial m {\nperceptual {\n" +
+                     repeated(n, [](int) { return std::string("roughness 0.5\n"); }) + "}\n}\n";
+            }},
+           in_material("layers of force", "force f{0} = viscous(1 N s/m)\n", ""),
+           in_material("open textures", "force f{0} = lateral(sin(x / {1} mm))\n", ""),
+           in_material("fixed textures", "force f{0} = lateral(sin(x / {1} mm), amplitude: 1 N)\n", ""),
+           in_material("heights", "height h{0} = sin(x / {1} mm)\n", "force = vector(1 N, 0 N)"),
+           in_material("memories", "memory w{0} = 0 in 0 .. 1, cell 1 mm\n", "force = vector(1 N, 0 N)"),
+           in_material("marks", "show circle(vector({0} mm, 0 mm), 1 mm)\n", "force = vector(1 N, 0 N)"),
+           in_material("unused names", "let a{0} = {1}\n", "force = vector(1 N, 0 N)"),
+           in_material("unknown names of a material", "let a{0} = b{0}\n", "force = vector(1 N, 0 N)"),
+           in_material("long lines", "let a{0} = {1} * x / 1 mm;", "\nforce = vector(1 N, 0 N)"),
+           in_material("errors in a long line", "let a{0} = {1} N + 1 mm;", "\nforce = vector(1 N, 0 N)"),
+           {"a long name",
+            [](int n) {
+              const std::string name(static_cast<std::size_t>(16 * n), 'a');
+              return "wale 1\nlet " + name + "a = 1\nlet b = " + name + "\nlet c = " + name + "c\n";
+            }},
+           {"a long text",
+            [](int n) {
+              return "wale 1\nmaterial m { representative { title \"" +
+                     std::string(static_cast<std::size_t>(16 * n), 'a') +
+                     "\" } physical { force = vector(1 N, 0 N) } }\n";
+            }},
+           {"blocks", [](int n) { return "wale 1\n" + repeated(n, [](int) { return std::string("material m {"); }); }},
+       })
+    all.push_back(std::move(each));
+  return all;
 }
 
 }  // namespace wale::growing

@@ -273,10 +273,6 @@ class Evaluator {
       return scalar(i);
     };
     const auto dimension = [&](std::size_t i) { return arguments.at(i).dimension; };
-    const auto dot = [&](const Quantity& a, const Quantity& b) {
-      require(a.type == Quantity::Type::vector && b.type == Quantity::Type::vector, "a vector is due");
-      return add(multiply(part(a, 0), part(b, 0)), multiply(part(a, 1), part(b, 1)));
-    };
     const auto alike = [&] {
       for (const auto& argument : arguments) require(argument.dimension == arguments[0].dimension, "unlike arguments");
     };
@@ -301,19 +297,6 @@ class Evaluator {
       const Quantity rise =
           parts(arguments.at(1), arguments.at(0), [](Component p, Component q) { return add(p, negated(q)); });
       return parts(arguments[0], product(rise, of(plain(2)), false), add);
-    }
-    if (name == "rotate") {
-      require(arguments.at(0).type == Quantity::Type::vector, "a vector is due");
-      const Component cosine = smooth(std::cos(plain(1).value), plain(1), 1),
-                      sine = smooth(std::sin(plain(1).value), plain(1), 1);
-      const Component vx = part(arguments[0], 0), vy = part(arguments[0], 1);
-      const Component x = add(multiply(vx, cosine), negated(multiply(vy, sine)));
-      const Component y = add(multiply(vx, sine), multiply(vy, cosine));
-      return {Quantity::Type::vector, {x.value, y.value}, {x.error, y.error}, dimension(0)};
-    }
-    if (name == "normalise") {
-      const Component size = square_root(dot(arguments.at(0), arguments.at(0)));
-      return product(arguments[0], of(size, dimension(0)), true);
     }
     if (name == "abs") return of({std::abs(scalar(0).value), scalar(0).error}, dimension(0));
     if (name == "floor") return of(floor_of(plain(0)));
@@ -342,10 +325,37 @@ class Evaluator {
       const Component whole = floor_of(divide(scalar(0), scalar(1)));
       return of(add(scalar(0), negated(multiply(scalar(1), whole))), dimension(0));
     }
+    return of_vectors(name, arguments);
+  }
+
+  static Component dot(const Quantity& a, const Quantity& b) {
+    require(a.type == Quantity::Type::vector && b.type == Quantity::Type::vector, "a vector is due");
+    return add(multiply(part(a, 0), part(b, 0)), multiply(part(a, 1), part(b, 1)));
+  }
+
+  /// Those of `built_in` that take or give vectors.
+  Quantity of_vectors(const std::string& name, const std::vector<Quantity>& arguments) {
+    const auto dimension = [&](std::size_t i) { return arguments.at(i).dimension; };
+    if (name == "rotate") {
+      require(arguments.at(0).type == Quantity::Type::vector, "a vector is due");
+      require(arguments.at(1).type == Quantity::Type::number && dimension(1) == Dimension{}, "an angle is due");
+      const Component angle = part(arguments[1], 0);
+      const Component cosine = smooth(std::cos(angle.value), angle, 1), sine = smooth(std::sin(angle.value), angle, 1);
+      const Component vx = part(arguments[0], 0), vy = part(arguments[0], 1);
+      const Component x = add(multiply(vx, cosine), negated(multiply(vy, sine)));
+      const Component y = add(multiply(vx, sine), multiply(vy, cosine));
+      return {Quantity::Type::vector, {x.value, y.value}, {x.error, y.error}, dimension(0)};
+    }
+    if (name == "normalise") {
+      const Component size = square_root(dot(arguments.at(0), arguments.at(0)));
+      return product(arguments[0], of(size, dimension(0)), true);
+    }
     if (name == "vector") {
-      alike();
-      return {
-          Quantity::Type::vector, {scalar(0).value, scalar(1).value}, {scalar(0).error, scalar(1).error}, dimension(0)};
+      require(arguments.at(0).type == Quantity::Type::number && arguments.at(1).type == Quantity::Type::number &&
+                  dimension(0) == dimension(1),
+              "two alike numbers are due");
+      const Component vx = part(arguments[0], 0), vy = part(arguments[1], 0);
+      return {Quantity::Type::vector, {vx.value, vy.value}, {vx.error, vy.error}, dimension(0)};
     }
     if (name == "dot") return of(dot(arguments.at(0), arguments.at(1)), sum(dimension(0), dimension(1)));
     if (name == "length") return of(square_root(dot(arguments.at(0), arguments.at(0))), dimension(0));
