@@ -54,6 +54,24 @@ TEST(ForceBounds, OfAGratingIsTheLargestAmplitude) {
   EXPECT_EQ(bound.found.parameters, std::vector<float>{2.5f});
 }
 
+// 3 N a / max(a + b, 1e-6): a share of a sum is 1 at most if none of its terms is negative; otherwise the sum may
+// vanish beside its term, and the device's limit is all that is known.
+TEST(ForceBounds, OfAShareIsTheWhole) {
+  const auto share_beside = [](float least_other) {
+    const Parameter a{"a", "", 1, 0.5f, 0, 1, 0, 1, ""}, b{"b", "", 1, 0.5f, least_other, 1, least_other, 1, ""};
+    return force_bound(loaded(pushing({1e-6f, 3.0f}, {a, b}, [](unsigned t) {
+      return std::vector{instruction(add, t, 36, 37), instruction(maximum, t, t, 34), instruction(divide, t, 36, t),
+                         instruction(multiply, t, t, 35)};
+    })));
+  };
+  const ForceBound of_both = share_beside(0);
+  EXPECT_NEAR(of_both.newton, 3, 1e-5);
+  EXPECT_NEAR(of_both.found.newton, 3, 1e-6) << "b may be 0";
+  const ForceBound of_a_difference = share_beside(-1);
+  EXPECT_GE(of_a_difference.newton, of_a_difference.found.newton);
+  EXPECT_GT(of_a_difference.newton, 9) << "1 / max(1 - 1, 1e-6)";
+}
+
 // (x - 0.1)(x + 0.1) is -0.01 at least and 0.2286^2 - 0.01 at most.
 TEST(ForceBounds, SplittingTightensTheBound) {
   const Program program = loaded(pushing({0.1f, 100.0f}, {}, [](unsigned t) {
