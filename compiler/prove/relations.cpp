@@ -237,7 +237,7 @@ bool Relations::is_smooth_step(const Definition& product, const KnownRanges& kno
 /// w / sum or w / max(sum, least), where w is one of the terms of the sum and none of them is negative: a rounded sum
 /// is not below any of its terms. A term that is not-a-number would let `least` stand for the sum.
 bool Relations::is_share(const Definition& quotient, const KnownRanges& known) const {
-  const auto [weight, divisor, unused] = quotient.operands;
+  const ValueNumber weight = quotient.operands[0], divisor = quotient.operands[1];
   if (!(known(divisor).low > 0)) return false;
   const auto is_whole = [&](ValueNumber sum) {
     bool found = false;
