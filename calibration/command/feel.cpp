@@ -88,7 +88,8 @@ Result<> are_exported(const FeelOptions& options, const std::vector<DeclaredDevi
   constexpr std::string_view prefix = "simulated:";
   const std::string asked = options.device.starts_with(prefix) ? options.device.substr(prefix.size()) : options.device;
   for (const auto& [option, name] : {std::pair{"--device", asked}, {"--built-for", options.built_for}}) {
-    if (std::ranges::any_of(known, [&](const DeclaredDevice& each) { return each.profile.name == name; })) continue;
+    const auto is_named = [&name = name](const DeclaredDevice& each) { return each.profile.name == name; };
+    if (std::ranges::any_of(known, is_named)) continue;
     if (auto hidden = private_device(name, files, option)) return *std::move(hidden);
   }
   return {};
