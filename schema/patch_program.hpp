@@ -174,6 +174,20 @@ enum class Extractor : std::uint8_t {
   acceleration = 11,   ///< m/s^2: amplitude of a pad's vibration under a moving hand
 };
 
+/// How uncertain a psychophysical law is: what the intervals of its levels are made of. In log10 of magnitude; 0: not
+/// known.
+struct LawUncertainty {
+  float scatter = 0;            ///< standard deviation of a group's means about the law
+  float slope_error = 0;        ///< standard error of the law's exponent, by that scatter
+  float spread = 0;             ///< standard deviation of the observers' own exponents
+  float noise = 0;              ///< standard deviation of one person's judgements about that person's own law
+  std::uint16_t observers = 0;  ///< whose means these were
+  std::uint16_t stimuli = 0;    ///< to whose means the law was fitted
+  bool scatter_assumed = false, spread_assumed = false, noise_assumed = false;
+
+  friend bool operator==(const LawUncertainty&, const LawUncertainty&) = default;
+};
+
 /// One percept of the program: the level asked for, the map that realises it, and how to read it back.
 ///
 /// `prediction` is pure code that computes magnitude and level from the carrier's size, which is the `probe` input.
@@ -187,7 +201,7 @@ struct PerceptRecord {
   std::vector<Instruction> prediction;
   RegisterNumber magnitude = 0, level = 0;
   float valid_low = 0, valid_high = 0;  ///< of the carrier's size
-  float scatter = 0;                    ///< standard deviation of log10 magnitude
+  LawUncertainty uncertainty;           ///< of the map's law
   Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
   std::string map, device, source;  ///< the map's name, the device it was measured on, the citation
 
@@ -196,8 +210,6 @@ struct PerceptRecord {
   float period_low = 0, period_high = 0;  ///< m: the band that the extractor reads; 0, 0 for any
   float one = 0;                          ///< the carrier's size at level 1
   float near_threshold = 0;               ///< below this level it is near or below the threshold of perception
-  float spread = 0;                       ///< standard deviation of the observers' own exponents; 0: not known
-  std::uint16_t observers = 0;            ///< 0: not known
   /// The smallest difference of the carrier's size that people notice, at d' = 1: this share of the size, and at least
   /// `floor` (in `unit`). 0: not known.
   float weber = 0, floor = 0;

@@ -177,7 +177,7 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     percept.level = in.u16();
     percept.valid_low = in.finite_f32("a percept's valid range");
     percept.valid_high = in.finite_f32("a percept's valid range");
-    percept.scatter = in.finite_f32("a percept's scatter");
+    percept.uncertainty.scatter = in.finite_f32("a percept's scatter");
     percept.slope = read_evidence(in, "a slope");
     percept.anchor = read_evidence(in, "an anchor");
     percept.handle = read_evidence(in, "a handle");
@@ -191,10 +191,10 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     }
     percept.extractor = static_cast<Extractor>(extractor);
     for (float* figure : {&percept.period_low, &percept.period_high, &percept.one, &percept.near_threshold,
-                          &percept.spread, &percept.weber, &percept.floor}) {
+                          &percept.uncertainty.spread, &percept.weber, &percept.floor}) {
       *figure = in.finite_f32("a percept's figure");
     }
-    percept.observers = in.u16();
+    percept.uncertainty.observers = in.u16();
     percept.weber_evidence = read_evidence(in, "a threshold");
     percept.weber_source = in.text("a threshold's source");
     percept.realisation = in.text("a realisation");

@@ -132,7 +132,7 @@ void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
     out.u16(percept.level);
     out.f32(percept.valid_low);
     out.f32(percept.valid_high);
-    out.f32(percept.scatter);
+    out.f32(percept.uncertainty.scatter);
     out.u8(static_cast<std::uint8_t>(percept.slope));
     out.u8(static_cast<std::uint8_t>(percept.anchor));
     out.u8(static_cast<std::uint8_t>(percept.handle));
@@ -141,10 +141,10 @@ void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
     out.text(percept.source);
     out.text(percept.unit);
     out.u8(static_cast<std::uint8_t>(percept.extractor));
-    for (const float figure : {percept.period_low, percept.period_high, percept.one, percept.near_threshold,
-                               percept.spread, percept.weber, percept.floor})
+    for (const float figure :
+         {percept.period_low, percept.period_high, percept.one, percept.near_threshold, percept.uncertainty.spread, percept.weber, percept.floor})
       out.f32(figure);
-    out.u16(percept.observers);
+    out.u16(percept.uncertainty.observers);
     out.u8(static_cast<std::uint8_t>(percept.weber_evidence));
     out.text(percept.weber_source);
     out.text(percept.realisation);

@@ -98,10 +98,7 @@ struct Map {
   double valid_low = 0, valid_high = 0;  ///< range of the quantity, SI
   bool valid_assumed = false;            ///< that range is assumed, not published
   std::vector<Condition> conditions;     ///< other conditions of the measurement: "period", 0.7 mm .. 10 mm
-  double scatter = 0;                    ///< standard deviation of log10 magnitude around that of the average observer
-  bool scatter_assumed = false;          ///< the scatter is assumed, not published
-  double spread = 0;                     ///< standard deviation of the observers' exponents; 0 if unknown
-  int observers = 0;                     ///< 0: not known
+  LawUncertainty uncertainty;
   Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
   bool tied = true;  ///< tied to the percept's reference stimulus; otherwise it can order stimuli but not set levels
   std::string device;

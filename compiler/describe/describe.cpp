@@ -47,9 +47,10 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   const Prediction prediction = predict(bank, index, static_cast<float>(percept.amplitude));
   percept.level = prediction.level;
   percept.magnitude = prediction.magnitude;
-  tell_intervals(percept, record.scatter, record.spread, record.one > 0 ? percept.amplitude / record.one : 0,
-                 record.near_threshold);
-  percept.observers = record.observers;
+  percept.uncertainty = record.uncertainty;
+  percept.intervals =
+      level_intervals(record.uncertainty, percept.level, record.one > 0 ? percept.amplitude / record.one : 0);
+  percept.near_threshold = percept.level < record.near_threshold;
   percept.blended = record.blended;
   if (record.parameter) percept.asked = bank.registers()[program.first_parameter() + *record.parameter];
   constexpr float rounding = 1e-5f;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiler/describe/fates_at.hpp"
+#include "compiler/describe/level_intervals.hpp"
 #include "compiler/read/relief.hpp"
 #include "compiler/grade/grade.hpp"
 #include "compiler/measure/measure.hpp"
@@ -25,12 +26,8 @@ struct DescribedPercept {
   std::string unit;             ///< of the carrier's size, SI: "N", "N s/m"
   std::string realisation;      ///< the device's own force for it, as written; empty if the author wrote the force
   double level = 0, magnitude = 0;
-  /// 95 % of the means of such groups of people lie between these levels, by the map's scatter
-  double low = 0, high = 0;
-  /// The same for single people, whose exponents differ more than the means do; equal to the above if this spread is
-  /// not published.
-  double individual_low = 0, individual_high = 0;
-  int observers = 0;            ///< people behind the map; 0 if not published
+  LawUncertainty uncertainty;   ///< of the map
+  LevelIntervals intervals;     ///< of the level, by that uncertainty
   bool near_threshold = false;  ///< near or below the threshold of feeling
   bool blended = false;         ///< a blend asks for it: mixed from the levels of its components
   bool extracted = false;       ///< read from the program's force; the author did not ask for it
@@ -48,6 +45,8 @@ struct DescribedTexture {
   /// what its strongest wave counts as, by its period: "roughness", "bumpiness"; empty without one, and if it
   /// is too fine for any
   std::string counts_as;
+  /// What the hand meets of the strongest wave, if that is too fine for the device's encoder.
+  std::optional<ReliefWave> encoder_pattern;
   std::string texture_class, size_class;  ///< "flat texture", "moguls"; empty without a texture or a rule
   /// how sure people are that it is a texture: "high", "low", or the stimulus that they rated
   std::string confidence;

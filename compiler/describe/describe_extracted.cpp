@@ -6,14 +6,13 @@
 #include <cmath>
 
 #include "compiler/read/cues.hpp"
+#include "compiler/read/encoder_pattern.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/solve/choose_map.hpp"
 #include "compiler/solve/law.hpp"
 
 namespace wale {
 namespace {
-
-constexpr double normal_95 = 1.96;  // 95 % of a normal distribution lie within so many standard deviations of its mean
 
 DescribedPercept told_by(const Percept& percept, const Map& map, double size, const Description& description,
                          const Declarations& declarations) {
@@ -26,13 +25,14 @@ DescribedPercept told_by(const Percept& percept, const Map& map, double size, co
   const Law law(map, percept);
   told.level = law.level_of(size);
   told.magnitude = law.magnitude_of(size);
-  tell_intervals(told, map.scatter, map.spread, size / percept.one, percept.near_threshold);
+  told.uncertainty = map.uncertainty;
+  told.intervals = level_intervals(map.uncertainty, told.level, size / percept.one);
+  told.near_threshold = told.level < percept.near_threshold;
   told.outside_validity = size < map.valid_low * (1 - reading) || size > map.valid_high * (1 + reading);
   told.alone = false;
   told.slope = map.slope, told.anchor = map.anchor;
   told.handle = map.device == description.device.name ? map.handle : Evidence::transferred;
   told.worst = std::max({told.slope, told.anchor, told.handle});
-  told.observers = map.observers;
   told.map = map.name.empty() ? fmt::format("{} from {}", map.percept, map.from) : map.name;
   told.device = map.device;
   told.source = map.source;
@@ -71,11 +71,14 @@ std::string counting_as(const Relief& relief, const Declarations& declarations) 
   return found;
 }
 
-DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double largest_newton,
+/// `count` (m) is the step of the device's encoder.
+DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double largest_newton, double count,
                             const Declarations& declarations) {
   DescribedTexture texture{.force = found.relief(), .kind = kind_of(cues, found, largest_newton)};
   if (!cues[CueKind::amplitude]) texture.force = {};
   texture.counts_as = counting_as(found.relief(), declarations);
+  if (texture.force.regular() && !texture.force.waves.empty())
+    texture.encoder_pattern = encoder_pattern(texture.force.waves.front(), count);
   // The rules name textures, and what they name has a period.
   const bool has_texture = texture.force.amplitude > 0 && texture.force.period > 0;
   std::map<std::string, double> sizes;
@@ -97,24 +100,11 @@ DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double 
 
 }  // namespace
 
-void tell_intervals(DescribedPercept& percept, double scatter, double spread, double size_over_one,
-                    double near_threshold) {
-  const auto within = [&](double deviation, double& low, double& high) {
-    low = percept.level * std::pow(10, -normal_95 * deviation);
-    high = percept.level * std::pow(10, normal_95 * deviation);
-  };
-  within(scatter, percept.low, percept.high);
-  // People agree on the reference stimulus, which is level 1 for everyone. They differ more the further a level is from
-  // it.
-  const double apart = size_over_one > 0 ? spread * std::log10(size_over_one) : 0;
-  within(std::hypot(scatter, apart), percept.individual_low, percept.individual_high);
-  percept.near_threshold = percept.level < near_threshold;
-}
-
 void describe_extracted(Description& description, const Bank& bank, const ForceReading& found,
                         const Declarations& declarations) {
   const Cues cues = cues_of(bank, found);
-  description.texture = texture_of(cues, found, description.force.max_newton, declarations);
+  description.texture =
+      texture_of(cues, found, description.force.max_newton, description.device.position_step(), declarations);
   const DeviceDeclaration* device = declarations.devices.find(description.device.name);
   if (!device) return;
   declarations.percepts.each([&](const std::string& name, const Percept& percept) {

@@ -72,6 +72,8 @@ nlohmann::ordered_json to_json(const DescribedTexture& texture) {
   json["orientation_rad"] = figure(force.orientation);
   json["anisotropy"] = figure(force.anisotropy);
   json["regularity"] = figure(force.regularity);
+  if (const auto& met = texture.encoder_pattern)
+    json["encoder_pattern"] = {{"period_m", figure(met->period)}, {"orientation_rad", figure(met->orientation)}};
   auto& waves = json["waves"] = nlohmann::ordered_json::array();
   for (const ReliefWave& wave : force.waves)
     waves.push_back({{"period_m", figure(wave.period)},
@@ -101,14 +103,26 @@ void add_force(nlohmann::ordered_json& json, const Description& description) {
                        {"at", to_json(description.grade.stiffest)}};
 }
 
+/// The figures of the intervals that the map assumes.
+nlohmann::ordered_json assumed(const LawUncertainty& law) {
+  auto names = nlohmann::ordered_json::array();
+  if (law.scatter_assumed) names.push_back("scatter");
+  if (law.spread_assumed) names.push_back("spread");
+  if (law.noise_assumed) names.push_back("noise");
+  return names;
+}
+
 nlohmann::ordered_json to_json(const DescribedPercept& percept) {
   nlohmann::ordered_json entry;
   entry["level"] = figure(percept.level);
   entry["magnitude"] = figure(percept.magnitude);
-  entry["low"] = figure(percept.low);
-  entry["high"] = figure(percept.high);
-  entry["individual_low"] = figure(percept.individual_low);
-  entry["individual_high"] = figure(percept.individual_high);
+  entry["low"] = figure(percept.intervals.means.low);
+  entry["high"] = figure(percept.intervals.means.high);
+  entry["means_differ_more"] = percept.intervals.means_differ_more;
+  const auto& people = percept.intervals.people;
+  entry["individual_low"] = people ? nlohmann::ordered_json(figure(people->low)) : nullptr;
+  entry["individual_high"] = people ? nlohmann::ordered_json(figure(people->high)) : nullptr;
+  entry["assumed"] = assumed(percept.uncertainty);
   entry["near_threshold"] = percept.near_threshold;
   entry["read_from_force"] = percept.extracted;
   entry["carrier"] = percept.carrier;

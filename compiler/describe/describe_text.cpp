@@ -18,24 +18,35 @@ std::string heading(const Description& description) {
   return description.material;
 }
 
+/// What the interval of single people assumes: ", by assumed exponents and single judgements".
+std::string assumed_text(const LawUncertainty& law) {
+  if (!law.spread_assumed && !law.noise_assumed) return {};
+  return fmt::format(", by assumed {}{}{}", law.spread_assumed ? "exponents" : "",
+                     law.spread_assumed && law.noise_assumed ? " and " : "",
+                     law.noise_assumed ? "single judgements" : "");
+}
+
 void write_percepts(std::string& text, const Description& description) {
   text += "\nfeels\n";
   if (!description.no_percept.empty())
     text += fmt::format("  {}: {}\n", description.percepts.empty() ? "none can be read" : "no roughness",
                         description.no_percept);
   for (const auto& percept : description.percepts) {
+    const auto& [means, differ_more, people] = percept.intervals;
+    const LawUncertainty& law = percept.uncertainty;
     text +=
-        fmt::format("  {:<12} {:.2f}   (95 % of the means of {}: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
-                    percept.level, percept.observers > 0 ? fmt::format("{} people", percept.observers) : "groups",
-                    percept.low, percept.high, percept.magnitude);
+        fmt::format("  {:<12} {:.2f}   (95 % of the means of {}: {}{:.2f} .. {:.2f}{}; magnitude {:.3g})\n",
+                    percept.name, percept.level, law.observers > 0 ? fmt::format("{} people", law.observers) : "groups",
+                    differ_more ? "at least " : "", means.low, means.high,
+                    law.scatter_assumed ? ", by an assumed scatter" : "", percept.magnitude);
     text += fmt::format("  {:<12} {} {:.4g} {}{}\n", "", percept.carrier, percept.amplitude, percept.unit,
                         percept.asked       ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked)
                         : percept.blended   ? ", solved for the levels of its components"
                         : percept.extracted ? ", read from the force"
                                             : ", written by the author");
-    if (percept.individual_high > percept.high * 1.005)
-      text += fmt::format("  {:<12} 95 % of single people: {:.2f} .. {:.2f}\n", "", percept.individual_low,
-                          percept.individual_high);
+    if (people)
+      text += fmt::format("  {:<12} 95 % of single people: {:.2f} .. {:.2f}{}\n", "", people->low, people->high,
+                          assumed_text(law));
     if (percept.near_threshold) text += fmt::format("  {:<12} near or below threshold\n", "");
     if (percept.saturated)
       text += fmt::format("  {:<12} saturated: `{}` cannot {} harder\n", "", description.device.name,
@@ -126,6 +137,10 @@ void write_texture(std::string& text, const Description& description) {
       for (const ReliefWave& wave : force.waves)
         text += fmt::format("  {:.0f} % of it has a period of {:.2g} mm along {}\n", 100 * wave.share,
                             1e3 * wave.period, in_degrees(fmt::format("{}", degrees(wave.orientation))));
+    if (const auto& met = texture.encoder_pattern)
+      text += fmt::format("  too fine for the encoder of `{}`, through which it is {}\n", description.device.name,
+                          std::isfinite(met->period) ? fmt::format("a pattern of {:.3g} mm", 1e3 * met->period)
+                                                     : "the same everywhere");
     if (!texture.texture_class.empty()) text += fmt::format("  people would call it {}\n", texture.texture_class);
     if (!texture.size_class.empty() && texture.size_class != "texture")
       text += fmt::format("  period {:.3g} mm: felt as {}\n", 1e3 * force.period,

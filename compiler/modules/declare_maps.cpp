@@ -39,19 +39,34 @@ class MapReader {
     read_couples();
     read_law();
     read_validity();
-    if (const auto* scatter = reader_.required("scatter", "0.05")) {
-      map_.scatter = reader_.quantity(*scatter, 0, "number").value_or(0);
-      map_.scatter_assumed = !scatter->items.empty() && has_word(scatter->items[0], "assumed");
-    }
-    if (const auto* spread = reader_.setting("spread"))
-      map_.spread = reader_.quantity(*spread, 0, "number").value_or(0);
-    map_.observers = whole_number(reader_, "observers");
+    read_uncertainty();
     map_.quotes = quotes_of(reader_);
     if (const auto* on = reader_.required("on", "sandpaper")) map_.device = measured_on(*on);
     return std::move(map_);
   }
 
  private:
+  void read_uncertainty() {
+    LawUncertainty& law = map_.uncertainty;
+    const auto read = [&](const Setting* setting, float& figure, bool* assumed) {
+      if (!setting) return;
+      figure = static_cast<float>(reader_.quantity(*setting, 0, "number").value_or(0));
+      if (assumed) *assumed = !setting->items.empty() && has_word(setting->items[0], "assumed");
+      if (figure < 0)
+        reader_.report(Code::value_out_of_range, setting->span, "a standard deviation is not negative",
+                       "leave it out where it is not known");
+    };
+    read(reader_.required("scatter", "0.05"), law.scatter, &law.scatter_assumed);
+    read(reader_.setting("slope_error"), law.slope_error, nullptr);
+    read(reader_.setting("spread"), law.spread, &law.spread_assumed);
+    read(reader_.setting("noise"), law.noise, &law.noise_assumed);
+    const auto counted = [&](const char* key) {
+      return static_cast<std::uint16_t>(std::clamp(whole_number(reader_, key), 0, 65535));
+    };
+    law.observers = counted("observers");
+    law.stimuli = counted("stimuli");
+  }
+
   /// Reads the quantity that the law starts from: the percept's carrier, or another one of the dimension in `quantity
   /// length`.
   void read_quantity() {

@@ -32,8 +32,9 @@ std::string evidence_of(const DescribedPercept& percept) {
   std::string text = fmt::format("{}: {}", percept.name, evidence_word(percept.worst));
   if (!percept.source.empty()) text += fmt::format(" ({})", percept.source);
   if (!percept.device.empty()) text += " on " + percept.device;
-  if (percept.low < percept.high)
-    text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.low, percept.high);
+  if (percept.intervals.means.low < percept.intervals.means.high)
+    text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.intervals.means.low,
+                        percept.intervals.means.high);
   if (percept.saturated) text += ", limited by the device";
   if (percept.outside_validity) text += ", outside the measured range";
   return text;

@@ -174,7 +174,7 @@ PerceptRecord PerceptSolver::record(const Told& told) const {
   record.alone = force_[0] == carrier.force_x && force_[1] == carrier.force_y;
   record.valid_low = static_cast<float>(map.valid_low);
   record.valid_high = static_cast<float>(map.valid_high);
-  record.scatter = static_cast<float>(map.scatter);
+  record.uncertainty = map.uncertainty;
   record.slope = map.slope;
   record.anchor = map.anchor;
   record.handle = is_of(map, device_) ? map.handle : Evidence::transferred;
@@ -189,8 +189,6 @@ PerceptRecord PerceptSolver::record(const Told& told) const {
   }
   record.one = static_cast<float>(map.one.value_or(percept.one));
   record.near_threshold = static_cast<float>(percept.near_threshold);
-  record.spread = static_cast<float>(map.spread);
-  record.observers = static_cast<std::uint16_t>(std::clamp(map.observers, 0, 65535));
   const Discrimination people(declarations_, percept.cue, device_.profile.name, percept.exerts);
   if (const Threshold* threshold = people.threshold(told.size, told.size)) {
     record.weber = static_cast<float>(threshold->weber);

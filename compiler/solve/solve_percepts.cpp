@@ -256,7 +256,7 @@ void PerceptSolver::check_conflict(const Told& told) {
   if (!size || !map.couples.empty()) return;
   const Law& law = *told.law;
   const double level = law.level_of(*size), asked_size = law.carrier_of(asked.level);
-  if (std::abs(std::log10(level) - std::log10(asked.level)) <= map.scatter) return;
+  if (std::abs(std::log10(level) - std::log10(asked.level)) <= map.uncertainty.scatter) return;
   if (std::abs(level - asked.level) <= asked.tolerance) return;
   const Discrimination people(declarations_, told.percept->cue, device_.profile.name, told.percept->exerts);
   if (const Threshold* threshold = people.threshold(*size, asked_size); threshold && threshold->recalled())

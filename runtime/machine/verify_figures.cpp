@@ -220,14 +220,18 @@ void verify_percepts(const PatchProgram& program) {
       refuse(name, "'s map is valid in ", percept.valid_low, " .. ", percept.valid_high,
              ", expected a finite range from 0 on");
     }
-    require_within(percept.scatter, 0, 100, name, "'s scatter");
+    const LawUncertainty& law = percept.uncertainty;
+    for (const auto& [figure, words] : {std::pair{law.scatter, "'s scatter"},
+                                        {law.slope_error, "'s error of the slope"},
+                                        {law.spread, "'s spread"},
+                                        {law.noise, "'s noise"}})
+      require_within(figure, 0, 100, name, words);
     if (!(percept.period_low >= 0 && percept.period_low <= percept.period_high)) {
       refuse(name, " is read at periods of ", percept.period_low, " .. ", percept.period_high,
              " m, expected a range from 0 on");
     }
     require_within(percept.one, 0, 1e9, name, "'s level 1");
     require_within(percept.near_threshold, 0, 1, name, "'s near threshold");
-    require_within(percept.spread, 0, 100, name, "'s spread");
     require_within(percept.weber, 0, 100, name, "'s Weber fraction");
     require_within(percept.floor, 0, 1e9, name, "'s least difference");
     if (!graded(percept.slope) || !graded(percept.anchor) || !graded(percept.handle) ||

@@ -380,7 +380,8 @@ TEST(Records, HoldTheFiguresForDescriptions) {
   EXPECT_FLOAT_EQ(roughness.period_low, 0.0007f);
   EXPECT_FLOAT_EQ(roughness.period_high, 0.01f);
   EXPECT_FLOAT_EQ(roughness.one, 194 * 10.0f / 512);
-  EXPECT_EQ(roughness.observers, 15);
+  EXPECT_EQ(roughness.uncertainty.observers, 15);
+  EXPECT_EQ(roughness.uncertainty.stimuli, 30);
   // The smallest fraction is that of Pang, Tan and Durlach 1991; the floor is that of Tan 1992.
   EXPECT_NEAR(roughness.weber, 0.07, 1e-5);
   EXPECT_FLOAT_EQ(roughness.floor, 0.1f);

@@ -37,9 +37,12 @@ TEST(DescribingForces, TheRoughestStimulusOfTable6IsLevelOneHoweverItIsWritten) 
   ASSERT_TRUE(roughness);
   EXPECT_TRUE(roughness->extracted);
   EXPECT_NEAR(roughness->level, 1, 0.04);
-  // Level 1 is this stimulus, so individuals do not differ from the mean there.
-  EXPECT_NEAR(roughness->individual_high, roughness->high, 0.03);
-  EXPECT_NEAR(std::log10(roughness->high / roughness->level), 1.96 * 0.0519, 1e-3);  // s of figure 19
+  // Level 1 is this stimulus, so exponents do not matter there: s of figure 19, times the quantile of t with 28 degrees
+  // of freedom. What is left for single people is the noise of their judgements.
+  const LevelIntervals& intervals = roughness->intervals;
+  EXPECT_NEAR(std::log10(intervals.means.high / roughness->level), 2.0484 * 0.0519, 2e-3);
+  ASSERT_TRUE(intervals.people);
+  EXPECT_NEAR(std::log10(intervals.people->high / roughness->level), 2.0484 * 0.0519 * std::sqrt(15), 2e-3);
   EXPECT_TRUE(description.no_percept.empty());
 }
 
@@ -48,8 +51,25 @@ TEST(DescribingForces, AQuarterOfTheForceIsAThirdAsRough) {
   const DescribedPercept* roughness = percept(description, "roughness");
   ASSERT_TRUE(roughness);
   EXPECT_NEAR(roughness->level, std::pow(0.25, 0.759593), 0.02);
-  EXPECT_GT(roughness->individual_high, 1.2 * roughness->high);
-  EXPECT_LT(roughness->individual_low, roughness->low / 1.2);
+  ASSERT_TRUE(roughness->intervals.people);
+  EXPECT_GT(roughness->intervals.people->high, 1.2 * roughness->intervals.means.high);
+  EXPECT_LT(roughness->intervals.people->low, roughness->intervals.means.low / 1.2);
+}
+
+/// sandpaper: 228 mm in 4096 counts. Sampled each count, a wave has as many waves less to the millimetre as the encoder
+/// has counts.
+TEST(DescribingForces, AWaveTooFineForTheEncoderIsItselfAndThePatternThatTheEncoderMakesOfIt) {
+  for (const double period : {0.08, 0.1, 0.05, 0.04}) {
+    const Description description = described(grating(100, period));
+    ASSERT_TRUE(description.texture);
+    EXPECT_NEAR(description.texture->force.period, 1e-3 * period, 0.02e-3 * period);
+    const auto& device = description.device;
+    const double counts_a_mm = 1e-3 * device.position_counts / device.workspace_diameter;
+    const double left = std::abs(1 / period - counts_a_mm);
+    ASSERT_TRUE(description.texture->encoder_pattern) << period;
+    EXPECT_NEAR(description.texture->encoder_pattern->period, 1e-3 / left, 0.15e-3 / left) << period;
+  }
+  EXPECT_FALSE(described(grating(100, 0.12)).texture->encoder_pattern);
 }
 
 TEST(DescribingForces, AFaintStimulusIsNearTheThreshold) {
