@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/command/deep_thread.hpp"
+#include "compiler/command/memory.hpp"
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/command/words.hpp"
@@ -97,6 +98,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   prepare_streams();
   return finish_output(
       status_of([&] { return with_deep_stack([&] { return status_of([&] { return run(argc, argv); }); }); }));
