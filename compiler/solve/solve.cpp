@@ -11,6 +11,7 @@
 #include "compiler/solve/copy_terms.hpp"
 #include "compiler/solve/solve_percepts.hpp"
 #include "compiler/solve/vibration.hpp"
+#include "compiler/text/readable.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale {
@@ -253,7 +254,8 @@ class Solver {
                                  .reason = lost->second});
     }
     if (material_.force)
-      solved_.fates.push_back({.name = "force", .fate = Fate::kept, .reason = "as its author wrote it"});
+      solved_.fates.push_back(
+          {.name = "force", .fate = Fate::kept, .reason = "by the material's formulas, not found from a level"});
     if (!cut_.empty()) solved_.fates.push_back({.name = "place", .fate = Fate::approximated, .reason = cut_});
     std::string lost;
     for (const FateRecord& each : physics_)
@@ -294,8 +296,8 @@ class Solver {
       if (std::max(columns, rows) > most_cells_a_side || all > most_cells) {
         report(
             Code::unbounded_memory, memory.span,
-            fmt::format("`{}` has {:.0f} x {:.0f} cells on this patch", memory.name, columns, rows),
-            Advice(fmt::format(
+            readable("`{}` has {:.0f} x {:.0f} cells on this patch", memory.name, columns, rows),
+            Advice(readable(
                        "at most {:.0f} per side and {:.0f} in total are possible; make the cells wider than {:.3g} mm",
                        most_cells_a_side, most_cells,
                        1e3 * std::max(solved_.patch_width, solved_.patch_height) / most_cells_a_side))

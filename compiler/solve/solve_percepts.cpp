@@ -10,6 +10,7 @@
 #include "compiler/declarations/discrimination.hpp"
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/expression/check_expression.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -270,14 +271,13 @@ void PerceptSolver::check_conflict(const Told& told) {
   diagnostics_.report(
       {.code = Code::percept_conflict,
        .span = asked.place(),
-       .message = fmt::format("{} {:.3g} is asked for, but the given {} makes it {:.2g}", asked.name, asked.level,
-                              argument, level),
-       .expected = fmt::format("{} {} of {:.3g} {}", std::string("aeiou").find(argument[0]) < 5 ? "an" : "a", argument,
-                               asked_size, unit),
-       .found = fmt::format("{:.3g} {}", *size, unit),
-       .help =
-           fmt::format("leave out the {}, so that it is solved from the percept; or leave out the percept", argument),
-       .secondary = {{carrier.size_span, fmt::format("gives {} {:.2g}", asked.name, level)}},
+       .message = readable("{} {:.3g} is asked for, but the given {} makes it {:.2g}", asked.name, asked.level,
+                           argument, level),
+       .expected = readable("{} {} of {:.3g} {}", std::string("aeiou").find(argument[0]) < 5 ? "an" : "a", argument,
+                            asked_size, unit),
+       .found = readable("{:.3g} {}", *size, unit),
+       .help = readable("leave out the {}, so that it is solved from the percept; or leave out the percept", argument),
+       .secondary = {{carrier.size_span, readable("gives {} {:.2g}", asked.name, level)}},
        .facts = {{"asked", NumberWithUnit{asked.level, ""}}, {"given", NumberWithUnit{level, ""}}}});
 }
 
