@@ -42,9 +42,6 @@ class StatementChecker {
   void operator()(const ShowStatement& node);
 
  private:
-  struct Bounds {
-    double low = 0, high = 0;
-  };
   struct KnownMemory {
     std::uint32_t index = 0;
     std::optional<Span> next;  ///< the place of its update, once seen
@@ -64,8 +61,8 @@ class StatementChecker {
   void check_soft_range(const ParamStatement& node, const Dimension& dimension, double value, Parameter& parameter);
 
   std::optional<Dimension> declared_dimension(const std::optional<Word>& dimension);
-  std::optional<Bounds> bounds(const Word& name, const std::optional<Word>& declared, const std::optional<Range>& range,
-                               const Dimension& dimension);
+  std::optional<StateBounds> bounds(const Word& name, const std::optional<Word>& declared,
+                                    const std::optional<Range>& range, const Dimension& dimension);
   bool fits(const Value& value, ExprId expr, const Dimension& dimension);
   Value check_update(const UpdateStatement& node, Value::Type type, const Dimension& dimension);
   std::vector<std::string> remembered() const;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "compiler/text/readable.hpp"
+
 namespace wale {
 
 bool BuiltinCall::number(std::size_t i) const {
@@ -174,10 +176,9 @@ Value within(const BuiltinCall& call) {
   if (known && low && high && !(*known >= *low && *known <= *high)) {
     const std::string unit = call.reading.dimension_names().unit(call.value(0).dimension);
     const std::string suffix = unit.empty() ? "" : " " + unit;
-    return call.reading.calls.report(
-        Code::value_out_of_range, call.terms()[call.value(0).x].span,
-        fmt::format("{:.4g}{} is out of range", *known, suffix), "",
-        fmt::format("give a value from {:.4g}{} to {:.4g}{}", *low, suffix, *high, suffix));
+    return call.reading.calls.report(Code::value_out_of_range, call.terms()[call.value(0).x].span,
+                                     readable("{:.4g}{} is out of range", *known, suffix), "",
+                                     readable("give a value from {:.4g}{} to {:.4g}{}", *low, suffix, *high, suffix));
   }
   return call.scalar(
       call.terms().apply(Operation::maximum,
@@ -234,36 +235,6 @@ Value lattice(const BuiltinCall& call) {
   return call.scalar(call.terms().apply(Operation::hash, place[0], place[1], place[2], call.span));
 }
 
-/// `phase(frequency)`: a new state that runs from 0 to 1 `frequency` times per second.
-Value phase(const BuiltinCall& call) {
-  if (!call.number(0)) return call.failed();
-  const auto frequency = call.reading.names->dimension("frequency");
-  if (call.value(0).dimension != frequency)
-    return call.reading.calls.report(
-        Code::wrong_dimension, call.actuals[0].span,
-        fmt::format("expected a frequency, found {}",
-                    with_article(call.reading.dimension_names().words(call.value(0).dimension))),
-        call.reading.dimension_names().unit(call.value(0).dimension), "write something like `phase(2 Hz)`");
-  const auto [known, added] = call.reading.record.phases.try_emplace(call.value(0).x, 0);
-  if (added) {
-    const auto index = static_cast<std::uint32_t>(call.reading.record.states.size());
-    const TermId now = call.terms().add({.kind = TermKind::state, .index = index, .span = call.span});
-    const TermId step = call.terms().apply(Operation::multiply, call.value(0).x,
-                                           call.terms().input(Input::seconds_per_tick), call.span);
-    const TermId sum = call.terms().apply(Operation::add, now, step, call.span);
-    const TermId next =
-        call.terms().apply(Operation::subtract, sum, call.terms().apply(Operation::floor, sum, call.span), call.span);
-    call.reading.record.states.push_back({.name = fmt::format("phase {}", index),
-                                          .low = 0,
-                                          .high = 1,
-                                          .initial = call.terms().literal(0, call.span),
-                                          .next = next,
-                                          .span = call.span});
-    known->second = now;
-  }
-  return call.scalar(known->second);
-}
-
 }  // namespace
 
 Value held(Terms& terms, const Value& value, TermId ceiling, Span span) {
@@ -308,6 +279,7 @@ const std::vector<Builtin>& builtins() {
       {"peak", {"value"}, 1, peak, true},
       {"hold", {"value", "ceiling"}, 2, hold},
       {"phase", {"frequency"}, 1, phase, true},
+      {"stretch", {"place", "reach"}, 2, stretch, true},
       {"image", {"file", "scale", "height", "smooth"}, 3, image, true},
       {"relief", {"file", "scale", "height", "smooth"}, 3, relief},
       {"table", {"file", "place", "value"}, 1, table},

@@ -159,49 +159,60 @@ Value ExpressionChecker::check(const SyntaxTree& tree, ExprId expr, Scope& scope
   return check_expression(reading_, tree, expr, scope);
 }
 
-Value ExpressionChecker::check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type,
-                                  const Dimension& dimension) {
-  const Value value = check(tree, expr, scope);
+Value check_expression_as(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope,
+                          Value::Type type, const Dimension& dimension) {
+  const Value value = check_expression(reading, tree, expr, scope);
   if (value.failed()) return value;
   const bool measurable = value.type == Value::Type::number || value.type == Value::Type::vector;
   if (measurable && value.dimension != dimension) {
-    report_dimension(reading_, tree, expr, scope, value.dimension, dimension);
+    report_dimension(reading, tree, expr, scope, value.dimension, dimension);
     return failed_value(value.span);
   }
   if (value.type == type) return value;
-  const std::string text(reading_.surroundings.sources.text(value.span));
-  const std::string zero = "0 " + reading_.dimension_names().unit(dimension);
+  const std::string text(reading.surroundings.sources.text(value.span));
+  const std::string zero = "0 " + reading.dimension_names().unit(dimension);
   const std::string mend =
       type == Value::Type::vector && measurable ? fmt::format("give both parts, as in `vector({}, {})`", text, zero)
       : value.type == Value::Type::vector       ? fmt::format("take its `length({})`, or work with `x` and `y`", text)
                                                 : make_calculable(value.type);
-  return reading_.calls.report(Code::wrong_type, value.span,
-                               fmt::format("expected {}, found {}", type_words(type), type_words(value.type)), "",
-                               mend);
+  return reading.calls.report(Code::wrong_type, value.span,
+                              fmt::format("expected {}, found {}", type_words(type), type_words(value.type)), "", mend);
+}
+
+Value ExpressionChecker::check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type,
+                                  const Dimension& dimension) {
+  return check_expression_as(reading_, tree, expr, scope, type, dimension);
 }
 
 Value ExpressionChecker::named(const Word& word, Scope& scope) { return value_of_name(reading_, word, scope); }
 
-std::optional<double> ExpressionChecker::constant(const SyntaxTree& tree, ExprId expr, Scope& scope,
-                                                  const Dimension& dimension) {
-  const Value value = check_as(tree, expr, scope, Value::Type::number, dimension);
-  return value.failed() ? std::nullopt : constant(value);
-}
-
-std::optional<double> ExpressionChecker::constant(const Value& value) {
-  const auto known = constant_value(reading_.terms, value.x);
+std::optional<double> constant_number(ExpressionReading& reading, const Value& value) {
+  const auto known = constant_value(reading.terms, value.x);
   if (!known) {
-    reading_.calls.report(Code::not_constant, value.span, "expected a value known at compile time", "it may change",
-                          "use numbers, units and other constants");
+    reading.calls.report(Code::not_constant, value.span, "expected a value known at compile time", "it may change",
+                         "use numbers, units and other constants");
     return std::nullopt;
   }
   if (!std::isfinite(*known)) {
-    reading_.calls.report(Code::number_out_of_range, value.span, "the result is not a finite number", "",
-                          "look for a division by zero, or the root or logarithm of a negative number");
+    reading.calls.report(Code::number_out_of_range, value.span, "the result is not a finite number", "",
+                         "look for a division by zero, or the root or logarithm of a negative number");
     return std::nullopt;
   }
   return known;
 }
+
+std::optional<double> constant_number(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope,
+                                      const Dimension& dimension) {
+  const Value value = check_expression_as(reading, tree, expr, scope, Value::Type::number, dimension);
+  return value.failed() ? std::nullopt : constant_number(reading, value);
+}
+
+std::optional<double> ExpressionChecker::constant(const SyntaxTree& tree, ExprId expr, Scope& scope,
+                                                  const Dimension& dimension) {
+  return constant_number(reading_, tree, expr, scope, dimension);
+}
+
+std::optional<double> ExpressionChecker::constant(const Value& value) { return constant_number(reading_, value); }
 
 Value ExpressionChecker::call_with(const Declared<FunctionDecl>& function, std::vector<Actual> actuals,
                                    const Scope& scope, Span span) {

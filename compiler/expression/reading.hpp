@@ -36,7 +36,7 @@ struct Surroundings {
 struct CallRecord {
   std::vector<Carrier> carriers;
   std::vector<Span> open_spans;      ///< one for each open quantity: the call that leaves it open
-  std::vector<CheckedState> states;  ///< states that calls of `phase` add
+  std::vector<CheckedState> states;  ///< states that calls of `phase` and `stretch` add
   std::map<TermId, TermId> phases;   ///< the state term of each `phase`, by its frequency
   std::vector<CheckedPeriod> periods;
   std::vector<std::unique_ptr<const Field>> fields;  ///< fields to which values point
