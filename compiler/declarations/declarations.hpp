@@ -124,6 +124,7 @@ struct HandDeclaration {
   double mass = 0, damping = 0, stiffness = 0;
   double lateral_amplitude = 0, lateral_frequency = 0;
   double circular_radius = 0, circular_frequency = 0;
+  double press_depth = 0, press_frequency = 0;
   double fewest_counts = 0, faithful_counts = 0;  ///< encoder counts per period
   double fewest_levels = 0;                       ///< command steps in the largest force
   std::string source;
