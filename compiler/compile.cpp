@@ -9,6 +9,7 @@
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
 #include "compiler/grade/grade.hpp"
+#include "compiler/measure/cut_force.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/parse/parse.hpp"
@@ -46,6 +47,18 @@ void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostic
                       .message = fmt::format("`{}` declares {:.2g} W, but `{}` gives a program at most {:.2g} W",
                                              material.name, material.active_watt, device.name, device.active_watt),
                       .help = "the runtime holds back the rest; declare less, or choose another device"});
+}
+
+/// The program with the fate of the force that its author wrote; the same program if it has none, or it is kept.
+Result<Program> with_fate_of_force(const Program& program, const Bank& bank, const GradingHand& hand) {
+  const auto& fates = program.description().fates;
+  const auto force = std::ranges::find_if(fates, is_of_force);
+  if (force == fates.end()) return program;
+  FateRecord found = fate_of_force(*force, bank, static_cast<float>(hand.speed()));
+  if (found == *force) return program;
+  PatchProgram changed = program.description();
+  changed.fates[static_cast<std::size_t>(force - fates.begin())] = std::move(found);
+  return Program::load(std::move(changed));
 }
 
 /// "`a`, `b` and 3 more": at most eight names.
@@ -134,9 +147,10 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
                         .help = "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
     return std::nullopt;
   }
-  warn_of_undeclared_energy(bank, solved, normal_hand(module.declarations()), diagnostics);
+  const GradingHand hand = normal_hand(module.declarations());
+  warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   warn_of_a_device_that_gives_less(solved, diagnostics);
-  return *std::move(loaded);
+  return *with_fate_of_force(*loaded, bank, hand);  // it differs in a fate from a program that was loaded
 }
 
 std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material,

@@ -22,7 +22,8 @@ namespace wale {
 
 namespace {
 
-DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
+/// `given` is the largest output of the device.
+DescribedPercept describe_percept(const Bank& bank, std::size_t index, double given) {
   const PatchProgram& program = bank.program().description();
   const PerceptRecord& record = program.percepts[index];
   DescribedPercept percept{.name = record.name,
@@ -41,7 +42,7 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   const float aimed = amplitude(bank, index);
   // The device's limit cuts only carriers in the unit of its output.
   const char* limited = program.vibrates() ? "m/s^2" : "N";
-  const float most = record.unit == limited ? static_cast<float>(program.device.most()) : HUGE_VALF;
+  const float most = record.unit == limited ? static_cast<float>(given) : HUGE_VALF;
   percept.saturated = aimed > most;
   percept.amplitude = std::min(aimed, most);
   const Prediction prediction = predict(bank, index, static_cast<float>(percept.amplitude));
@@ -52,6 +53,9 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   percept.observers = record.observers;
   percept.blended = record.blended;
   if (record.parameter) percept.asked = bank.registers()[program.first_parameter() + *record.parameter];
+  // The program itself reduces the size of a percept that needs more than the device gives.
+  constexpr double single_precision = 5e-4;
+  if (percept.asked && percept.level < *percept.asked * (1 - single_precision)) percept.saturated = true;
   constexpr float rounding = 1e-5f;
   percept.outside_validity =
       percept.amplitude < record.valid_low * (1 - rounding) || percept.amplitude > record.valid_high * (1 + rounding);
@@ -195,8 +199,9 @@ Description describe(const Bank& bank, const Declarations& declarations, Texture
   const PatchProgram& program = bank.program().description();
   Description description{
       .material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
+  const double given = most_given(bank, declarations);
   for (std::size_t i = 0; i < program.percepts.size(); ++i) {
-    const DescribedPercept percept = describe_percept(bank, i);
+    const DescribedPercept percept = describe_percept(bank, i, given);
     // A parameter may make a viscosity or a spring push along instead of against the hand, and no map covers that.
     if (std::isfinite(percept.level)) description.percepts.push_back(percept);
   }

@@ -34,6 +34,7 @@ nlohmann::ordered_json to_json(const WorstPlace& place) {
 nlohmann::ordered_json to_json(const Grade& grade) {
   nlohmann::ordered_json json = {{"name", standing_word(grade.standing)}};
   if (grade.standing == Standing::not_analysed) return json;
+  if (const auto assumed = grade.assumed_standing()) json["assumed"] = standing_word(*assumed);
   json["required_damping"] = figure(grade.required_damping);
   json["at"] = to_json(grade.worst);
   json["device_damping"] = figure(grade.device_damping);

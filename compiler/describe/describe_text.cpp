@@ -8,6 +8,7 @@
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/describe/describe_grade.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 namespace {
@@ -55,8 +56,8 @@ void write_percepts(std::string& text, const Description& description) {
 }
 
 std::string range_text(const Parameter& parameter, float low, float high) {
-  return fmt::format("{} .. {}{}{}", shown(low, parameter.unit_in_si), shown(high, parameter.unit_in_si),
-                     parameter.unit.empty() ? "" : " ", parameter.unit);
+  return readable("{} .. {}{}{}", shown(low, parameter.unit_in_si), shown(high, parameter.unit_in_si),
+                  parameter.unit.empty() ? "" : " ", parameter.unit);
 }
 
 void write_parameters(std::string& text, const std::vector<Parameter>& parameters) {
@@ -67,7 +68,7 @@ void write_parameters(std::string& text, const std::vector<Parameter>& parameter
   for (const auto& parameter : parameters) {
     const bool usual = parameter.soft_low != parameter.low || parameter.soft_high != parameter.high;
     text += fmt::format("  {:<{}} {:<12} {:<20} {}\n", parameter.name, width,
-                        fmt::format("{} {}", shown(parameter.value, parameter.unit_in_si), parameter.unit),
+                        readable("{} {}", shown(parameter.value, parameter.unit_in_si), parameter.unit),
                         range_text(parameter, parameter.low, parameter.high), parameter.description);
     if (usual)
       text += fmt::format("  {:<{}} {:<12} usually {}\n", "", width, "",
@@ -87,18 +88,16 @@ void write_fates(std::string& text, const Description& description) {
     std::string level;
     if (each.percept && each.fate == Fate::saturated)
       level = fmt::format(" from {:.2f} to {:.2f}", each.asked, each.given);
-    // Of a force that no level asked for, nothing was compared: it is only not solved for.
-    const std::string reason =
-        !each.percept && each.fate == Fate::kept ? "by the material's formulas, not found from a level" : each.reason;
-    text += fmt::format("  {:<18} {}{}{}{}{}\n", each.name, fate_word(each.fate), level, reason.empty() ? "" : ": ",
-                        reason, described.changes.empty() ? "" : "; " + changes_text(described));
+    text +=
+        fmt::format("  {:<18} {}{}{}{}{}\n", each.name, fate_word(each.fate), level, each.reason.empty() ? "" : ": ",
+                    each.reason, described.changes.empty() ? "" : "; " + changes_text(described));
   }
 }
 
 void write_shaking(std::string& text, const MeasuredShaking& shaking) {
-  text += fmt::format("\nshakes\n  {:.3f} m/s^2 at most under the hand `normal`: P99 {:.3f} m/s^2, RMS {:.3f} m/s^2\n",
-                      shaking.max, shaking.p99, shaking.rms);
-  if (shaking.highest > 0) text += fmt::format("  {:.4g} .. {:.4g} Hz\n", shaking.lowest, shaking.highest);
+  text += readable("\nshakes\n  {:.3f} m/s^2 at most under the hand `normal`: P99 {:.3f} m/s^2, RMS {:.3f} m/s^2\n",
+                   shaking.max, shaking.p99, shaking.rms);
+  if (shaking.highest > 0) text += readable("  {:.4g} .. {:.4g} Hz\n", shaking.lowest, shaking.highest);
   text += "\nstability\n  does not apply: it only vibrates, so there is no loop with the hand\n";
 }
 
@@ -108,46 +107,46 @@ void write_texture(std::string& text, const Description& description) {
   const Relief& force = texture.force;
   text += "\ntexture\n";
   if (force.amplitude > 0) {
-    text += fmt::format("  {:.3g} N (the thesis's maximum {:.3g} N, RMS {:.3g} N, mean {:.3g} N)\n", force.amplitude,
-                        force.maximum, force.rms, force.mean);
+    text += readable("  {:.3g} N (the thesis's maximum {:.3g} N, RMS {:.3g} N, mean {:.3g} N)\n", force.amplitude,
+                     force.maximum, force.rms, force.mean);
     if (force.regular())
-      text += fmt::format("  period {:.3g} mm, {:.0f} % regular, {:.2g} sign changes per millimetre\n",
-                          1e3 * force.period, 100 * force.regularity, 1e-3 * force.transitions);
+      text += readable("  period {:.3g} mm, {:.0f} % regular, {:.2g} sign changes per millimetre\n", 1e3 * force.period,
+                       100 * force.regularity, 1e-3 * force.transitions);
     else if (force.period == 0)
-      text += fmt::format("  single features, no period\n");
+      text += readable("  single features, no period\n");
     else
-      text += fmt::format("  irregular, about {:.2g} mm; {:.2g} sign changes per millimetre\n", 1e3 * force.period,
-                          1e-3 * force.transitions);
-    text += fmt::format("  anisotropy {:.1f}{}\n", force.anisotropy,
-                        force.oriented() ? fmt::format(", changes along the direction {} from x",
-                                                       in_degrees(fmt::format("{}", degrees(force.orientation))))
-                                         : "");
+      text += readable("  irregular, about {:.2g} mm; {:.2g} sign changes per millimetre\n", 1e3 * force.period,
+                       1e-3 * force.transitions);
+    text += readable("  anisotropy {:.1f}{}\n", force.anisotropy,
+                     force.oriented() ? readable(", changes along the direction {} from x",
+                                                 in_degrees(readable("{}", degrees(force.orientation))))
+                                      : "");
     if (force.waves.size() > 1)
       for (const ReliefWave& wave : force.waves)
-        text += fmt::format("  {:.0f} % of it has a period of {:.2g} mm along {}\n", 100 * wave.share,
-                            1e3 * wave.period, in_degrees(fmt::format("{}", degrees(wave.orientation))));
-    if (!texture.texture_class.empty()) text += fmt::format("  people would call it {}\n", texture.texture_class);
+        text += readable("  {:.0f} % of it has a period of {:.2g} mm along {}\n", 100 * wave.share, 1e3 * wave.period,
+                         in_degrees(readable("{}", degrees(wave.orientation))));
+    if (!texture.texture_class.empty()) text += readable("  people would call it {}\n", texture.texture_class);
     if (!texture.size_class.empty() && texture.size_class != "texture")
-      text += fmt::format("  period {:.3g} mm: felt as {}\n", 1e3 * force.period,
-                          texture.size_class == "transitional" ? "something between a texture and single features"
-                                                               : texture.size_class);
+      text += readable("  period {:.3g} mm: felt as {}\n", 1e3 * force.period,
+                       texture.size_class == "transitional" ? "something between a texture and single features"
+                                                            : texture.size_class);
   } else {
-    text += fmt::format("  none{}\n", texture.kind.empty() ? "" : fmt::format(": {}", texture.kind));
+    text += readable("  none{}\n", texture.kind.empty() ? "" : readable(": {}", texture.kind));
   }
   if (texture.confidence_mean)
-    text += fmt::format("  confidence that it is a texture: {:.0f} % (s.d. {:.0f} %; {})\n",
-                        100 * *texture.confidence_mean, 100 * texture.confidence_spread.value_or(0), texture.source);
+    text += readable("  confidence that it is a texture: {:.0f} % (s.d. {:.0f} %; {})\n",
+                     100 * *texture.confidence_mean, 100 * texture.confidence_spread.value_or(0), texture.source);
   else if (!texture.confidence.empty())
-    text += fmt::format("  confidence that it is a texture: {} ({})\n", texture.confidence, texture.source);
+    text += readable("  confidence that it is a texture: {} ({})\n", texture.confidence, texture.source);
 }
 
 /// Over every hand, every parameter and every size of patch that the runtime allows.
 std::string bound_lines(const Description& description) {
   const ForceBound& bound = description.bound;
-  std::string line = fmt::format("  proved never to push harder than {:.3f} N at any parameters", bound.newton);
+  std::string line;
   if (bound.found.newton > 0)
-    line += fmt::format(", {:.2f} times the largest force found ({:.3f} N)", bound.ratio(), bound.found.newton);
-  line += "\n";
+    line = readable("  the proved bound is {:.2f} times the largest force found ({:.3f} N)\n", bound.ratio(),
+                    bound.found.newton);
   if (!description.limit_matters) return line;
   const double most = description.device.force_newton, asked = description.asked.largest();
   if (asked > most)
@@ -161,10 +160,10 @@ std::string bound_lines(const Description& description) {
 }
 
 void write_pushing(std::string& text, const Description& description) {
-  text += fmt::format(
-      "\npushes\n  {:.3f} N at most at these parameters; on a hand at rest, over the patch: P99 {:.3f} N, RMS {:.3f} "
-      "N\n",
-      description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
+  text += readable("\npushes\n  {:.3f} N at most with these parameters; with any, never more than {:.3f} N (proved)\n",
+                   description.force.max_newton, description.bound.newton);
+  text += readable("  on a hand at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n", description.force.p99_newton,
+                   description.force.rms_newton);
   text += bound_lines(description);
   text += "\nstability\n" + grade_text(description.grade, description.device);
 }
@@ -174,10 +173,10 @@ void write_memory(std::string& text, const Description& description) {
   if (description.states.empty() && description.memories.empty()) return;
   text += "\nremembers (in SI units)\n";
   for (const auto& state : description.states)
-    text += fmt::format("  {:<12} {:.6g} .. {:.6g}\n", state.name, state.low + 0.0, state.high + 0.0);
+    text += readable("  {:<12} {:.6g} .. {:.6g}\n", state.name, state.low + 0.0, state.high + 0.0);
   for (const auto& grid : description.memories)
-    text += fmt::format("  {:<12} {:.6g} .. {:.6g}, at first {:.6g}; {} x {} cells, {} bytes\n", grid.name, grid.low,
-                        grid.high, grid.initial, grid.columns, grid.rows, bytes_of(grid));
+    text += readable("  {:<12} {:.6g} .. {:.6g}, at first {:.6g}; {} x {} cells, {} bytes\n", grid.name, grid.low,
+                     grid.high, grid.initial, grid.columns, grid.rows, bytes_of(grid));
 }
 
 void write_shown(std::string& text, const Description& description) {
@@ -193,8 +192,8 @@ void write_shown(std::string& text, const Description& description) {
 
 std::string description_text(const Description& description) {
   const DeviceProfile& device = description.device;
-  std::string text = fmt::format("{}\n  built for {}, {:.3g} {} at {:.4g} Hz\n", heading(description), device.name,
-                                 device.most(), device.shaker ? "m/s^2" : "N", device.rate);
+  std::string text = readable("{}\n  built for {}, {:.3g} {} at {:.4g} Hz\n", heading(description), device.name,
+                              device.most(), device.shaker ? "m/s^2" : "N", device.rate);
   write_documentation(text, 2, description.layers.documentation);
   for (const auto& [key, values] : description.layers.representative)
     if (key != "title") text += fmt::format("  {:<12} {}\n", key, fmt::join(values, ", "));
@@ -209,20 +208,20 @@ std::string description_text(const Description& description) {
   write_memory(text, description);
   write_shown(text, description);
   const auto& code = description.code;
-  text += fmt::format("\npatch\n  {:.4g} mm x {:.4g} mm, fading over {:.3g} mm at its edge\n",
-                      1e3 * description.patch.width, 1e3 * description.patch.height, 1e3 * description.patch.rim);
-  text += fmt::format("\nprogram\n  tick {} instructions (cost {}), setup {} ({}), peaks {} ({:.2g} with all points)",
-                      code.tick, code.tick_cost, code.setup, code.setup_cost, code.peaks,
-                      static_cast<double>(code.peak_cost));
-  if (code.enter > 0) text += fmt::format(", enter {} ({})", code.enter, code.enter_cost);
-  text += fmt::format(", picture {} ({})", code.picture, code.picture_cost);
-  if (code.frame > 0) text += fmt::format(", frame {} ({})", code.frame, code.frame_cost);
-  text += fmt::format("; {} bytes\n", description.bytes);
+  text += readable("\npatch\n  {:.4g} mm x {:.4g} mm, fading over {:.3g} mm at its edge\n",
+                   1e3 * description.patch.width, 1e3 * description.patch.height, 1e3 * description.patch.rim);
+  text +=
+      readable("\nprogram\n  tick {} instructions (cost {}), setup {} ({}), peaks {} ({:.2g} with all points)",
+               code.tick, code.tick_cost, code.setup, code.setup_cost, code.peaks, static_cast<double>(code.peak_cost));
+  if (code.enter > 0) text += readable(", enter {} ({})", code.enter, code.enter_cost);
+  text += readable(", picture {} ({})", code.picture, code.picture_cost);
+  if (code.frame > 0) text += readable(", frame {} ({})", code.frame, code.frame_cost);
+  text += readable("; {} bytes\n", description.bytes);
   if (description.coarseness > 1)
-    text += fmt::format("  its tick costs so much that only one of {} places was sampled{}\n", description.coarseness,
-                        description.states.empty() && description.memories.empty()
-                            ? ""
-                            : ", and its answer to motion was not measured");
+    text += readable("  its tick costs so much that only one of {} places was sampled{}\n", description.coarseness,
+                     description.states.empty() && description.memories.empty()
+                         ? ""
+                         : ", and its answer to motion was not measured");
   return text;
 }
 

@@ -8,8 +8,11 @@
 #include "compiler/declarations/declarations.hpp"
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/grade/grade.hpp"
+#include "compiler/measure/cut_force.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/solve/saturation.hpp"
+#include "compiler/text/readable.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
 #include "runtime/machine/lane.hpp"
 
@@ -117,7 +120,7 @@ class FateFinder {
     now.fate = how.empty() ? Fate::kept : Fate::approximated;
     if (now.given < now.asked * (1 - rounding)) {
       now.fate = Fate::saturated;
-      const std::string why = saturation_reason(program_.device.name, size <= most_);
+      const std::string why = saturation_reason(program_.device.name, size < most_ * (1 - rounding));
       how = how.empty() ? why : fmt::format("{}; {}", why, how);
     }
     now.reason = how;
@@ -175,16 +178,6 @@ std::optional<std::size_t> solved_percept(const PatchProgram& program, const Fat
   return std::nullopt;
 }
 
-/// The largest output of the device, in N or m/s^2; for a pad that shakes at one frequency, the largest there.
-double most_given(const Bank& bank, const Declarations& declarations) {
-  const DeviceProfile& device = bank.program().description().device;
-  if (!device.shaker) return device.most();
-  constexpr float steady = 1e-3f;
-  const MeasuredShaking shaking = measure_shaking(bank, declarations.hands.find("normal"));
-  if (!(shaking.highest > 0) || shaking.highest - shaking.lowest > steady * shaking.highest) return device.most();
-  return std::min(device.most(), device.shaker->acceleration(1, shaking.highest));
-}
-
 /// The largest size of a percept's carrier that an output of `given` allows, in the percept's unit.
 double most_of(const PatchProgram& program, const PerceptRecord& percept, const Declarations& declarations,
                double given) {
@@ -203,14 +196,24 @@ std::string map_of(const PerceptRecord& percept, const Declarations& declaration
 
 }  // namespace
 
+double most_given(const Bank& bank, const Declarations& declarations) {
+  const DeviceProfile& device = bank.program().description().device;
+  if (!device.shaker) return device.most();
+  constexpr float steady = 1e-3f;
+  const MeasuredShaking shaking = measure_shaking(bank, declarations.hands.find("normal"));
+  if (!(shaking.highest > 0) || shaking.highest - shaking.lowest > steady * shaking.highest) return device.most();
+  return std::min(device.most(), device.shaker->acceleration(1, shaking.highest));
+}
+
 std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declarations) {
   const PatchProgram& program = bank.program().description();
   const double given = most_given(bank, declarations);
+  const auto speed = static_cast<float>(normal_hand(declarations).speed());
   std::vector<DescribedFate> all;
   for (const FateRecord& record : program.fates) {
     const auto index = solved_percept(program, record);
     if (!index) {
-      all.push_back({record, {}});
+      all.push_back({is_of_force(record) ? fate_of_force(record, bank, speed) : record, {}});
       continue;
     }
     const double most = most_of(program, program.percepts[*index], declarations, given);
@@ -222,9 +225,9 @@ std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declar
 std::string changes_text(const DescribedFate& fate) {
   std::string text;
   for (const FateChange& each : fate.changes)
-    text += fmt::format("{}{} {} {} {:.3g}{}{}", text.empty() ? "" : "; ", fate_word(each.fate),
-                        each.above ? "above" : "below", each.parameter, each.value, each.unit.empty() ? "" : " ",
-                        each.unit);
+    text +=
+        readable("{}{} {} {} {:.3g}{}{}", text.empty() ? "" : "; ", fate_word(each.fate),
+                 each.above ? "above" : "below", each.parameter, each.value, each.unit.empty() ? "" : " ", each.unit);
   return text;
 }
 

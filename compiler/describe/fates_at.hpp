@@ -25,6 +25,10 @@ struct DescribedFate {
   std::vector<FateChange> changes;  ///< in the order of the parameters, `below` before `above`
 };
 
+/// The largest output that the device gives this program, in N or m/s^2; for a pad that shakes at one frequency, the
+/// largest there.
+double most_given(const Bank& bank, const Declarations& declarations);
+
 /// The fates of all percepts and of the physics at a bank's parameters. The program's records hold the fates for
 /// the defaults. At other parameters, the setup code gives the size of a solved percept, and its map the level.
 /// Whether the device limits a carrier that is not a force follows from the declaration of its percept.
