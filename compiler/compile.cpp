@@ -8,6 +8,7 @@
 #include "compiler/check/follow_on.hpp"
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
+#include "compiler/evidence/confirm.hpp"
 #include "compiler/grade/grade.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/modules/load_modules.hpp"
@@ -48,6 +49,55 @@ void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostic
                       .help = "the runtime holds back the rest; declare less, or choose another device"});
 }
 
+/// The loaded program of a solved material; empty after errors.
+std::optional<Program> program_of(const SolvedMaterial& solved, const CheckedModule& module, const SourceSet& sources,
+                                  Diagnostics& diagnostics) {
+  if (diagnostics.has_errors()) return std::nullopt;
+  const SourceLines lines(sources, module.modules);
+  const LoweredMaterial lowered = lower(solved, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  auto program = emit(lowered, solved, diagnostics, &lines);
+  if (!program) return std::nullopt;
+  auto loaded = Program::load(std::move(*program));
+  if (loaded) return *std::move(loaded);
+  diagnostics.report(
+      {.code = Code::program_too_large,
+       .span = solved.span,
+       .message = fmt::format("the machine refuses `{}`: {}", solved.name, in_words(loaded.error())),
+       .help = "if the material is large, make it smaller; if it is not, this is an error in the compiler"});
+  return std::nullopt;
+}
+
+/// A material and its program, which is empty after errors, and what is read of it, as far as its percepts need it.
+struct FinishedMaterial {
+  SolvedMaterial solved;
+  std::optional<Program> program;
+  ForceReading found;
+};
+
+FinishedMaterial finish(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
+                        const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
+  Diagnostics first = diagnostics;  // replaced if the material is solved again
+  FinishedMaterial finished;
+  const auto make = [&](Diagnostics& into, const BandShares& shares) {
+    finished.solved = solve(material, module, device, sources, resolver, into, shares);
+    finished.program = program_of(finished.solved, module, sources, into);
+    if (!finished.program || std::ranges::none_of(finished.solved.percepts,
+                                                  [](const SolvedPercept& each) { return each.asked.has_value(); }))
+      return;
+    finished.found = read(Bank(*finished.program), module.declarations(), parts_for(finished.program->description()));
+  };
+  make(first, {});
+  BandShares shares;
+  if (finished.program)
+    shares = band_shares(Bank(*finished.program), finished.found, finished.solved, module.declarations());
+  if (shares.empty())
+    diagnostics = std::move(first);
+  else
+    make(diagnostics, shares);
+  return finished;
+}
+
 /// "`a`, `b` and 3 more": at most eight names.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 8;
@@ -59,6 +109,11 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 }  // namespace
+
+SolvedMaterial solve_as_read(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
+                             const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
+  return finish(material, module, device, sources, resolver, diagnostics).solved;
+}
 
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
   diagnostics.renew_budget();
@@ -107,26 +162,10 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   if (!material) return std::nullopt;
   diagnostics.renew_budget();
   diagnostics.allow_text(sources[source].text.size());
-  SolvedMaterial solved = solve(*material, module, device, sources, resolver, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-
-  const SourceLines lines(sources, module.modules);
-  const LoweredMaterial lowered = lower(solved, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-  auto program = emit(lowered, solved, diagnostics, &lines);
-  if (!program) return std::nullopt;
-
-  auto loaded = Program::load(std::move(*program));
-  if (!loaded) {
-    diagnostics.report(
-        {.code = Code::program_too_large,
-         .span = solved.span,
-         .message = fmt::format("the machine refuses `{}`: {}", solved.name, in_words(loaded.error())),
-         .help = "if the material is large, make it smaller; if it is not, this is an error in the compiler"});
-    return std::nullopt;
-  }
-  if (solved.device.shaker) return *std::move(loaded);  // there is no force
-  const Bank bank(*loaded);
+  FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics);
+  const SolvedMaterial& solved = finished.solved;
+  if (!finished.program || solved.device.shaker) return std::move(finished.program);  // the latter has no force
+  const Bank bank(*finished.program);
   if (measure(bank).flat) {
     diagnostics.report({.code = Code::flat_height,
                         .span = solved.force_span,
@@ -136,7 +175,12 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   }
   warn_of_undeclared_energy(bank, solved, normal_hand(module.declarations()), diagnostics);
   warn_of_a_device_that_gives_less(solved, diagnostics);
-  return *std::move(loaded);
+  auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), diagnostics);
+  if (!fates) return std::move(finished.program);
+  PatchProgram confirmed = finished.program->description();
+  confirmed.fates = *std::move(fates);
+  auto loaded = Program::load(std::move(confirmed));
+  return loaded ? std::optional(*std::move(loaded)) : std::nullopt;
 }
 
 std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material,

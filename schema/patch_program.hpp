@@ -154,8 +154,15 @@ struct Picture {
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 
-/// How a figure came to be known, best first.
-enum class Evidence : std::uint8_t { measured = 1, published = 2, estimated = 3, recalled = 4, transferred = 5 };
+/// How a figure came to be known, best first. `extrapolated`: from a stimulus outside what was measured.
+enum class Evidence : std::uint8_t {
+  measured = 1,
+  published = 2,
+  estimated = 3,
+  recalled = 4,
+  transferred = 5,
+  extrapolated = 6
+};
 
 /// How a percept's carrier is read from a program, or from the force at the handle. Each extractor reads a different
 /// feature, so that one percept's carrier is not taken for another's.
@@ -172,6 +179,52 @@ enum class Extractor : std::uint8_t {
   steepness = 9,       ///< 1/m: the lateral force's steepest change over its amplitude
   periodicity = 10,    ///< share of the lateral force that repeats after a period, 0 .. 1
   acceleration = 11,   ///< m/s^2: amplitude of a pad's vibration under a moving hand
+};
+
+/// A range of a quantity in which a map was measured, besides that of its carrier's size.
+struct MeasuredRange {
+  std::string quantity;     ///< "period", "rate"
+  float low = 0, high = 0;  ///< SI; the largest finite number where it has no end
+  std::string unit;         ///< as its author wrote it, "mm"; empty for a plain number
+  double unit_in_si = 1;
+  bool assumed = false;  ///< not published
+
+  friend bool operator==(const MeasuredRange&, const MeasuredRange&) = default;
+};
+
+/// The kinds of surfaces, one bit each.
+enum class SurfaceProfile : std::uint8_t {
+  grating = 1,     ///< it repeats
+  noise = 2,       ///< it does not
+  photograph = 4,  ///< sampled from a picture or another table
+  bump = 8,        ///< single features
+};
+
+/// The stimuli with which a map was measured.
+struct StimulusDomain {
+  bool stated = false;          ///< otherwise nothing is known of them
+  std::uint8_t profiles = 0;    ///< bits of `SurfaceProfile`; 0 for stimuli that are no surfaces
+  std::uint8_t dimensions = 0;  ///< 1: the same along lines; 2; 0: of both kinds, or no surfaces
+  bool alone = false;           ///< nothing else pushed
+  /// Of the waveform of a grating: its largest force over its effective one. 0, 0: any.
+  float crest_low = 0, crest_high = 0;
+  bool crest_assumed = false;  ///< those bounds are not published
+
+  friend bool operator==(const StimulusDomain&, const StimulusDomain&) = default;
+};
+
+/// What a percept's figures were measured with, and how far they were not measured.
+struct Basis {
+  /// The carrier's size over the amplitude of its force: below 1 if a part of a relief counts for another percept,
+  /// above 1 if several reliefs add up.
+  float share = 1;
+  float tolerance = 0;   ///< of the level, in both directions, as its author wrote it
+  bool summand = false;  ///< its force is a term of the total force, unchanged
+  bool scatter_assumed = false, spread_assumed = false, valid_assumed = false;
+  std::vector<MeasuredRange> ranges;
+  StimulusDomain domain;
+
+  friend bool operator==(const Basis&, const Basis&) = default;
 };
 
 /// One percept of the program: the level asked for, the map that realises it, and how to read it back.
@@ -204,6 +257,7 @@ struct PerceptRecord {
   Evidence weber_evidence = Evidence::estimated;
   std::string weber_source;
   std::string realisation;  ///< the device's own force for it, in Wale; empty if the author's physics carries it
+  Basis basis;
 
   friend bool operator==(const PerceptRecord&, const PerceptRecord&) = default;
 };

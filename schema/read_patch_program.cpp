@@ -153,7 +153,7 @@ std::vector<HeightTable> read_tables(ByteReader& in) {
 Evidence read_evidence(ByteReader& in, std::string_view what) {
   const std::uint8_t value = in.u8();
   if (value < static_cast<std::uint8_t>(Evidence::measured) ||
-      value > static_cast<std::uint8_t>(Evidence::transferred)) {
+      value > static_cast<std::uint8_t>(Evidence::extrapolated)) {
     in.damaged(" has evidence grade ", int{value}, " for ", what, ", which this Wale does not know");
   }
   return static_cast<Evidence>(value);
@@ -201,6 +201,36 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
   }
   if (percepts.empty()) in.damaged(" is empty; a file without percepts leaves it out");
   return percepts;
+}
+
+/// Reads the basis of each percept; they have been read before.
+void read_bases(ByteReader& in, std::vector<PerceptRecord>& percepts) {
+  if (in.count(29, "percepts") != percepts.size() || percepts.empty())
+    in.damaged(" has not as many entries as there are percepts");
+  for (PerceptRecord& percept : percepts) {
+    Basis& basis = percept.basis;
+    basis.share = in.finite_f32("the share of a carrier");
+    basis.tolerance = in.finite_f32("the tolerance of a level");
+    for (bool* answer : {&basis.summand, &basis.scatter_assumed, &basis.spread_assumed, &basis.valid_assumed})
+      *answer = in.boolean("what is assumed");
+    StimulusDomain& domain = basis.domain;
+    domain.stated = in.boolean("whether stimuli are stated");
+    domain.profiles = in.u8(), domain.dimensions = in.u8();
+    if (domain.profiles > 15 || domain.dimensions > 2) in.damaged(" has stimuli that this Wale does not know");
+    domain.alone = in.boolean("whether stimuli were alone");
+    domain.crest_low = in.finite_f32("the crest of stimuli");
+    domain.crest_high = in.finite_f32("the crest of stimuli");
+    domain.crest_assumed = in.boolean("whether a crest is assumed");
+    basis.ranges.resize(in.count(25, "ranges"));
+    for (MeasuredRange& range : basis.ranges) {
+      range.quantity = in.text("the quantity of a range");
+      range.low = in.finite_f32("a range");
+      range.high = in.finite_f32("a range");
+      range.unit = in.text("the unit of a range");
+      range.unit_in_si = in.finite_f64("the unit of a range");
+      range.assumed = in.boolean("whether a range is assumed");
+    }
+  }
 }
 
 std::vector<FateRecord> read_fates(ByteReader& in) {
@@ -290,6 +320,7 @@ void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) 
   if (kind == "DEVI") program.device = read_device(in);
   if (kind == "VIBR") program.device.shaker = read_shaker(in);
   if (kind == "PERC") program.percepts = read_percepts(in);
+  if (kind == "EVID") read_bases(in, program.percepts);
   if (kind == "FATE") program.fates = read_fates(in);
   if (kind == "LAYR") program.layers = read_layers(in);
   if (kind == "PLAC") program.places = read_places(in, program);

@@ -118,6 +118,32 @@ void write_fates(ByteWriter& out, std::span<const FateRecord> fates) {
   }
 }
 
+void write_bases(ByteWriter& out, std::span<const PerceptRecord> percepts) {
+  out.u32(percepts.size());
+  for (const PerceptRecord& percept : percepts) {
+    const Basis& basis = percept.basis;
+    out.f32(basis.share);
+    out.f32(basis.tolerance);
+    for (const bool assumed : {basis.summand, basis.scatter_assumed, basis.spread_assumed, basis.valid_assumed}) out.u8(assumed);
+    out.u8(basis.domain.stated);
+    out.u8(basis.domain.profiles);
+    out.u8(basis.domain.dimensions);
+    out.u8(basis.domain.alone);
+    out.f32(basis.domain.crest_low);
+    out.f32(basis.domain.crest_high);
+    out.u8(basis.domain.crest_assumed);
+    out.u32(basis.ranges.size());
+    for (const MeasuredRange& range : basis.ranges) {
+      out.text(range.quantity);
+      out.f32(range.low);
+      out.f32(range.high);
+      out.text(range.unit);
+      out.f64(range.unit_in_si);
+      out.u8(range.assumed);
+    }
+  }
+}
+
 void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
   out.u32(percepts.size());
   for (const PerceptRecord& percept : percepts) {
@@ -209,6 +235,7 @@ std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& 
   if (kind == "DEVI") write_device(out, program.device);
   if (kind == "VIBR" && program.device.shaker) write_shaker(out, *program.device.shaker);
   if (kind == "PERC" && !program.percepts.empty()) write_percepts(out, program.percepts);
+  if (kind == "EVID" && !program.percepts.empty()) write_bases(out, program.percepts);
   if (kind == "FATE" && !program.fates.empty()) write_fates(out, program.fates);
   if (kind == "LAYR" && program.layers != Layers{}) write_layers(out, program.layers);
   if (kind == "PLAC" && program.places != SourcePlaces{}) write_places(out, program.places);

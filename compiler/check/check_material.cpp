@@ -78,6 +78,7 @@ class MaterialChecker {
         const bool quotient = term.kind == TermKind::operation && term.operation == Operation::divide;
         if (!(product && term.b == carrier.force_x) && !(quotient && term.a == carrier.force_x)) continue;
         if (terms.dependence(product ? term.a : term.b).in_tick()) continue;
+        material_.scales_a_texture = true;
         surroundings_.diagnostics.report(
             {.code = Code::scaled_texture,
              .span = term.span,

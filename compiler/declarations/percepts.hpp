@@ -28,7 +28,9 @@ struct Condition {
   std::string quantity;
   SizeRange range;  ///< SI
   Dimension dimension;
-  std::string written;   ///< the range as written, "0.7 mm .. 10 mm", "below 350 Hz"
+  std::string written;  ///< the range as written, "0.7 mm .. 10 mm", "below 350 Hz"
+  std::string unit;     ///< of its last number as written, "mm"; empty for a plain number
+  double unit_in_si = 1;
   bool assumed = false;  ///< the range is assumed, not published
 };
 
@@ -101,6 +103,8 @@ struct Map {
   double scatter = 0;                    ///< standard deviation of log10 magnitude around that of the average observer
   bool scatter_assumed = false;          ///< the scatter is assumed, not published
   double spread = 0;                     ///< standard deviation of the observers' exponents; 0 if unknown
+  bool spread_assumed = false;           ///< the spread is assumed, not published
+  StimulusDomain domain;                 ///< the stimuli that it was measured with
   int observers = 0;                     ///< 0: not known
   Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
   bool tied = true;  ///< tied to the percept's reference stimulus; otherwise it can order stimuli but not set levels

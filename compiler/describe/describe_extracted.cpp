@@ -5,37 +5,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/describe/describe_percept.hpp"
 #include "compiler/read/cues.hpp"
 #include "compiler/read/tolerances.hpp"
+#include "compiler/solve/basis.hpp"
 #include "compiler/solve/choose_map.hpp"
 #include "compiler/solve/law.hpp"
 
 namespace wale {
 namespace {
 
-constexpr double normal_95 = 1.96;  // 95 % of a normal distribution lie within so many standard deviations of its mean
-
-DescribedPercept told_by(const Percept& percept, const Map& map, double size, const Description& description,
-                         const Declarations& declarations) {
-  DescribedPercept told;
-  told.name = percept.name;
-  told.carrier = percept.carrier;
-  told.amplitude = size;
-  told.unit = declarations.names().unit(percept.carrier_dimension);
-  told.extracted = true;
+DescribedPercept told_by(const Percept& percept, const Map& map, double size, const DeviceDeclaration& device,
+                         const Bank& bank, const ForceReading& found, const Declarations& declarations) {
   const Law law(map, percept);
-  told.level = law.level_of(size);
-  told.magnitude = law.magnitude_of(size);
-  tell_intervals(told, map.scatter, map.spread, size / percept.one, percept.near_threshold);
-  told.outside_validity = size < map.valid_low * (1 - reading) || size > map.valid_high * (1 + reading);
-  told.alone = false;
-  told.slope = map.slope, told.anchor = map.anchor;
-  told.handle = map.device == description.device.name ? map.handle : Evidence::transferred;
-  told.worst = std::max({told.slope, told.anchor, told.handle});
-  told.observers = map.observers;
-  told.map = map.name.empty() ? fmt::format("{} from {}", map.percept, map.from) : map.name;
-  told.device = map.device;
-  told.source = map.source;
+  DescribedPercept told{.amplitude = size,
+                        .level = law.level_of(size),
+                        .magnitude = law.magnitude_of(size),
+                        .extracted = true,
+                        .alone = false};
+  PerceptRecord record = record_by(map, percept, device, declarations);
+  if (!map.name.empty()) record.map = map.name;
+  tell_evidence(told, record, bank, found, declarations);
   return told;
 }
 
@@ -97,20 +87,6 @@ DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double 
 
 }  // namespace
 
-void tell_intervals(DescribedPercept& percept, double scatter, double spread, double size_over_one,
-                    double near_threshold) {
-  const auto within = [&](double deviation, double& low, double& high) {
-    low = percept.level * std::pow(10, -normal_95 * deviation);
-    high = percept.level * std::pow(10, normal_95 * deviation);
-  };
-  within(scatter, percept.low, percept.high);
-  // People agree on the reference stimulus, which is level 1 for everyone. They differ more the further a level is from
-  // it.
-  const double apart = size_over_one > 0 ? spread * std::log10(size_over_one) : 0;
-  within(std::hypot(scatter, apart), percept.individual_low, percept.individual_high);
-  percept.near_threshold = percept.level < near_threshold;
-}
-
 void describe_extracted(Description& description, const Bank& bank, const ForceReading& found,
                         const Declarations& declarations) {
   const Cues cues = cues_of(bank, found);
@@ -122,7 +98,7 @@ void describe_extracted(Description& description, const Bank& bank, const ForceR
     const auto size = carrier_of(found, percept, declarations);
     if (!size || !(*size > 0) || !percept.has_reference) return;
     if (const Map* map = choose_map(percept, *device, declarations).map)
-      description.percepts.push_back(told_by(percept, *map, *size, description, declarations));
+      description.percepts.push_back(told_by(percept, *map, *size, *device, bank, found, declarations));
   });
   if (description.texture->force.amplitude > 0) description.no_percept.clear();
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "compiler/describe/describe.hpp"
@@ -101,32 +102,53 @@ void add_force(nlohmann::ordered_json& json, const Description& description) {
                        {"at", to_json(description.grade.stiffest)}};
 }
 
+nlohmann::ordered_json to_json(const OutsideRange& outside) {
+  const auto end = [](double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(figure(value)) : nlohmann::ordered_json(nullptr);
+  };
+  return {{"quantity", outside.quantity}, {"value_si", figure(outside.value)}, {"low_si", end(outside.low)},
+          {"high_si", end(outside.high)}, {"assumed", outside.assumed},        {"words", in_words(outside)}};
+}
+
 nlohmann::ordered_json to_json(const DescribedPercept& percept) {
-  nlohmann::ordered_json entry;
+  using Json = nlohmann::ordered_json;
+  Json entry;
+  entry["asked"] = percept.asked ? Json(figure(*percept.asked)) : Json(nullptr);
   entry["level"] = figure(percept.level);
+  entry["evidence"] = evidence_word(percept.evidence());
+  entry["evidence_of"] = {{"slope", evidence_word(percept.slope)},
+                          {"anchor", evidence_word(percept.anchor)},
+                          {"handle", evidence_word(percept.handle)},
+                          {"domain", percept.domain ? evidence_word(*percept.domain) : "not stated"}};
+  entry["domain"] = percept.domain_why;
+  Json& outside = entry["outside"] = Json::array();
+  for (const OutsideRange& each : percept.outside) outside.push_back(to_json(each));
+  entry["assumed"] = percept.assumed;
+  entry["map"] = percept.map;
+  entry["measured_on"] = percept.device;
+  entry["source"] = percept.source;
   entry["magnitude"] = figure(percept.magnitude);
   entry["low"] = figure(percept.low);
   entry["high"] = figure(percept.high);
   entry["individual_low"] = figure(percept.individual_low);
   entry["individual_high"] = figure(percept.individual_high);
   entry["near_threshold"] = percept.near_threshold;
-  entry["read_from_force"] = percept.extracted;
   entry["carrier"] = percept.carrier;
   entry["size"] = figure(percept.amplitude);
   entry["unit"] = percept.unit;
   if (percept.unit == "N") entry["amplitude_newton"] = figure(percept.amplitude);
+  if (percept.solved) entry["solved_size"] = figure(percept.aimed);
+  entry["read"] = percept.readable;
+  entry["read_from_force"] = percept.extracted;
   if (!percept.realisation.empty()) entry["realised_as"] = percept.realisation;
-  if (percept.asked) entry["asked"] = figure(*percept.asked);
+  if (!percept.settings.empty()) {
+    Json& settings = entry["settings"] = Json::array();
+    for (const DescribedPercept::Setting& each : percept.settings)
+      settings.push_back({{"asked", figure(each.asked)}, {"level", figure(each.reads)}});
+  }
   entry["saturated"] = percept.saturated;
-  entry["outside_validity"] = percept.outside_validity;
+  entry["outside_validity"] = percept.outside_validity();
   entry["alone"] = percept.alone;
-  entry["evidence"] = evidence_word(percept.worst);
-  entry["evidence_of"] = {{"slope", evidence_word(percept.slope)},
-                          {"anchor", evidence_word(percept.anchor)},
-                          {"handle", evidence_word(percept.handle)}};
-  entry["map"] = percept.map;
-  entry["measured_on"] = percept.device;
-  entry["source"] = percept.source;
   return entry;
 }
 

@@ -18,39 +18,82 @@ std::string heading(const Description& description) {
   return description.material;
 }
 
+/// "measured: slope measured, …" and how the stimulus differs from those that the map was measured with.
+std::vector<std::string> evidence_lines(const DescribedPercept& percept) {
+  const std::string domain = percept.domain ? "domain " + evidence_word(*percept.domain) : "domain not stated";
+  const std::string word = evidence_word(percept.evidence());
+  std::vector<std::string> lines;
+  const bool alike = percept.slope == percept.anchor && percept.anchor == percept.handle && percept.domain &&
+                     *percept.domain == percept.slope;
+  lines.push_back(alike ? fmt::format("{}: slope, anchor, handle and domain", word)
+                        : fmt::format("{}: slope {}, anchor {}, handle {}, {}", word, evidence_word(percept.slope),
+                                      evidence_word(percept.anchor), evidence_word(percept.handle), domain));
+  for (const OutsideRange& each : percept.outside)
+    lines.push_back(fmt::format("outside what was measured ({})", in_words(each)));
+  if (!percept.domain_why.empty()) lines.push_back(percept.domain_why);
+  lines.push_back(fmt::format("{} ({}, on {})", percept.source, percept.map, percept.device));
+  return lines;
+}
+
+std::vector<std::string> reading_lines(const DescribedPercept& percept, const Description& description) {
+  std::vector<std::string> lines;
+  if (percept.amplitude == 0) {
+    lines.push_back(fmt::format("{:.2f}: nothing in the finished program carries it", percept.level));
+    return lines;
+  }
+  const auto assumed = [&](const char* figure) {
+    return std::ranges::find(percept.assumed, figure) != percept.assumed.end() ? fmt::format(" ({} assumed)", figure)
+                                                                               : "";
+  };
+  lines.push_back(fmt::format("{:.2f} from {} {:.4g} {} (magnitude {:.3g})", percept.level, percept.carrier,
+                              percept.amplitude, percept.unit, percept.magnitude));
+  std::string people = fmt::format("95 % of the means of {}: {:.2f} .. {:.2f}{}",
+                                   percept.observers > 0 ? fmt::format("{} people", percept.observers) : "groups",
+                                   percept.low, percept.high, assumed("scatter"));
+  if (percept.individual_high > percept.high * 1.005)
+    people += fmt::format("; of single people: {:.2f} .. {:.2f}{}", percept.individual_low, percept.individual_high,
+                          assumed("spread"));
+  lines.push_back(people);
+  if (!percept.readable && !description.shaking)
+    lines.push_back(
+        fmt::format("not read but aimed at: `{}` cuts the forces, which hides it", description.device.name));
+  if (percept.near_threshold) lines.emplace_back("near or below threshold");
+  if (percept.saturated)
+    lines.push_back(fmt::format("saturated: `{}` cannot {} harder", description.device.name,
+                                description.shaking ? "shake" : "push"));
+  if (!percept.realisation.empty())
+    lines.push_back(fmt::format("{}`{}` renders it as {}", description.shaking ? "" : "the author wrote no physics: ",
+                                description.device.name, percept.realisation));
+  if (!percept.alone && !percept.extracted)
+    lines.push_back(fmt::format("other {} too, so a run cannot read it back",
+                                description.shaking ? "percepts shake it" : "forces push"));
+  return lines;
+}
+
+std::string asked_line(const DescribedPercept& percept) {
+  if (!percept.asked) return "nothing";
+  return fmt::format("{:.2f}{}", *percept.asked,
+                     percept.blended  ? ", by the levels of its components"
+                     : percept.solved ? ""
+                                      : ", and the author wrote the force");
+}
+
 void write_percepts(std::string& text, const Description& description) {
   text += "\nfeels\n";
   if (!description.no_percept.empty())
     text += fmt::format("  {}: {}\n", description.percepts.empty() ? "none can be read" : "no roughness",
                         description.no_percept);
   for (const auto& percept : description.percepts) {
-    text +=
-        fmt::format("  {:<12} {:.2f}   (95 % of the means of {}: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
-                    percept.level, percept.observers > 0 ? fmt::format("{} people", percept.observers) : "groups",
-                    percept.low, percept.high, percept.magnitude);
-    text += fmt::format("  {:<12} {} {:.4g} {}{}\n", "", percept.carrier, percept.amplitude, percept.unit,
-                        percept.asked       ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked)
-                        : percept.blended   ? ", solved for the levels of its components"
-                        : percept.extracted ? ", read from the force"
-                                            : ", written by the author");
-    if (percept.individual_high > percept.high * 1.005)
-      text += fmt::format("  {:<12} 95 % of single people: {:.2f} .. {:.2f}\n", "", percept.individual_low,
-                          percept.individual_high);
-    if (percept.near_threshold) text += fmt::format("  {:<12} near or below threshold\n", "");
-    if (percept.saturated)
-      text += fmt::format("  {:<12} saturated: `{}` cannot {} harder\n", "", description.device.name,
-                          description.shaking ? "shake" : "push");
-    if (!percept.realisation.empty())
-      text += fmt::format("  {:<12} {}`{}` renders it as {}\n", "",
-                          description.shaking ? "" : "the author wrote no physics: ", description.device.name,
-                          percept.realisation);
-    if (percept.outside_validity) text += fmt::format("  {:<12} outside the range that was measured\n", "");
-    if (!percept.alone && !percept.extracted)
-      text += fmt::format("  {:<12} other {} too, so a run cannot read it back\n", "",
-                          description.shaking ? "percepts shake it" : "forces push");
-    text += fmt::format("  {:<12} evidence: slope {}, anchor {}, handle {}\n", "", evidence_word(percept.slope),
-                        evidence_word(percept.anchor), evidence_word(percept.handle));
-    text += fmt::format("  {:<12} {} ({}, on {})\n", "", percept.source, percept.map, percept.device);
+    std::string name = percept.name;
+    const auto add = [&](std::string label, const std::vector<std::string>& lines) {
+      for (const std::string& line : lines) {
+        text += fmt::format("  {:<12} {:<9} {}\n", name, label, line);
+        name.clear(), label.clear();
+      }
+    };
+    add("asked", {asked_line(percept)});
+    add("reads", reading_lines(percept, description));
+    add("evidence", evidence_lines(percept));
   }
 }
 
@@ -59,7 +102,25 @@ std::string range_text(const Parameter& parameter, float low, float high) {
                      parameter.unit.empty() ? "" : " ", parameter.unit);
 }
 
-void write_parameters(std::string& text, const std::vector<Parameter>& parameters) {
+/// "; reads as asked at 0, 0.5 and 1", of a level that was solved.
+std::string settings_text(const std::vector<DescribedPercept>& percepts, const std::string& parameter) {
+  const auto percept = std::ranges::find(percepts, parameter, &DescribedPercept::parameter);
+  if (percept == percepts.end() || percept->settings.empty()) return {};
+  const bool as_asked = std::ranges::all_of(percept->settings, [](const DescribedPercept::Setting& each) {
+    return std::abs(each.asked - each.reads) < 0.005;
+  });
+  std::vector<std::string> asked, reads;
+  for (const DescribedPercept::Setting& each : percept->settings) {
+    asked.push_back(with_digits(each.asked, 2));
+    reads.push_back(with_decimals(each.reads, 2));
+  }
+  return as_asked ? fmt::format("; reads as asked at {}, {} and {}", asked[0], asked[1], asked[2])
+                  : fmt::format("; at {}, {} and {} it reads {}, {} and {}", asked[0], asked[1], asked[2], reads[0],
+                                reads[1], reads[2]);
+}
+
+void write_parameters(std::string& text, const Description& description) {
+  const std::vector<Parameter>& parameters = description.parameters;
   text += "\nparameters\n";
   if (parameters.empty()) text += "  none\n";
   std::size_t width = 12;
@@ -68,7 +129,8 @@ void write_parameters(std::string& text, const std::vector<Parameter>& parameter
     const bool usual = parameter.soft_low != parameter.low || parameter.soft_high != parameter.high;
     text += fmt::format("  {:<{}} {:<12} {:<20} {}\n", parameter.name, width,
                         fmt::format("{} {}", shown(parameter.value, parameter.unit_in_si), parameter.unit),
-                        range_text(parameter, parameter.low, parameter.high), parameter.description);
+                        range_text(parameter, parameter.low, parameter.high),
+                        parameter.description + settings_text(description.percepts, parameter.name));
     if (usual)
       text += fmt::format("  {:<{}} {:<12} usually {}\n", "", width, "",
                           range_text(parameter, parameter.soft_low, parameter.soft_high));
@@ -85,7 +147,7 @@ void write_fates(std::string& text, const Description& description) {
   for (const DescribedFate& described : description.fates) {
     const FateRecord& each = described.record;
     std::string level;
-    if (each.percept && each.fate == Fate::saturated)
+    if (each.percept && std::abs(each.given - each.asked) >= 0.005f && each.fate != Fate::lost)
       level = fmt::format(" from {:.2f} to {:.2f}", each.asked, each.given);
     // Of a force that no level asked for, nothing was compared: it is only not solved for.
     const std::string reason =
@@ -205,7 +267,7 @@ std::string description_text(const Description& description) {
     write_shaking(text, *description.shaking);
   else
     write_pushing(text, description);
-  write_parameters(text, description.parameters);
+  write_parameters(text, description);
   write_memory(text, description);
   write_shown(text, description);
   const auto& code = description.code;

@@ -8,6 +8,7 @@
 #include "compiler/declarations/declarations.hpp"
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/evidence/percept_reading.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/solve/saturation.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
@@ -124,10 +125,8 @@ class FateFinder {
     return now;
   }
 
-  /// How the percept is realised, which is the same at all parameters. The program's record says it, unless the percept
-  /// saturates at the defaults: then the record gives the saturation as its reason.
+  /// How the percept is realised, which is the same at all parameters.
   std::string realised_how() const {
-    if (record_.fate != Fate::saturated) return record_.reason;
     const bool foreign = percept_.handle == Evidence::transferred && percept_.device != program_.device.name;
     return realisation_reason(percept_.realisation, foreign ? map_ : "", percept_.device);
   }
@@ -188,7 +187,7 @@ double most_given(const Bank& bank, const Declarations& declarations) {
 /// The largest size of a percept's carrier that an output of `given` allows, in the percept's unit.
 double most_of(const PatchProgram& program, const PerceptRecord& percept, const Declarations& declarations,
                double given) {
-  if (percept.unit == (program.vibrates() ? "m/s^2" : "N")) return given;
+  if (percept.unit == (program.vibrates() ? "m/s^2" : "N")) return given * percept.basis.share;
   const Percept* declared = declarations.percepts.find(percept.name);
   return declared && declared->exerts > 0 ? given / declared->exerts : HUGE_VAL;
 }
@@ -203,7 +202,25 @@ std::string map_of(const PerceptRecord& percept, const Declarations& declaration
 
 }  // namespace
 
-std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declarations) {
+namespace {
+
+/// Corrects a fate by what the program reads at the bank's parameters.
+void confirm_fate(FateRecord& fate, const Bank& bank, std::size_t index, const ForceReading& found,
+                  const Declarations& declarations) {
+  const PerceptRecord& record = bank.program().description().percepts[index];
+  const PerceptReading told = percept_reading(bank, index, found, declarations);
+  const std::string why = why_approximated(record, told, fate.asked, found, declarations);
+  if (why.empty() || (fate.fate == Fate::saturated && outside_ranges(record, told).empty())) return;
+  if (fate.fate != Fate::saturated) {
+    fate.fate = Fate::approximated;
+    fate.given = static_cast<float>(std::clamp(told.level, 0.0, 1.0));
+  }
+  fate.reason = fate.reason.empty() ? why : fmt::format("{}; {}", why, fate.reason);
+}
+
+}  // namespace
+
+std::vector<DescribedFate> fates_at(const Bank& bank, const ForceReading& found, const Declarations& declarations) {
   const PatchProgram& program = bank.program().description();
   const double given = most_given(bank, declarations);
   std::vector<DescribedFate> all;
@@ -215,8 +232,13 @@ std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declar
     }
     const double most = most_of(program, program.percepts[*index], declarations, given);
     all.push_back(FateFinder(bank, record, *index, most, map_of(program.percepts[*index], declarations)).found());
+    confirm_fate(all.back().record, bank, *index, found, declarations);
   }
   return all;
+}
+
+std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declarations) {
+  return fates_at(bank, read(bank, declarations, parts_for(bank.program().description())), declarations);
 }
 
 std::string changes_text(const DescribedFate& fate) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/preview/axis.hpp"
@@ -29,13 +30,14 @@ std::vector<std::string> said(const Layers& layers, std::string_view word) {
 /// "roughness: measured (Minsky 1995, figure 19) on sandpaper, 95 % of observers' means within 0.48 .. 0.75": the worst
 /// of the three grades, its source and its interval.
 std::string evidence_of(const DescribedPercept& percept) {
-  std::string text = fmt::format("{}: {}", percept.name, evidence_word(percept.worst));
+  std::string text = fmt::format("{}: {}", percept.name, evidence_word(percept.evidence()));
   if (!percept.source.empty()) text += fmt::format(" ({})", percept.source);
   if (!percept.device.empty()) text += " on " + percept.device;
   if (percept.low < percept.high)
     text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.low, percept.high);
   if (percept.saturated) text += ", limited by the device";
-  if (percept.outside_validity) text += ", outside the measured range";
+  for (const OutsideRange& each : percept.outside)
+    text += fmt::format(", outside what was measured ({})", in_words(each));
   return text;
 }
 
@@ -54,7 +56,9 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
   const Description description = describe(bank, declarations, Texture::left_out);
   std::vector<std::string> evidence;
   for (const DescribedPercept& percept : description.percepts) {
-    text.figures.push_back({percept.name, fmt::format("{:.2f}", percept.level)});
+    const bool otherwise = percept.asked && std::abs(*percept.asked - percept.level) >= 0.005;
+    text.figures.push_back({percept.name, otherwise ? fmt::format("{:.2f}, asked {:.2f}", percept.level, *percept.asked)
+                                                    : fmt::format("{:.2f}", percept.level)});
     const Notation notation = percept.unit == "m/s^2" ? Notation{"m/s²", 1} : force_notation(percept.amplitude);
     text.figures.push_back({percept.carrier, shown_quantity(percept.amplitude, notation)});
     evidence.push_back(evidence_of(percept));

@@ -5,6 +5,7 @@
 
 #include "compiler/declarations/discrimination.hpp"
 #include "compiler/expression/check_expression.hpp"
+#include "compiler/solve/basis.hpp"
 #include "compiler/solve/saturation.hpp"
 #include "compiler/solve/solve_percepts.hpp"
 
@@ -156,42 +157,30 @@ std::map<std::uint32_t, TermId> PerceptSolver::sizes(SolvedMaterial& solved, Ter
   if (may_exceed()) reduce(solved, copy);
   terms.attribute({});
   std::map<std::uint32_t, TermId> sizes;
-  for (const Told& told : told_)
-    if (told.solved) sizes[(*terms_)[(*carriers_)[told.carrier].size].index] = *told.term;
+  for (const Told& told : told_) {
+    if (!told.solved) continue;
+    // Where a part of the relief counts for another percept, the whole is larger.
+    const double share = band_share(told);
+    const TermId whole =
+        share == 1 ? *told.term : terms.apply(Operation::multiply, terms.literal(1 / share), *told.term);
+    sizes[(*terms_)[(*carriers_)[told.carrier].size].index] = whole;
+  }
   return sizes;
 }
 
-PerceptRecord PerceptSolver::record(const Told& told) const {
+PerceptRecord PerceptSolver::record(const Told& told) {
   const Percept& percept = *told.percept;
-  const Map& map = *told.map;
   const Carrier& carrier = (*carriers_)[told.carrier];
-  PerceptRecord record;
-  record.name = percept.name;
-  record.carrier = percept.carrier;
+  PerceptRecord record = record_by(*told.map, percept, device_, declarations_);
   const Told& setting = told.shares == none ? told : told_[told.shares];
   record.blended = setting.solved && setting.asked->blended;
   if (setting.solved && !record.blended) record.parameter = static_cast<std::uint16_t>(setting.parameter);
   record.alone = force_[0] == carrier.force_x && force_[1] == carrier.force_y;
-  record.valid_low = static_cast<float>(map.valid_low);
-  record.valid_high = static_cast<float>(map.valid_high);
-  record.scatter = static_cast<float>(map.scatter);
-  record.slope = map.slope;
-  record.anchor = map.anchor;
-  record.handle = is_of(map, device_) ? map.handle : Evidence::transferred;
-  record.map = map.percept + " from " + map.from;
-  record.device = map.device;
-  record.source = map.source;
-  record.unit = unit(percept);
-  record.extractor = percept.extractor;
-  if (std::isfinite(percept.period.high)) {
-    record.period_low = static_cast<float>(percept.period.low);
-    record.period_high = static_cast<float>(percept.period.high);
-  }
-  record.one = static_cast<float>(map.one.value_or(percept.one));
-  record.near_threshold = static_cast<float>(percept.near_threshold);
-  record.spread = static_cast<float>(map.spread);
-  record.observers = static_cast<std::uint16_t>(std::clamp(map.observers, 0, 65535));
-  const Discrimination people(declarations_, percept.cue, device_.profile.name, percept.exerts);
+  record.basis.summand = is_whole(carrier);
+  const double share = band_share(setting);
+  record.basis.share = static_cast<float>(share);
+  if (told.asked) record.basis.tolerance = static_cast<float>(told.asked->tolerance);
+  const Discrimination people(declarations_, percept.cue, device_.profile.name, share * percept.exerts);
   if (const Threshold* threshold = people.threshold(told.size, told.size)) {
     record.weber = static_cast<float>(threshold->weber);
     record.floor = static_cast<float>(people.floor(*threshold));
@@ -256,6 +245,8 @@ void PerceptSolver::describe(SolvedMaterial& solved) {
     each.magnitude = *magnitude;
     each.level = *level;
     if (told.asked) each.asked = told.asked->level;
+    const Carrier& carrier = (*carriers_)[told.carrier];
+    each.force = {solved.solutions_end + carrier.force_x, solved.solutions_end + carrier.force_y};
     each.record = record(told);
     solved.percepts.push_back(std::move(each));
   }

@@ -21,12 +21,13 @@ class Solver {
  public:
   /// `physics` are the fates of the material's physics, if they are known already.
   Solver(const CheckedMaterial& material, const CheckedModule& module, const SourceSet& sources, Resolver& resolver,
-         Diagnostics& diagnostics, std::vector<FateRecord> physics = {})
+         Diagnostics& diagnostics, const BandShares& shares, std::vector<FateRecord> physics = {})
       : material_(material),
         declarations_(module.declarations()),
         sources_(sources),
         resolver_(resolver),
         diagnostics_(diagnostics),
+        shares_(shares),
         physics_(std::move(physics)) {}
 
   SolvedMaterial solve(const std::string& device_name) {
@@ -58,7 +59,7 @@ class Solver {
     states_ = material_.states;
     if (!force_ && !realise_percepts()) return std::move(solved_);
 
-    PerceptSolver percepts(material_, declarations_, *device_, diagnostics_);
+    PerceptSolver percepts(material_, declarations_, *device_, shares_, diagnostics_);
     percepts.plan(*open_terms_, carriers_, *force_, realised_, lost_, solved_.parameters);
     for (std::size_t i = 0; i < open_spans_.size(); ++i)
       if (const auto open = static_cast<std::uint32_t>(i);
@@ -378,6 +379,7 @@ class Solver {
   const SourceSet& sources_;
   Resolver& resolver_;
   Diagnostics& diagnostics_;
+  const BandShares& shares_;
   const DeviceDeclaration* device_ = nullptr;
   SolvedMaterial solved_;
   Terms terms_;  ///< the material's, and those of a realisation if there is one
@@ -398,13 +400,13 @@ class Solver {
 }  // namespace
 
 SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
-                     const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
+                     const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics, const BandShares& shares) {
   const DeviceDeclaration* found = module.declarations().devices.find(device);
   if (!found || !found->profile.shaker || !material.force)
-    return Solver(material, module, sources, resolver, diagnostics).solve(device);
+    return Solver(material, module, sources, resolver, diagnostics, shares).solve(device);
   std::vector<FateRecord> physics;
   const CheckedMaterial rest = without_force(material, *found, module.declarations(), physics);
-  return Solver(rest, module, sources, resolver, diagnostics, std::move(physics)).solve(device);
+  return Solver(rest, module, sources, resolver, diagnostics, shares, std::move(physics)).solve(device);
 }
 
 }  // namespace wale

@@ -48,6 +48,25 @@ void PerceptSolver::find_summands() {
   }
 }
 
+/// Whether the carrier's force is whole in the total force, whatever is added to it or taken from it.
+bool PerceptSolver::is_whole(const Carrier& carrier) {
+  std::vector<std::array<TermId, 2>> waiting{force_};
+  std::unordered_set<std::uint64_t> seen;
+  while (!waiting.empty() && diagnostics_.charge(1, material_.span, Work::solving)) {
+    const auto [x, y] = waiting.back();
+    waiting.pop_back();
+    if (x == carrier.force_x && y == carrier.force_y) return true;
+    if (!seen.insert(std::uint64_t{x} << 32 | y).second) continue;
+    const Term &of_x = (*terms_)[x], &of_y = (*terms_)[y];
+    if (of_x.kind != TermKind::operation || of_y.kind != TermKind::operation || of_x.operation != of_y.operation)
+      continue;
+    if (of_x.operation != Operation::add && of_x.operation != Operation::subtract) continue;
+    waiting.push_back({of_x.a, of_y.a});
+    if (of_x.operation == Operation::add) waiting.push_back({of_x.b, of_y.b});
+  }
+  return false;
+}
+
 /// Whether the carrier's force is a term of the total force, unchanged: neither scaled nor limited nor switched.
 bool PerceptSolver::is_summand(const Carrier& carrier) {
   if (summands_.empty()) find_summands();
@@ -55,10 +74,13 @@ bool PerceptSolver::is_summand(const Carrier& carrier) {
 }
 
 const Percept& PerceptSolver::percept(const std::string& name) {
-  if (!device_.profile.shaker) return *declarations_.percepts.find(name);
+  const auto share = shares_.find(name);
+  if (!device_.profile.shaker && share == shares_.end()) return *declarations_.percepts.find(name);
   const auto found = percepts_.find(name);
   if (found != percepts_.end()) return found->second;
-  return percepts_.emplace(name, carried_on(device_, *declarations_.percepts.find(name), declarations_)).first->second;
+  Percept carried = carried_on(device_, *declarations_.percepts.find(name), declarations_);
+  if (share != shares_.end()) carried.exerts /= share->second;
+  return percepts_.emplace(name, std::move(carried)).first->second;
 }
 
 void PerceptSolver::find_told_carriers() {

@@ -57,10 +57,10 @@ TEST(DescribingForces, AFaintStimulusIsNearTheThreshold) {
   const Description faint = described(grating(7, 2.5));
   ASSERT_TRUE(roughness = percept(faint, "roughness"));
   EXPECT_TRUE(roughness->near_threshold);
-  EXPECT_TRUE(roughness->outside_validity);  // the experiment began at 9 units
+  EXPECT_TRUE(roughness->outside_validity());  // the experiment began at 9 units
   const Description plain = described(grating(100, 2.5));
   ASSERT_TRUE(roughness = percept(plain, "roughness"));
-  EXPECT_FALSE(roughness->near_threshold || roughness->outside_validity);
+  EXPECT_FALSE(roughness->near_threshold || roughness->outside_validity());
 }
 
 TEST(DescribingForces, ClassesAreThoseInWhichTheSubjectsSorted) {

@@ -73,6 +73,18 @@ inline PerceptRecord roughness() {
   percept.weber_evidence = Evidence::recalled;
   percept.weber_source = "Tan 1992";
   percept.realisation = "lateral(sin(x))";
+  percept.basis = {.share = 0.75f,
+                   .tolerance = 0.1f,
+                   .summand = true,
+                   .spread_assumed = true,
+                   .ranges = {{"period", 0.0007f, 0.01f, "mm", 1e-3, true}, {"rate", -1e30f, 350, "Hz", 1, false}},
+                   .domain = {.stated = true,
+                              .profiles = 5,
+                              .dimensions = 1,
+                              .alone = true,
+                              .crest_low = 1.2f,
+                              .crest_high = 2.2f,
+                              .crest_assumed = true}};
   return percept;
 }
 
