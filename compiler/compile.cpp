@@ -9,9 +9,11 @@
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
 #include "compiler/grade/grade.hpp"
+#include "compiler/measure/hands.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/parse/parse.hpp"
+#include "compiler/solve/plausible.hpp"
 #include "compiler/solve/solve.hpp"
 #include "schema/spelling.hpp"
 
@@ -46,6 +48,50 @@ void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostic
                       .message = fmt::format("`{}` declares {:.2g} W, but `{}` gives a program at most {:.2g} W",
                                              material.name, material.active_watt, device.name, device.active_watt),
                       .help = "the runtime holds back the rest; declare less, or choose another device"});
+}
+
+/// Reports a texture without slope, which cannot push; a height that only jumps has none either.
+void report_flat_height(const SolvedMaterial& solved, const CheckedMaterial& material, Diagnostics& diagnostics) {
+  const auto jump = find_jump(material, solved.device);
+  diagnostics.report(
+      {.code = Code::flat_height,
+       .span = jump ? jump->span : solved.force_span,
+       .message = jump ? "this height has no slope: it is level, and jumps from level to level"
+                       : "this height is flat inside the patch, and a flat height gives no force",
+       .help = jump ? "let it rise over a distance, as `smoothstep(x / 1 mm)` does"
+                    : "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
+}
+
+/// Warns of a height with slopes that jumps besides.
+void warn_of_jumps(const SolvedMaterial& solved, const CheckedMaterial& material, Diagnostics& diagnostics) {
+  const auto found = find_jump(material, solved.device);
+  if (!found) return;
+  diagnostics.report(
+      {.code = Code::jumping_height,
+       .span = found->span,
+       .message =
+           fmt::format("this height jumps by {:.0f} % of its range at ({:.1f}, {:.1f}) mm, where the force would "
+                       "be infinite; `{}` leaves the jump out",
+                       100 * found->jump.share, 1e3 * found->jump.x, 1e3 * found->jump.y, found->function),
+       .help = "let it rise over a distance, as `smoothstep(x / 1 mm)` does, or begin and end at the same height"});
+}
+
+/// Warns of a material whose force is zero for every hand, unless it says so itself.
+void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const SolvedMaterial& solved,
+                      const Measured& measured, Diagnostics& diagnostics) {
+  const auto is_zero = [&](TermId id) { return solved.terms[id].known(); };
+  const bool says_so = is_zero(solved.force[0]) && is_zero(solved.force[1]);
+  const auto& asked = material.percepts;
+  const bool asks_for_none = std::ranges::any_of(asked, [](const AskedPercept& each) { return each.level == 0; });
+  if (measured.max_newton > 0 || says_so || asks_for_none || depends_on_the_moment(bank.program().description()) ||
+      !solved.states.empty() || !solved.memories.empty())
+    return;
+  diagnostics.report({.code = Code::never_pushes,
+                      .span = solved.force_span,
+                      .message = fmt::format("`{}` never pushes: its force is 0 at every place of its patch, {:.0f} mm "
+                                             "by {:.0f} mm, and at every velocity",
+                                             solved.name, 1e3 * solved.patch_width, 1e3 * solved.patch_height),
+                      .help = "look for a length in m instead of mm, or for a size of 0"});
 }
 
 /// "`a`, `b` and 3 more": at most eight names.
@@ -112,6 +158,7 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
 
   const SourceLines lines(sources, module.modules);
   const LoweredMaterial lowered = lower(solved, diagnostics);
+  if (lowered.flat && !diagnostics.has_errors()) report_flat_height(solved, *material, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   auto program = emit(lowered, solved, diagnostics, &lines);
   if (!program) return std::nullopt;
@@ -127,12 +174,16 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   }
   if (solved.device.shaker) return *std::move(loaded);  // there is no force
   const Bank bank(*loaded);
-  if (measure(bank).flat) {
-    diagnostics.report({.code = Code::flat_height,
-                        .span = solved.force_span,
-                        .message = "this height is flat, and a flat height gives no force",
-                        .help = "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
+  const Measured measured = measure(bank);
+  if (measured.flat || find_level(*material, solved.device)) {
+    report_flat_height(solved, *material, diagnostics);
     return std::nullopt;
+  }
+  // An argument that was hardly meant, and is reported, may be why a force is strange; it is said once.
+  if (!material->doubted) {
+    warn_of_jumps(solved, *material, diagnostics);
+    warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
+    warn_of_no_force(bank, *material, solved, measured, diagnostics);
   }
   warn_of_undeclared_energy(bank, solved, normal_hand(module.declarations()), diagnostics);
   warn_of_a_device_that_gives_less(solved, diagnostics);

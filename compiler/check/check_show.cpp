@@ -150,6 +150,16 @@ void ShowChecker::colour(const SyntaxTree& tree, const Call& call) {
     const Value value = checker_.check_as(tree, arguments[i].value, scope_, Value::Type::number, Dimension{});
     if (value.failed() || !is_of_place(value)) return;
     parts[i] = value.x;
+    const auto known = constant_value(material_.terms, value.x);
+    if (known && !(*known >= 0 && *known <= 1))
+      report(Code::beyond_soft_range, value.span,
+             fmt::format("`{}` is {:.4g}, and the parts of a colour go from 0 to 1",
+                         i == 0   ? "red"
+                         : i == 1 ? "green"
+                                  : "blue",
+                         *known),
+             *known > 1 && *known <= 255 ? fmt::format("if it goes to 255, write `{:.3g}`", *known / 255)
+                                         : "give a number from 0 to 1");
   }
   material_.colour = parts;
 }

@@ -4,11 +4,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <type_traits>
 #include <utility>
 
 namespace wale {
 
 namespace {
+
+/// The name that a statement declares, or null.
+const Word* declared_word(const PhysicalStatement& statement) {
+  return std::visit(
+      [](const auto& node) -> const Word* {
+        using Node = std::decay_t<decltype(node)>;
+        if constexpr (std::is_same_v<Node, ForceStatement>)
+          return node.name ? &*node.name : nullptr;
+        else if constexpr (requires { node.name; } && !std::is_same_v<Node, UpdateStatement>)
+          return &node.name;
+        else
+          return nullptr;
+      },
+      statement.what);
+}
 
 /// "3.25 mm", "0.5".
 std::string with_unit(double value, const std::string& unit) {
@@ -31,13 +48,21 @@ void StatementChecker::check(const std::vector<AssembledStatement>& statements) 
   };
   const auto parameters = static_cast<std::size_t>(std::ranges::count_if(statements, is_parameter));
   if (material_.parameters.empty()) material_.parameters.reserve(parameters);
+  checker_.look_below([&](std::string_view name) -> std::optional<Span> {
+    if (!statement_) return std::nullopt;
+    for (const auto& each : std::span(statement_ + 1, statements.data() + statements.size()))
+      if (const Word* declared = declared_word(*each.statement); declared && declared->text == name)
+        return declared->span;
+    return std::nullopt;
+  });
   for (const auto& assembled : statements) {
     const Span& span = assembled.statement->span;
-    if (!checker_.charge(operations_of_a_statement + operations_of_text(span), span)) return;
+    if (!checker_.charge(operations_of_a_statement + operations_of_text(span), span)) break;
     statement_ = &assembled;
     checker_.read(*assembled.home);
     std::visit(*this, assembled.statement->what);
   }
+  checker_.look_below({});
 }
 
 // ---- values -------------------------------------------------------------------------------------------------------

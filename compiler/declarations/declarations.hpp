@@ -203,6 +203,12 @@ struct Declarations {
   /// All names of percepts, antonyms included.
   std::vector<std::string> percept_spellings() const;
 
+  /// The dimension with that name; `number` is that of plain numbers, if no dimension is called so.
+  std::optional<Dimension> dimension_named(std::string_view name) const {
+    if (const auto* found = dimensions.find(name)) return *found;
+    return name == "number" ? std::optional(Dimension{}) : std::nullopt;
+  }
+
   /// The dimension with that name; a plain number if a broken schema/units.wale lacks it.
   Dimension dimension(std::string_view name) const {
     const auto* found = dimensions.find(name);

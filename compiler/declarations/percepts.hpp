@@ -119,10 +119,11 @@ struct Map {
 
 /// The task by which a threshold was measured. It relates the criterion, a share p of correct answers, to d'.
 enum class Task {
-  forced_choice,  ///< choose one of two; d' = sqrt(2) z(p)
-  adjustment,     ///< make one equal to the other; d' = sqrt(2) z(p)
-  yes_no,         ///< say whether there is a difference; d' = 2 z(p) for an unbiased observer
-  one_interval,   ///< feel one of two and say which it is; d' = 2 z(p) for an unbiased observer
+  forced_choice,   ///< choose one of two; d' = sqrt(2) z(p)
+  adjustment,      ///< make one equal to the other; d' = sqrt(2) z(p)
+  yes_no,          ///< say whether there is a difference; d' = 2 z(p) for an unbiased observer
+  one_interval,    ///< feel one of two and say which it is; d' = 2 z(p) for an unbiased observer
+  identification,  ///< feel one of many and say which it is; gives `Threshold::recognised` and no d'
 };
 
 /// The smallest noticeable difference of a cue.
@@ -137,6 +138,9 @@ struct Threshold {
   double weber = 0;  ///< Weber fraction at d' = 1
   double floor = 0;  ///< smallest difference at d' = 1 near the absolute threshold, SI; 0 if unknown
   bool floor_assumed = false;
+  /// Of sizes felt one at a time, without another to compare with: how many people name correctly (absolute
+  /// identification). Such a record has no fraction and tells no two sizes apart; 0 in all others.
+  double recognised = 0;
   std::optional<Condition> valid;     ///< the sizes of the cue that were compared; empty if unknown
   std::vector<Condition> conditions;  ///< other conditions of the measurement: "speed", 25 mm/s .. 160 mm/s
   int observers = 0;                  ///< 0: not known

@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "compiler/describe/fates_at.hpp"
-#include "compiler/read/relief.hpp"
 #include "compiler/grade/grade.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/prove/force_bound.hpp"
 #include "compiler/prove/prove.hpp"
+#include "compiler/read/relief.hpp"
+#include "compiler/read/wall.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
@@ -43,8 +44,8 @@ struct DescribedPercept {
 
 /// The texture of a program's force, and its name by the `rule`s that classify textures.
 struct DescribedTexture {
-  Relief force;       ///< with amplitude 0 there is no relief
-  std::string kind;    ///< in the words of the rules: "grating", "perlin", "spring", "viscous", "nothing", …
+  Relief force;      ///< with amplitude 0 there is no relief
+  std::string kind;  ///< in the words of the rules: "grating", "perlin", "spring", "viscous", "nothing", …
   /// what its strongest wave counts as, by its period: "roughness", "bumpiness"; empty without one, and if it
   /// is too fine for any
   std::string counts_as;
@@ -62,8 +63,13 @@ struct Description {
   Layers layers;
   std::vector<DescribedPercept> percepts;
   std::optional<DescribedTexture> texture;  ///< if declarations were given
-  std::string no_percept;                   ///< why no percept is of a texture, in a line; empty if one is
-  std::vector<DescribedFate> fates;         ///< fate of each percept and of the physics on the device
+  struct Wall {
+    WallFace face;
+    WallDepth depth;
+  };
+  std::optional<Wall> wall;          ///< the stiffest, if a reading found one
+  std::string no_percept;            ///< why no percept is of a texture, in a line; empty if one is
+  std::vector<DescribedFate> fates;  ///< fate of each percept and of the physics on the device
   std::optional<MeasuredShaking>
       shaking;                        ///< of a program that vibrates; its force, bound, grade and texture are empty
   Measured force;                     ///< `max_newton` includes a rehearsal if the program has memory

@@ -184,6 +184,12 @@ nlohmann::ordered_json to_json(const Description& description) {
   for (const auto& percept : description.percepts) percepts[percept.name] = to_json(percept);
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
   if (description.texture) json["texture"] = to_json(*description.texture);
+  if (const auto& wall = description.wall)
+    json["wall"] = {{"at", {figure(wall->face.place.x), figure(wall->face.place.y)}},
+                    {"inward", {figure(wall->face.inward.x), figure(wall->face.inward.y)}},
+                    {"stiffness", figure(wall->face.stiffness)},
+                    {"depth_m", figure(wall->depth.depth)},
+                    {"max_newton", figure(wall->depth.newton)}};
   json["fates"] = to_json(description.fates);
   if (description.shaking) {
     json["shaking"] = to_json(*description.shaking);

@@ -165,6 +165,10 @@ void write_pushing(std::string& text, const Description& description) {
       "\npushes\n  {:.3f} N at most at these parameters; on a hand at rest, over the patch: P99 {:.3f} N, RMS {:.3f} "
       "N\n",
       description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
+  if (const auto& wall = description.wall)
+    text += fmt::format(
+        "  a wall {}: {:.3g} N/m, up to {:.3g} N on a hand that goes {:.3g} mm into it, to the patch's edge\n",
+        wall_place(wall->face), wall->face.stiffness, wall->depth.newton, 1e3 * wall->depth.depth);
   text += bound_lines(description);
   text += "\nstability\n" + grade_text(description.grade, description.device);
 }

@@ -186,6 +186,31 @@ Value within(const BuiltinCall& call) {
       call.value(0).dimension);
 }
 
+/// `usual(…)`: the value itself. `check_usage` warns if it is known and outside the range of the two others.
+Value usual(const BuiltinCall& call) {
+  if (!call.number(0) || !call.number(1) || !call.number(2)) return call.failed();
+  for (const std::size_t bound : {1, 2})
+    if (call.value(bound).dimension != call.value(0).dimension) return call.mismatched(bound, 0);
+  const auto low = constant_value(call.terms(), call.value(1).x), high = constant_value(call.terms(), call.value(2).x);
+  if (low && high)
+    call.reading.record.usual.push_back(
+        {.name = std::string(call.reading.surroundings.sources.text(call.actuals[0].span)),
+         .value = call.value(0).x,
+         .low = *low,
+         .high = *high,
+         .dimension = call.value(0).dimension,
+         .span = call.reading.calls.blame(call.actuals[0].span)});
+  return call.value(0);
+}
+
+/// The sine or cosine of an angle, which is recorded for `check_usage`.
+Value of_angle(const BuiltinCall& call, Operation operation) {
+  const Value result = of_plain(call, operation);
+  if (!result.failed())
+    call.reading.record.angles.push_back({call.value(0).x, call.reading.calls.blame(call.actuals[0].span)});
+  return result;
+}
+
 Value gradient(const BuiltinCall& call) {
   if (!call.number(0)) return call.failed();
   const auto along = [&](std::uint32_t axis) {
@@ -238,12 +263,17 @@ Value lattice(const BuiltinCall& call) {
 Value phase(const BuiltinCall& call) {
   if (!call.number(0)) return call.failed();
   const auto frequency = call.reading.names->dimension("frequency");
-  if (call.value(0).dimension != frequency)
+  if (call.value(0).dimension != frequency) {
+    const auto known = constant_value(call.terms(), call.value(0).x);
+    const bool is_period = known && *known > 0 && call.value(0).dimension == Dimension{} / frequency;
     return call.reading.calls.report(
         Code::wrong_dimension, call.actuals[0].span,
         fmt::format("expected a frequency, found {}",
                     with_article(call.reading.dimension_names().words(call.value(0).dimension))),
-        call.reading.dimension_names().unit(call.value(0).dimension), "write something like `phase(2 Hz)`");
+        call.reading.dimension_names().unit(call.value(0).dimension),
+        is_period ? fmt::format("for this period write `phase({:.6g} Hz)`", 1 / *known)
+                  : "write something like `phase(2 Hz)`");
+  }
   const auto [known, added] = call.reading.record.phases.try_emplace(call.value(0).x, 0);
   if (added) {
     const auto index = static_cast<std::uint32_t>(call.reading.record.states.size());
@@ -288,8 +318,8 @@ const std::vector<Builtin>& builtins() {
       {"abs", {"value"}, 1, absolute},
       {"floor", {"value"}, 1, [](Call call) { return of_plain(call, Operation::floor); }},
       {"sqrt", {"value"}, 1, square_root},
-      {"sin", {"angle"}, 1, [](Call call) { return of_plain(call, Operation::sine); }},
-      {"cos", {"angle"}, 1, [](Call call) { return of_plain(call, Operation::cosine); }},
+      {"sin", {"angle"}, 1, [](Call call) { return of_angle(call, Operation::sine); }},
+      {"cos", {"angle"}, 1, [](Call call) { return of_angle(call, Operation::cosine); }},
       {"atan2", {"y", "x"}, 2, arctangent},
       {"exp", {"value"}, 1, [](Call call) { return of_plain(call, Operation::exp2, log2_e); }},
       {"log", {"value"}, 1, [](Call call) { return of_plain(call, Operation::log2, 1, ln_2); }},
@@ -304,6 +334,7 @@ const std::vector<Builtin>& builtins() {
       {"dot", {"a", "b"}, 2, dot},
       {"normalise", {"vector"}, 1, normalise},
       {"within", {"value", "low", "high"}, 3, within},
+      {"usual", {"value", "low", "high"}, 3, usual},
       {"grad", {"height"}, 1, gradient, true},
       {"peak", {"value"}, 1, peak, true},
       {"hold", {"value", "ceiling"}, 2, hold},

@@ -55,6 +55,11 @@ class ExpressionChecker {
   void spend_on(std::optional<Span> component) { reading_.component = component; }
   const std::optional<Span>& spender() const { return reading_.component; }
 
+  /// From now on, tells which names are declared further down (`ExpressionReading::declared_below`).
+  void look_below(std::function<std::optional<Span>(std::string_view)> declared) {
+    reading_.declared_below = std::move(declared);
+  }
+
   CallRecord& record() { return reading_.record; }
 
  private:

@@ -106,6 +106,7 @@ struct CheckedMaterial {
   double active_watt = 0;  ///< power that the author allows it to give, W; 0 without `active`
   Span active_span;
   Layers layers;
+  bool doubted = false;  ///< a value or an argument was reported that was hardly meant: W0308, W0312, W0313
 };
 
 /// A checked file with all modules that it refers to. The modules are kept because declarations point into them.

@@ -5,6 +5,7 @@
 #include "compiler/describe/describe.hpp"
 #include "compiler/preview/axis.hpp"
 #include "compiler/preview/preview.hpp"
+#include "compiler/read/read.hpp"
 
 namespace wale {
 namespace {
@@ -39,6 +40,28 @@ std::string evidence_of(const DescribedPercept& percept) {
   return text;
 }
 
+/// Forces in N or mN, other sizes in the unit of their carrier.
+Notation notation_of(const DescribedPercept& percept) {
+  if (percept.unit == "N") return force_notation(percept.amplitude);
+  return {percept.unit == "m/s^2" ? "m/s²" : percept.unit, 1};
+}
+
+/// Leaves as many figures as there is room for, the maximum among them, and says how many are left out.
+void keep_what_fits(std::vector<PreviewText::Figure>& figures) {
+  constexpr std::size_t room = 6;
+  if (figures.size() <= room) return;
+  const auto maximum =
+      std::ranges::find_if(figures, [](const auto& each) { return each.word.starts_with("maximum "); });
+  if (maximum != figures.end() && maximum - figures.begin() >= static_cast<std::ptrdiff_t>(room) - 1) {
+    const PreviewText::Figure kept = *maximum;
+    figures.erase(maximum);
+    figures.insert(figures.begin() + room - 2, kept);
+  }
+  const std::size_t left_out = figures.size() - room + 1;
+  figures.resize(room - 1);
+  figures.push_back({"in `wale describe`", fmt::format("{} more", left_out)});
+}
+
 }  // namespace
 
 PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
@@ -53,11 +76,14 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
 
   const Description description = describe(bank, declarations, Texture::left_out);
   std::vector<std::string> evidence;
+  std::vector<PreviewText::Figure> others;
   for (const DescribedPercept& percept : description.percepts) {
     text.figures.push_back({percept.name, fmt::format("{:.2f}", percept.level)});
-    const Notation notation = percept.unit == "m/s^2" ? Notation{"m/s²", 1} : force_notation(percept.amplitude);
-    text.figures.push_back({percept.carrier, shown_quantity(percept.amplitude, notation)});
+    others.push_back({percept.carrier, shown_quantity(percept.amplitude, notation_of(percept))});
     evidence.push_back(evidence_of(percept));
+    const Percept* declared = declarations.percepts.find(percept.name);
+    if (declared && declared->extractor == Extractor::lateral_force)
+      text.felt = std::max(text.felt.value_or(0), percept.level);
   }
   text.evidence = evidence.empty() ? "physics only, without a percept" : joined(evidence, " · ");
   if (description.shaking)
@@ -65,6 +91,11 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
   else
     text.figures.push_back(
         {"maximum force", shown_quantity(description.force.max_newton, force_notation(description.force.max_newton))});
+  if (const auto wall = description.shaking ? std::nullopt : read(bank, declarations).wall) {
+    const WallDepth depth = deepest(bank, *wall);
+    text.figures.push_back({"wall " + wall_place(*wall), fmt::format("to {}", shown_quantity(depth.newton, {"N", 1}))});
+  }
+  text.figures.insert(text.figures.end(), others.begin(), others.end());
 
   std::vector<bool> is_level(program.parameters.size(), false);
   for (const PerceptRecord& percept : program.percepts) {
@@ -76,6 +107,7 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
     text.figures.push_back(
         {parameter.name, shown_quantity(parameter.value, {parameter.unit, 1 / parameter.unit_in_si})});
   }
+  keep_what_fits(text.figures);
   return text;
 }
 

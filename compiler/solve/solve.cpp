@@ -321,6 +321,15 @@ class Solver {
     std::set<std::pair<std::uint32_t, std::uint32_t>> said;
     for (const auto& period : material_.periods) {
       const auto length = constant_value(*open_terms_, period.length, &material_.parameters);
+      const double widest = std::max(solved_.patch_width, solved_.patch_height);
+      constexpr double patches = 4;  // even half a period of it is not felt any more
+      if (length && *length > patches * widest && said.emplace(period.span.source, period.span.begin).second)
+        report(Code::beyond_soft_range, period.span,
+               fmt::format("a period of {:.4g} m is {:.0f} times as long as the patch ({:.0f} mm), so nothing repeats",
+                           *length, *length / widest, 1e3 * widest),
+               Advice(fmt::format("for millimetres write `{:.4g} mm`", *length))
+                   .fact("period", 1e3 * *length, "mm")
+                   .fact("most", 1e3 * patches * widest, "mm"));
       if (!length || *length >= 2 * step || !said.emplace(period.span.source, period.span.begin).second) continue;
       report(Code::under_resolution, period.span,
              fmt::format("a period of {:.3g} mm is less than two counts of the encoder of `{}` ({:.3g} mm each)",

@@ -72,6 +72,52 @@ TEST(DescribingForces, ClassesAreThoseInWhichTheSubjectsSorted) {
   EXPECT_EQ(described(grating(100, 1.2)).texture->confidence, "high");
 }
 
+/// Minsky 1995, section 4.5: mean ratings of the irregular stimuli and of stripes. Perlin's noise was rated low from 15
+/// pixels (5.5 mm) on if its force was below 30 units. Nobody rated a mixture.
+TEST(DescribingForces, ConfidenceIsThatOfTheKindsThatPeopleFelt) {
+  const auto perlin = [](double units, double square) {
+    return described("height h = noise2(x / " + std::to_string(square) + " mm, y / " + std::to_string(square) +
+                     " mm)\nforce = lateral(h, amplitude: " + std::to_string(units) + " pu)");
+  };
+  const auto confidence = [](const Description& description) { return description.texture->confidence; };
+  EXPECT_EQ(perlin(25, 4.5).texture->kind, "perlin");
+  EXPECT_EQ(confidence(perlin(25, 4.5)), "high");
+  EXPECT_EQ(confidence(perlin(25, 6.5)), "low");
+  EXPECT_EQ(confidence(perlin(40, 6.5)), "high");
+  EXPECT_EQ(perlin(40, 6.5).texture->texture_class, "") << "people sorted gratings";
+  const auto noise = [](double units) {
+    const std::string size = std::to_string(units);
+    return described("force = vector((2 * lattice(x / 0.37 mm, y / 0.37 mm) - 1) * " + size +
+                     " pu, (2 * lattice(x / 0.37 mm, y / 0.37 mm, 5) - 1) * " + size + " pu)");
+  };
+  EXPECT_EQ(noise(20).texture->kind, "noise");
+  EXPECT_NEAR(noise(20).texture->confidence_mean.value_or(0), 0.70, 1e-9);
+  EXPECT_NEAR(noise(50).texture->confidence_mean.value_or(0), 0.59, 1e-9);
+  const Description stripes = described("patch 94.72 mm, 94.72 mm\n" + grating(30, 33));
+  EXPECT_EQ(stripes.texture->kind, "stripes");
+  EXPECT_NEAR(stripes.texture->confidence_mean.value_or(0), 0.43, 1e-9);
+  const Description mixture = described(
+      "height h = noise2(x / 6 mm, y / 6 mm) + 0.2 * noise2(x / 1.5 mm, y / 1.5 mm, seed: 9)\n"
+      "force = lateral(h, amplitude: 1 N)");
+  EXPECT_EQ(mixture.texture->kind, "irregular");
+  EXPECT_EQ(confidence(mixture), "");
+}
+
+/// A wall of 400 N/m whose face is 15 mm left of the centre pushes with 400 N/m * 25 mm at the edge of a patch of 80
+/// mm.
+TEST(DescribingForces, AWallIsSaidWithItsPlaceAndItsLargestForce) {
+  const Description wall = described("patch 80 mm, 80 mm\nforce = vector(400 N/m * max(0 mm, -15 mm - x), 0 N)");
+  ASSERT_TRUE(wall.wall);
+  EXPECT_NEAR(wall.wall->face.place.x, -0.015, 1e-4);
+  EXPECT_NEAR(wall.wall->face.stiffness, 400, 4);
+  EXPECT_NEAR(wall.wall->depth.depth, 0.025, 1e-4);
+  EXPECT_NEAR(wall.wall->depth.newton, 10, 0.1);
+  EXPECT_NE(description_text(wall).find("a wall left of x = -15 mm: 400 N/m, up to 9.99 N on a hand that goes 25 mm"),
+            std::string::npos)
+      << description_text(wall);
+  EXPECT_FALSE(described("force = -120 N/m * hand").wall);
+}
+
 TEST(DescribingForces, WithoutATextureHaveNoRoughnessAndAReason) {
   struct Case {
     const char* force;
