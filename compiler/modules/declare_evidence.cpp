@@ -39,6 +39,14 @@ std::vector<std::string_view> plain_words(const SettingItem& item) {
   return words;
 }
 
+std::string source_of(RecordReader& reader, const char* example) {
+  if (!reader.setting("source"))
+    reader.report(Code::missing_setting, reader.record.name.span,
+                  fmt::format("a {} needs a source", reader.record.keyword.text),
+                  fmt::format("add `source \"{}\"`", example));
+  return reader.text("source");
+}
+
 std::vector<std::string> quotes_of(RecordReader& reader) {
   const Setting* quote = reader.setting("quote");
   return quote ? reader.texts(*quote) : std::vector<std::string>();

@@ -34,6 +34,8 @@ std::optional<Condition> range_of(RecordReader& reader, const SettingItem& item,
 /// `period 0.7 mm .. 10 mm`, `amplitude above 1.1 N`, `assumed period below 2.5 mm`; empty if the item is none.
 std::optional<Condition> condition_of(RecordReader& reader, const SettingItem& item);
 
+/// Where the figures were published. A record without it is reported: "a map needs a source", with that example.
+std::string source_of(RecordReader& reader, const char* example);
 /// The passages of `quote "…", "…"`, as the author cut them.
 std::vector<std::string> quotes_of(RecordReader& reader);
 /// The device of `on sandpaper`; empty if the setting names none.

@@ -33,10 +33,7 @@ class MapReader {
         .percept = percept_.name, .from = std::string(record.from ? record.from->text : ""), .span = record.name.span};
     map_.exported = record.exported;
     if (const auto* name = reader_.setting("name"); name && !name->items.empty()) map_.name = words_of(name->items[0]);
-    map_.source = reader_.text("source");
-    if (!reader_.setting("source"))
-      reader_.report(Code::missing_setting, record.name.span, "a map needs a source",
-                     "add `source \"author, year, figure\"`");
+    map_.source = source_of(reader_, "author, year, figure");
     read_quantity();
     read_evidence();
     read_couples();

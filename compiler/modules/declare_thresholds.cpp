@@ -102,10 +102,7 @@ void declare_threshold(RecordReader& reader, Declarations& declarations) {
     read_grades(reader, *evidence, {{"slope", &threshold.evidence}, {"handle", &threshold.handle}});
   if (const auto* on = reader.required("on", "sandpaper")) threshold.device = measured_on(*on);
   threshold.quotes = quotes_of(reader);
-  threshold.source = reader.text("source");
-  if (!reader.setting("source"))
-    reader.report(Code::missing_setting, record.name.span, "a threshold needs a source",
-                  "add `source \"author, year\"`");
+  threshold.source = source_of(reader, "author, year");
   declarations.own_thresholds.push_back(std::move(threshold));
 }
 
@@ -142,10 +139,7 @@ void declare_rule(RecordReader& reader, Declarations& declarations) {
   }
   if (const auto* on = reader.required("on", "sandpaper")) rule.device = measured_on(*on);
   rule.quotes = quotes_of(reader);
-  rule.source = reader.text("source");
-  if (!reader.setting("source"))
-    reader.report(Code::missing_setting, record.name.span, "a rule needs a source",
-                  "add `source \"author, year, section\"`");
+  rule.source = source_of(reader, "author, year, section");
   declarations.own_rules.push_back(std::move(rule));
 }
 

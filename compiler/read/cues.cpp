@@ -26,32 +26,21 @@ double unread_force(const ForceReading& found) {
   return std::abs(still) < moving ? moving : still;
 }
 
-double value_of(CueKind kind, const ForceReading& found) {
-  switch (kind) {
-#define CUE(kind, name, unit, extractor, threshold, exerts, least, value) \
-  case CueKind::kind:                                                     \
-    return value;
-#include "compiler/read/cue.def"
-#undef CUE
-  }
-  return 0;
-}
-
-double least_of(CueKind kind) {
-  switch (kind) {
-#define CUE(kind, name, unit, extractor, threshold, exerts, least, value) \
-  case CueKind::kind:                                                     \
-    return least;
-#include "compiler/read/cue.def"
-#undef CUE
-  }
-  return 0;
+/// Empty if the value of this cue is less than counts.
+std::optional<double> counting(double value, double least) {
+  if (std::isnan(value) || std::abs(value) < least || (least == 0 && value == 0)) return std::nullopt;
+  return value;
 }
 
 std::optional<double> cue_of(CueKind kind, const ForceReading& found) {
-  const double value = value_of(kind, found), least = least_of(kind);
-  if (std::isnan(value) || std::abs(value) < least || (least == 0 && value == 0)) return std::nullopt;
-  return value;
+  switch (kind) {
+#define CUE(kind, name, unit, extractor, threshold, exerts, least, value) \
+  case CueKind::kind:                                                     \
+    return counting(value, least);
+#include "compiler/read/cue.def"
+#undef CUE
+  }
+  return std::nullopt;
 }
 
 /// The band of a percept's periods. What lies on the border of two percepts' bands belongs to the finer one, as well as

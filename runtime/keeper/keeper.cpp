@@ -155,7 +155,13 @@ Keeper::~Keeper() {
   munmap(board_, sizeof(KeeperBoard));
 }
 
-void Keeper::beat() noexcept { board_->beat.store(nanoseconds_of(CLOCK_MONOTONIC), std::memory_order_release); }
+void Keeper::beat() noexcept {
+  const std::int64_t now = nanoseconds_of(CLOCK_MONOTONIC), before = board_->beat.load(std::memory_order_relaxed);
+  // A keeper that is stopped and continued with its owner may look again only after this beat, and find nothing wrong.
+  const bool pushed = board_->pushes.load(std::memory_order_relaxed) != 0;
+  if (pushed && now - before > most_nanoseconds_without_beat) stalled_.store(true, std::memory_order_relaxed);
+  board_->beat.store(now, std::memory_order_release);
+}
 
 bool Keeper::lives() const noexcept {
   const std::int64_t unseen = nanoseconds_of(CLOCK_MONOTONIC) - board_->look.load(std::memory_order_acquire);
@@ -172,11 +178,13 @@ Keeper::Verdict Keeper::look() const noexcept {
   if (was_asleep()) return Verdict::slept;
   if (!lives()) return Verdict::gone;
   const std::int64_t silent = nanoseconds_of(CLOCK_MONOTONIC) - board_->beat.load(std::memory_order_acquire);
+  if (stalled_.load(std::memory_order_relaxed)) return Verdict::stalled;
   return silent > most_nanoseconds_without_beat ? Verdict::late : Verdict::good;
 }
 
 std::string_view Keeper::why(Verdict verdict) const noexcept {
   switch (verdict) {
+    case Verdict::stalled: return "the loop did not tick for 100 ms";
     case Verdict::slept: return "the computer was asleep";
     case Verdict::gone: return "its keeper has ended, and nothing may push without one";
     case Verdict::latched:

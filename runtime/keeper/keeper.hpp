@@ -35,14 +35,16 @@ class Keeper {
   Keeper(const Keeper&) = delete;
   Keeper& operator=(const Keeper&) = delete;
 
-  /// The loop ticks. Real-time: reads the clock without a system call, and stores a number.
+  /// The loop ticks. Real-time: reads the clock without a system call, and stores a number. From one thread.
   void beat() noexcept;
 
   enum class Verdict : std::uint8_t {
     good,     ///< packets may go
     late,     ///< the loop has not ticked for 100 ms: only packets that do not push may go
-    slept,    ///< the computer was asleep since the start: as `late`, and the device has to be set up again
-    gone,     ///< the keeper has died or does not look: as `slept`
+    stalled,  ///< the loop ticks again after 100 ms in which the device pushed and nobody took it, because the keeper
+              ///< was stopped too: as `late`, and the device has to be set up again
+    slept,    ///< the computer was asleep since the start: as `stalled`
+    gone,     ///< the keeper has died or does not look: as `stalled`
     latched,  ///< the keeper has the device: no packet may go, of whatever kind
   };
   /// For the threads that send packets, before each. Allocates nothing, takes no lock, does not throw; asks the kernel
@@ -70,6 +72,7 @@ class Keeper {
   pid_t process_ = 0;
   std::int64_t (*asleep_)() noexcept;
   std::int64_t asleep_before_;  // ns, when this began
+  std::atomic<bool> stalled_{false};
 };
 
 /// Lets all devices of this process go that have a keeper, and waits until that is done, 200 ms at most. Nothing of

@@ -157,6 +157,27 @@ TEST(AKeeper, IsMissedWhenItIsStopped) {
   kill(keeper->process(), SIGCONT);
 }
 
+/// As when both are frozen: what was commanded before is old, though the keeper looks and the loop ticks again.
+TEST(AKeeper, ThatWasStoppedWithItsOwnerDoesNotHideThatTheLoopStalled) {
+  Device device;
+  auto keeper = kept(device);
+  keeper->beat();
+  kill(keeper->process(), SIGSTOP);
+  std::this_thread::sleep_for(150ms);
+  keeper->beat();
+  EXPECT_NE(keeper->look(), Verdict::stalled) << "nothing was pushed meanwhile";
+  keeper->note_push();
+  std::this_thread::sleep_for(150ms);
+  keeper->beat();
+  EXPECT_EQ(keeper->look(), Verdict::stalled);
+  EXPECT_EQ(keeper->why(Verdict::stalled), "the loop did not tick for 100 ms");
+  keeper->note_slack();
+  kill(keeper->process(), SIGCONT);
+  std::this_thread::sleep_for(50ms);
+  keeper->beat();
+  EXPECT_EQ(keeper->look(), Verdict::stalled) << "for good";
+}
+
 TEST(AKeeper, TellsThatTheComputerWasAsleep) {
   static std::atomic<std::int64_t> slept{7'000'000'000};
   Device device;

@@ -31,6 +31,11 @@ int times() {
   const char* asked = std::getenv("WALE_DYING_TIMES");
   return asked != nullptr ? std::max(1, std::atoi(asked)) : 20;
 }
+/// Whether WALE_DYING_WAY, a part of its name, chooses this way; all are chosen without it.
+bool is_chosen(const std::string& way) {
+  const char* asked = std::getenv("WALE_DYING_WAY");
+  return asked == nullptr || way.find(asked) != std::string::npos;
+}
 constexpr long most_frames = 250;
 int late_deaths = 0;  // ways in which it took longer
 
@@ -71,18 +76,35 @@ pid_t keeper_now() {
 struct Way {
   const char* name;
   std::function<void(pid_t owner)> die;
+  std::function<void(pid_t owner)> go_on{};  ///< wakes what was only stopped
+
+  /// Whether its force may last until it goes on: nobody is left to end it, and the device cannot.
+  bool may_last(const std::string& by) const { return by == "falcon" && std::string_view(name).starts_with("both"); }
 };
 
 const std::vector<Way>& ways() {
-  static const std::vector<Way> all{{"SIGKILL", [](pid_t owner) { ::kill(owner, SIGKILL); }},
-                                    {"SIGSTOP, then SIGCONT", [](pid_t owner) { ::kill(owner, SIGSTOP); }},
-                                    {"a crash with a core dump", [](pid_t owner) { ::kill(owner, SIGUSR1); }},
-                                    {"a loop that runs away", [](pid_t owner) { ::kill(owner, SIGUSR2); }},
-                                    {"its keeper killed", [](pid_t) { ::kill(keeper_now(), SIGKILL); }},
-                                    {"both killed", [](pid_t owner) {
-                                       ::kill(keeper_now(), SIGKILL);
-                                       ::kill(owner, SIGKILL);
-                                     }}};
+  static const std::vector<Way> all{
+      {"SIGKILL", [](pid_t owner) { ::kill(owner, SIGKILL); }},
+      {"SIGSTOP, then SIGCONT", [](pid_t owner) { ::kill(owner, SIGSTOP); },
+       [](pid_t owner) { ::kill(owner, SIGCONT); }},
+      {"a crash with a core dump", [](pid_t owner) { ::kill(owner, SIGUSR1); }},
+      {"a loop that runs away", [](pid_t owner) { ::kill(owner, SIGUSR2); }},
+      {"its keeper killed", [](pid_t) { ::kill(keeper_now(), SIGKILL); }},
+      {"both killed",
+       [](pid_t owner) {
+         ::kill(keeper_now(), SIGKILL);
+         ::kill(owner, SIGKILL);
+       }},
+      // As the kernel does to all processes before the computer sleeps, and after it woke up.
+      {"both stopped, then awake",
+       [](pid_t owner) {
+         ::kill(keeper_now(), SIGSTOP);
+         ::kill(owner, SIGSTOP);
+       },
+       [](pid_t owner) {
+         ::kill(owner, SIGCONT);
+         ::kill(keeper_now(), SIGCONT);
+       }}};
   return all;
 }
 
@@ -117,47 +139,67 @@ Lasted last_push(const std::function<double()>& force, const std::atomic<long>& 
   }
 }
 
+/// How long the force lasted, and how long again where the process went on; -1 where no force was left then.
+struct Death {
+  Lasted lasted;
+  Lasted after{-1, 0};
+};
+
 /// One death at a random moment.
-Lasted die_once(const Way& way, const std::string& by, const UsbDeviceInfo& info, const std::function<double()>& force,
-                const std::atomic<long>& frames, std::minstd_rand& random) {
+Death die_once(const Way& way, const std::string& by, const UsbDeviceInfo& info, const std::function<double()>& force,
+               const std::atomic<long>& frames, std::minstd_rand& random) {
   OtherProcess owner({"push", by, std::to_string(info.vendor), std::to_string(info.product)});
   const bool is_pushed = milliseconds_until([&] { return force() > 0; }, 60'000) < 60'000;
   if (!is_pushed) demand(false, "it pushes before it dies");
   std::this_thread::sleep_for(std::chrono::microseconds(random() % 40'000));
+  // An emulated loop that was kept waiting may just have been let go.
+  milliseconds_until([&] { return force() > 0; }, 60'000);
   const long first_frame = frames;
   way.die(owner.process());
-  Lasted lasted = last_push(force, frames, first_frame);
-  if (std::string_view(way.name).starts_with("SIGSTOP")) {
-    ::kill(owner.process(), SIGCONT);
-    if (last_push(force, frames, frames).milliseconds > 0) demand(false, "continued, it does not push on");
+  Death death{last_push(force, frames, first_frame)};
+  if (way.go_on) {
+    const bool pushed = force() > 0;
+    way.go_on(owner.process());
+    const Lasted after = last_push(force, frames, frames);
+    // What only its process or its keeper can end had ended before both were stopped: the emulated processor had kept
+    // the loop waiting for 100 ms, and nothing was pushed that could be left over.
+    const bool had_ended = !pushed && way.may_last(by);
+    if (pushed)
+      death.after = after;
+    else if (after.milliseconds > 0 && !had_ended)
+      demand(false, "continued, it does not push on");
   }
   owner.kill();
   milliseconds_until([&] { return keeper_now() == 0; }, 60'000);
   std::error_code ignored;
   for (const auto& each : std::filesystem::directory_iterator("/tmp", ignored))
     if (each.path().filename().string().starts_with("core")) std::filesystem::remove(each.path(), ignored);
-  return lasted;
+  return death;
 }
 
 void die_of_all(const std::string& by, const UsbDeviceInfo& info, const std::function<double()>& force,
                 const std::atomic<long>& frames, const std::function<void()>& between) {
   std::minstd_rand random(1995);
   for (const Way& way : ways()) {
+    if (!is_chosen(way.name)) continue;
     std::vector<double> lasted;
     long most = 0;
+    Lasted after{-1, 0};
     for (int i = 0; i < times(); ++i) {
       between();
-      const Lasted once = die_once(way, by, info, force, frames, random);
-      lasted.push_back(once.milliseconds);
-      most = std::max(most, once.frames);
+      const Death once = die_once(way, by, info, force, frames, random);
+      lasted.push_back(once.lasted.milliseconds);
+      most = std::max(most, once.lasted.frames);
+      after = {std::max(after.milliseconds, once.after.milliseconds), std::max(after.frames, once.after.frames)};
     }
     std::ranges::sort(lasted);
-    const bool is_left_alone = std::string_view(way.name) == "both killed";
     std::printf("   %-26s %-7s median %4.0f ms, most %4.0f ms and %3ld frames, of %d\n", way.name, by.c_str(),
                 lasted[lasted.size() / 2], lasted.back(), most, times());
+    if (after.milliseconds >= 0)
+      std::printf("   %-26s %-7s awake, most %4.0f ms and %3ld frames\n", "", by.c_str(), after.milliseconds,
+                  after.frames);
     std::fflush(stdout);
-    if (by == "falcon" && is_left_alone) continue;  // nothing in it knows that nobody speaks to it any more
-    if (most > most_frames) ++late_deaths;
+    if ((most > most_frames && !way.may_last(by)) || after.frames > most_frames) ++late_deaths;
   }
 }
 

@@ -112,6 +112,7 @@ void FalconTransport::heed_keeper() {
   switch (verdict) {
     case Keeper::Verdict::good: break;
     case Keeper::Verdict::late: session_.hush(); break;
+    case Keeper::Verdict::stalled:
     case Keeper::Verdict::slept:
     case Keeper::Verdict::gone: session_.lose(keeper_->why(verdict), Outcome::failed); break;
     case Keeper::Verdict::latched: session_.give_up(keeper_->why(verdict)); break;

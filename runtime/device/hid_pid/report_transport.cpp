@@ -98,6 +98,7 @@ void ReportTransport::heed_keeper() {
   switch (verdict) {
     case Keeper::Verdict::good: break;
     case Keeper::Verdict::late: session_.hush(); break;
+    case Keeper::Verdict::stalled:
     case Keeper::Verdict::slept:
     case Keeper::Verdict::gone: session_.lose(keeper()->why(verdict), Outcome::failed, Code::lost_device); break;
     case Keeper::Verdict::latched: session_.give_up(keeper()->why(verdict)); break;

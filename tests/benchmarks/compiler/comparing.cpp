@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "compiler/command/memory.hpp"
 #include "compiler/compare/compare.hpp"
 #include "compiler/compare/compare_files.hpp"
 #include "compiler/modules/load_modules.hpp"
@@ -61,6 +62,7 @@ std::vector<Cues> cues_of_all(const std::vector<ComparedFile>& files) {
 
 /// From a thousand files to the text that a person reads.
 void CompareAThousandFiles(benchmark::State& state) {
+  command::keep_freed_memory();  // as the command does
   const ManyFiles files(static_cast<std::size_t>(state.range(0)));
   const auto common = common_modules();
   for (auto _ : state) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "compiler/command/memory.hpp"
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_extracted.hpp"
 #include "compiler/read/cues.hpp"
@@ -94,6 +95,7 @@ void Describe(benchmark::State& state, Program (*make)()) {
 
 /// Every material of the library once: how long half of them take at most, all but a twentieth, and the slowest, ms.
 void DescribeLibrary(benchmark::State& state) {
+  command::keep_freed_memory();  // as the command does
   std::vector<Program> programs;
   const auto resolver = file_resolver({WALE_SOURCE_DIR "/library"});
   for (const auto& [path, text] : shipped_files()) {
