@@ -100,8 +100,14 @@ std::array<Force, 3> forces_at(const Bank& bank, const Scan& scan, double steps,
   return forces;
 }
 
+/// A face, and the force on its flat side over the largest push behind it.
+struct FaceFound {
+  WallFace face;
+  double outside = 0;
+};
+
 /// The face of a feature whose profile is flat at its low or its high end.
-std::optional<WallFace> face_of(const Feature& feature, bool from_low) {
+std::optional<FaceFound> face_of(const Feature& feature, bool from_low) {
   const std::size_t count = feature.profile.size();
   const auto place = [&](std::size_t i) { return from_low ? i : count - 1 - i; };
   const glm::dvec2 inward = from_low ? feature.direction : -feature.direction;
@@ -138,7 +144,7 @@ std::optional<WallFace> face_of(const Feature& feature, bool from_low) {
     if (std::abs(against[i]) > 0.1 * most) return std::nullopt;
   const double along =
       from_low ? feature.low + onset : feature.low + feature.step * static_cast<double>(count - 1) - onset;
-  return WallFace{along * feature.direction, inward, slope, 0, 0};
+  return FaceFound{{along * feature.direction, inward, slope, 0, 0}, glm::length(flat) / most};
 }
 
 }  // namespace
@@ -191,10 +197,11 @@ std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& 
   std::optional<WallFace> stiffest;
   for (const Feature& each : features) {
     if (each.radial || !each.monotone) continue;
-    for (const bool from_low : {true, false}) {
-      const auto face = face_of(each, from_low);
-      if (face && (!stiffest || face->stiffness > stiffest->stiffness)) stiffest = face;
-    }
+    // A wall that saturates is flat at both ends. The hand is outside where there is less force.
+    auto found = face_of(each, true);
+    const auto other = face_of(each, false);
+    if (!found || (other && other->outside < found->outside)) found = other;
+    if (found && (!stiffest || found->face.stiffness > stiffest->stiffness)) stiffest = found->face;
   }
   if (!stiffest) return stiffest;
   // Both hands are at one place, so that only the speed makes a difference.

@@ -193,7 +193,7 @@ TEST(Exhibit, AWallOutsideTheMiddlePeriodsIsShown) {
   const auto made = [](const std::string& force) {
     return Bank(standard::material("material m { physical {\n" + force + "\n} }", "m"));
   };
-  const std::string ribs = "force ribs = lateral(grating(x, period: 2.5 mm), amplitude: 1 N)\n";
+  const std::string ribs = "force ribs = lateral(grating(y, period: 2.5 mm), amplitude: 1 N)\n";
   const Bank alone = made(ribs), with_wall = made(ribs + "force wall = firm(600 N/m, face: 25 mm)");
   EXPECT_NEAR(exhibit_of(alone).side, 0.02, 1e-4);
   EXPECT_NEAR(exhibit_of(with_wall).side, 0.16, 1e-4);

@@ -116,6 +116,13 @@ TEST(DescribingForces, AWallIsSaidWithItsPlaceAndItsLargestForce) {
             std::string::npos)
       << description_text(wall);
   EXPECT_FALSE(described("force = -120 N/m * hand").wall);
+  // The device saturates 10 N / 600 N/m behind the face: a wall is flat on both sides, and the hand outside it is free.
+  const Description ribbed = described(
+      "force ribs = lateral(grating(y, period: 2.5 mm), amplitude: 1 N)\nforce wall = firm(600 N/m, face: 25 mm)");
+  ASSERT_TRUE(ribbed.wall);
+  EXPECT_NEAR(ribbed.wall->face.place.x, 0.025, 3e-4);
+  EXPECT_GT(ribbed.wall->face.inward.x, 0.99);
+  EXPECT_NEAR(ribbed.wall->depth.newton, 10, 0.1);
 }
 
 TEST(DescribingForces, WithoutATextureHaveNoRoughnessAndAReason) {
