@@ -181,7 +181,8 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   }
   // An argument that was hardly meant, and is reported, may be why a force is strange; it is said once.
   if (!material->doubted) {
-    warn_of_jumps(solved, *material, diagnostics);
+    const auto is_fine = [](const Diagnostic& each) { return each.code == Code::under_resolution; };
+    if (std::ranges::none_of(diagnostics.all(), is_fine)) warn_of_jumps(solved, *material, diagnostics);
     warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
     warn_of_no_force(bank, *material, solved, measured, diagnostics);
   }

@@ -57,6 +57,7 @@ class StatementChecker {
   std::optional<double> parameter_value(const ParamStatement& node, const Value& own_value);
   std::optional<double> mixed(const Mixture& mixture, const Dimension& dimension);
   Span place_of_default(const ParamStatement& node) const;
+  void warn_of_percent(const ParamStatement& node);
   bool lacks_its_unit(const ParamStatement& node, const Value& value);
   bool disagrees_with_its_range(const ParamStatement& node, const Value& value);
   bool range_lacks_its_unit(const ParamStatement& node, const Range& range, const Dimension& dimension);

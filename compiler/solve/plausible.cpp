@@ -200,7 +200,7 @@ double largest_device_force(const Declarations& declarations) {
 }
 
 /// The first fixed size of a carrier that asks for far more than any device gives. A force is too large if it is above
-/// the largest; a stiffness or a viscosity asks for its force only far away or at speed, so ten times that is allowed.
+/// the largest; a stiffness or a viscosity asks for its force only far away or at speed, so five times that is allowed.
 bool warn_of_huge_carrier(const CheckedMaterial& material, const Declarations& declarations, double most,
                           Diagnostics& diagnostics) {
   const Dimension force = declarations.dimension("force");
@@ -213,7 +213,7 @@ bool warn_of_huge_carrier(const CheckedMaterial& material, const Declarations& d
     });
     if (!percept || !(percept->exerts > 0)) continue;
     const bool is_force = carrier.dimension == force;
-    const double allowed = is_force ? most : 10 * most;
+    const double allowed = is_force ? most : 5 * most;
     const double exerted = std::abs(*size) * (is_force ? 1 : percept->exerts);
     if (exerted <= allowed) continue;
     const std::string unit = declarations.names().unit(carrier.dimension);
