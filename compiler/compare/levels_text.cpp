@@ -59,7 +59,7 @@ std::string proposal_text(const LevelProposal& proposal) {
   text += fmt::format("  told apart side by side: {} levels{}\n", proposal.most,
                       proposal.most > count ? "; `--side-by-side` proposes them" : "");
   if (const Threshold* found = proposal.recognition)
-    text += fmt::format("  recognised alone: about {:.0f} ({:.2g} of {} by {}, {})\n", std::round(found->recognised),
+    text += fmt::format("  recognised alone: about {:.0f} ({:.2g} within {}: {}, {})\n", std::round(found->recognised),
                         found->recognised, found->valid ? found->valid->written : "an unknown range", found->source,
                         recognition_word(proposal));
   else

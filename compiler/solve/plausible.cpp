@@ -245,8 +245,8 @@ std::optional<JumpingHeight> find_jump(const CheckedMaterial& material, const De
     if (!carrier.relief || !may_jump(material.terms, *carrier.relief)) continue;
     PlaceEvaluator height(material, device, {*carrier.relief});
     if (!height.possible()) continue;
-    // About two milliseconds for the largest heights.
-    constexpr std::size_t most_work = 200000, fewest_steps = 48, most_steps = 256;
+    // About a millisecond for the largest heights.
+    constexpr std::size_t most_work = 100000, fewest_steps = 48, most_steps = 128;
     const std::size_t steps = std::clamp(most_work / (height.operations() + 1), fewest_steps, most_steps);
     for (const Way& way : ways)
       if (const auto jump = jump_along(height, way, steps))
