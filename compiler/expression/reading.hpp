@@ -56,7 +56,7 @@ struct CallRecord {
   std::vector<CheckedPeriod> periods;
   std::vector<CheckedAngle> angles;
   std::vector<CheckedUsual> usual;
-  bool doubted = false;  ///< arguments that seem to be exchanged were reported
+  bool doubted = false;                              ///< arguments that seem to be exchanged were reported
   std::vector<std::unique_ptr<const Field>> fields;  ///< fields to which values point
 
   /// Stores a field for the life of the record, since values point to it.
