@@ -66,7 +66,7 @@ Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const F
   const SourceLines lines(opened.sources, module.modules);
   if (stage == BuildStage::checked) return Text(print_checked(*checked, module.declarations().names(), lines));
   const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
-  const SolvedMaterial solved = solve(*checked, module, request.device, opened.sources, *resolver, diagnostics);
+  const SolvedMaterial solved = solve_as_read(*checked, module, request.device, opened.sources, *resolver, diagnostics);
   if (diagnostics.has_errors()) return Text();
   const LoweredMaterial lowered = lower(solved, diagnostics);
   return diagnostics.has_errors() ? Text() : Text(print_graph(lowered, solved, lines));

@@ -8,10 +8,14 @@
 #include "compiler/check/follow_on.hpp"
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
+#include "compiler/evidence/confirm.hpp"
 #include "compiler/grade/grade.hpp"
+#include "compiler/measure/cut_force.hpp"
+#include "compiler/measure/hands.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/parse/parse.hpp"
+#include "compiler/solve/plausible.hpp"
 #include "compiler/solve/solve.hpp"
 #include "schema/spelling.hpp"
 
@@ -48,6 +52,112 @@ void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostic
                       .help = "the runtime holds back the rest; declare less, or choose another device"});
 }
 
+/// Reports a texture without slope, which cannot push; a height that only jumps has none either.
+void report_flat_height(const SolvedMaterial& solved, const CheckedMaterial& material, Diagnostics& diagnostics) {
+  const auto jump = find_jump(material, solved.device);
+  diagnostics.report(
+      {.code = Code::flat_height,
+       .span = jump ? jump->span : solved.force_span,
+       .message = jump ? "this height has no slope: it is level, and jumps from level to level"
+                       : "this height is flat inside the patch, and a flat height gives no force",
+       .help = jump ? "let it rise over a distance, as `smoothstep(x / 1 mm)` does"
+                    : "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
+}
+
+/// The loaded program of a solved material; empty after errors.
+std::optional<Program> program_of(const SolvedMaterial& solved, const CheckedMaterial& material,
+                                  const CheckedModule& module, const SourceSet& sources, Diagnostics& diagnostics) {
+  if (diagnostics.has_errors()) return std::nullopt;
+  const SourceLines lines(sources, module.modules);
+  const LoweredMaterial lowered = lower(solved, diagnostics);
+  if (lowered.flat && !diagnostics.has_errors()) report_flat_height(solved, material, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  auto program = emit(lowered, solved, diagnostics, &lines);
+  if (!program) return std::nullopt;
+  auto loaded = Program::load(std::move(*program));
+  if (loaded) return *std::move(loaded);
+  diagnostics.report(
+      {.code = Code::program_too_large,
+       .span = solved.span,
+       .message = fmt::format("the machine refuses `{}`: {}", solved.name, in_words(loaded.error())),
+       .help = "if the material is large, make it smaller; if it is not, this is an error in the compiler"});
+  return std::nullopt;
+}
+
+/// A material and its program, which is empty after errors, and what is read of it, as far as its percepts need it.
+struct FinishedMaterial {
+  SolvedMaterial solved;
+  std::optional<Program> program;
+  ForceReading found;
+};
+
+FinishedMaterial finish(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
+                        const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
+  Diagnostics first = diagnostics;  // replaced if the material is solved again
+  FinishedMaterial finished;
+  const auto make = [&](Diagnostics& into, const BandShares& shares) {
+    finished.solved = solve(material, module, device, sources, resolver, into, shares);
+    finished.program = program_of(finished.solved, material, module, sources, into);
+    if (!finished.program || std::ranges::none_of(finished.solved.percepts,
+                                                  [](const SolvedPercept& each) { return each.asked.has_value(); }))
+      return;
+    finished.found = read(Bank(*finished.program), module.declarations(), parts_for(finished.program->description()));
+  };
+  make(first, {});
+  BandShares shares;
+  if (finished.program)
+    shares = band_shares(Bank(*finished.program), finished.found, finished.solved, module.declarations());
+  if (shares.empty())
+    diagnostics = std::move(first);
+  else
+    make(diagnostics, shares);
+  return finished;
+}
+
+/// The program with the fate of the force that its author wrote; the same program if it has none, or it is kept.
+Result<Program> with_fate_of_force(const Program& program, const Bank& bank, const GradingHand& hand) {
+  const auto& fates = program.description().fates;
+  const auto force = std::ranges::find_if(fates, is_of_force);
+  if (force == fates.end()) return program;
+  FateRecord found = fate_of_force(*force, bank, static_cast<float>(hand.speed()));
+  if (found == *force) return program;
+  PatchProgram changed = program.description();
+  changed.fates[static_cast<std::size_t>(force - fates.begin())] = std::move(found);
+  return Program::load(std::move(changed));
+}
+
+/// Warns of a height with slopes that jumps besides.
+void warn_of_jumps(const SolvedMaterial& solved, const CheckedMaterial& material, Diagnostics& diagnostics) {
+  const auto found = find_jump(material, solved.device);
+  if (!found) return;
+  diagnostics.report(
+      {.code = Code::jumping_height,
+       .span = found->span,
+       .message =
+           fmt::format("this height jumps by {:.0f} % of its range at ({:.1f}, {:.1f}) mm, where the force would "
+                       "be infinite; `{}` leaves the jump out",
+                       100 * found->jump.share, 1e3 * found->jump.x, 1e3 * found->jump.y, found->function),
+       .help = "let it rise over a distance, as `smoothstep(x / 1 mm)` does, or begin and end at the same height"});
+}
+
+/// Warns of a material whose force is zero for every hand, unless it says so itself.
+void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const SolvedMaterial& solved,
+                      const Measured& measured, Diagnostics& diagnostics) {
+  const auto is_zero = [&](TermId id) { return solved.terms[id].known(); };
+  const bool says_so = is_zero(solved.force[0]) && is_zero(solved.force[1]);
+  const auto& asked = material.percepts;
+  const bool asks_for_none = std::ranges::any_of(asked, [](const AskedPercept& each) { return each.level == 0; });
+  if (measured.max_newton > 0 || says_so || asks_for_none || depends_on_the_moment(bank.program().description()) ||
+      !solved.states.empty() || !solved.memories.empty())
+    return;
+  diagnostics.report({.code = Code::never_pushes,
+                      .span = solved.force_span,
+                      .message = fmt::format("`{}` never pushes: its force is 0 at every place of its patch, {:.0f} mm "
+                                             "by {:.0f} mm, and at every velocity",
+                                             solved.name, 1e3 * solved.patch_width, 1e3 * solved.patch_height),
+                      .help = "look for a length in m instead of mm, or for a size of 0"});
+}
+
 /// "`a`, `b` and 3 more": at most eight names.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 8;
@@ -59,6 +169,11 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 }  // namespace
+
+SolvedMaterial solve_as_read(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
+                             const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
+  return finish(material, module, device, sources, resolver, diagnostics).solved;
+}
 
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
   diagnostics.renew_budget();
@@ -107,36 +222,31 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   if (!material) return std::nullopt;
   diagnostics.renew_budget();
   diagnostics.allow_text(sources[source].text.size());
-  SolvedMaterial solved = solve(*material, module, device, sources, resolver, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-
-  const SourceLines lines(sources, module.modules);
-  const LoweredMaterial lowered = lower(solved, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-  auto program = emit(lowered, solved, diagnostics, &lines);
-  if (!program) return std::nullopt;
-
-  auto loaded = Program::load(std::move(*program));
-  if (!loaded) {
-    diagnostics.report(
-        {.code = Code::program_too_large,
-         .span = solved.span,
-         .message = fmt::format("the machine refuses `{}`: {}", solved.name, in_words(loaded.error())),
-         .help = "if the material is large, make it smaller; if it is not, this is an error in the compiler"});
+  FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics);
+  const SolvedMaterial& solved = finished.solved;
+  if (!finished.program || solved.device.shaker) return std::move(finished.program);  // the latter has no force
+  const Bank bank(*finished.program);
+  const Measured measured = measure(bank);
+  if (measured.flat || find_level(*material, solved.device)) {
+    report_flat_height(solved, *material, diagnostics);
     return std::nullopt;
   }
-  if (solved.device.shaker) return *std::move(loaded);  // there is no force
-  const Bank bank(*loaded);
-  if (measure(bank).flat) {
-    diagnostics.report({.code = Code::flat_height,
-                        .span = solved.force_span,
-                        .message = "this height is flat, and a flat height gives no force",
-                        .help = "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
-    return std::nullopt;
+  // An argument that was hardly meant, and is reported, may be why a force is strange; it is said once.
+  if (!material->doubted) {
+    const auto is_fine = [](const Diagnostic& each) { return each.code == Code::under_resolution; };
+    if (std::ranges::none_of(diagnostics.all(), is_fine)) warn_of_jumps(solved, *material, diagnostics);
+    warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
+    warn_of_no_force(bank, *material, solved, measured, diagnostics);
   }
-  warn_of_undeclared_energy(bank, solved, normal_hand(module.declarations()), diagnostics);
+  const GradingHand hand = normal_hand(module.declarations());
+  warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   warn_of_a_device_that_gives_less(solved, diagnostics);
-  return *std::move(loaded);
+  if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), diagnostics)) {
+    PatchProgram confirmed = finished.program->description();
+    confirmed.fates = *std::move(fates);
+    finished.program = *Program::load(std::move(confirmed));  // it differs in fates from a program that was loaded
+  }
+  return *with_fate_of_force(*finished.program, bank, hand);
 }
 
 std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material,

@@ -5,6 +5,7 @@
 
 #include "compiler/check/check.hpp"
 #include "compiler/diagnostics/diagnostic.hpp"
+#include "compiler/solve/solve.hpp"
 #include "compiler/text/resolver.hpp"
 #include "wale/program.hpp"
 
@@ -25,7 +26,12 @@ Result<const CheckedMaterial*> find_material(const CheckedModule& module, const 
 const CheckedMaterial* chosen_material(const CheckedModule& module, const std::string& name, const SourceSet& sources,
                                        SourceId source, Diagnostics& diagnostics);
 
-/// Compiles one material of a checked module to a loaded program: solve, lower, emit, verify, measure. Empty after
+/// Solves a material such that its finished program has the carriers that its percepts need: as `solve`, and again with
+/// what the program's reading says of them.
+SolvedMaterial solve_as_read(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
+                             const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics);
+
+/// Compiles one material of a checked module to a loaded program: solve, lower, emit, verify, measure, read. Empty after
 /// errors, which are reported. An empty name means the first material of the file.
 std::optional<Program> compile_material(const CheckedModule& module, const std::string& material,
                                         const std::string& device, const SourceSet& sources, SourceId source,

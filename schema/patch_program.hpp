@@ -154,8 +154,15 @@ struct Picture {
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 
-/// How a figure came to be known, best first.
-enum class Evidence : std::uint8_t { measured = 1, published = 2, estimated = 3, recalled = 4, transferred = 5 };
+/// How a figure came to be known, best first. `extrapolated`: from a stimulus outside what was measured.
+enum class Evidence : std::uint8_t {
+  measured = 1,
+  published = 2,
+  estimated = 3,
+  recalled = 4,
+  transferred = 5,
+  extrapolated = 6
+};
 
 /// How a percept's carrier is read from a program, or from the force at the handle. Each extractor reads a different
 /// feature, so that one percept's carrier is not taken for another's.
@@ -174,6 +181,65 @@ enum class Extractor : std::uint8_t {
   acceleration = 11,   ///< m/s^2: amplitude of a pad's vibration under a moving hand
 };
 
+/// How uncertain a psychophysical law is: what the intervals of its levels are made of. In log10 of magnitude; 0: not
+/// known.
+struct LawUncertainty {
+  float scatter = 0;            ///< standard deviation of a group's means about the law
+  float slope_error = 0;        ///< standard error of the law's exponent, by that scatter
+  float spread = 0;             ///< standard deviation of the observers' own exponents
+  float noise = 0;              ///< standard deviation of one person's judgements about that person's own law
+  std::uint16_t observers = 0;  ///< whose means these were
+  std::uint16_t stimuli = 0;    ///< to whose means the law was fitted
+  bool scatter_assumed = false, spread_assumed = false, noise_assumed = false;
+
+  friend bool operator==(const LawUncertainty&, const LawUncertainty&) = default;
+};
+
+/// A range of a quantity in which a map was measured, besides that of its carrier's size.
+struct MeasuredRange {
+  std::string quantity;     ///< "period", "rate"
+  float low = 0, high = 0;  ///< SI; the largest finite number where it has no end
+  std::string unit;         ///< as its author wrote it, "mm"; empty for a plain number
+  double unit_in_si = 1;
+  bool assumed = false;  ///< not published
+
+  friend bool operator==(const MeasuredRange&, const MeasuredRange&) = default;
+};
+
+/// The kinds of surfaces, one bit each.
+enum class SurfaceProfile : std::uint8_t {
+  grating = 1,     ///< it repeats
+  noise = 2,       ///< it does not
+  photograph = 4,  ///< sampled from a picture or another table
+  bump = 8,        ///< single features
+};
+
+/// The stimuli with which a map was measured.
+struct StimulusDomain {
+  bool stated = false;          ///< otherwise nothing is known of them
+  std::uint8_t profiles = 0;    ///< bits of `SurfaceProfile`; 0 for stimuli that are no surfaces
+  std::uint8_t dimensions = 0;  ///< 1: the same along lines; 2; 0: of both kinds, or no surfaces
+  bool alone = false;           ///< nothing else pushed
+  /// Of the waveform of a grating: its largest force over its effective one. 0, 0: any.
+  float crest_low = 0, crest_high = 0;
+  bool crest_assumed = false;  ///< those bounds are not published
+
+  friend bool operator==(const StimulusDomain&, const StimulusDomain&) = default;
+};
+
+/// What a percept's figures were measured with, and how far they were not measured.
+struct Basis {
+  /// The carrier's size over its force's amplitude: below 1 if a part counts for another percept, above 1 in sums.
+  float share = 1;
+  float tolerance = 0;   ///< of the level, in both directions, as its author wrote it
+  bool summand = false;  ///< its force is a term of the total force, unchanged
+  bool valid_assumed = false;
+  std::vector<MeasuredRange> ranges;
+  StimulusDomain domain;
+
+  friend bool operator==(const Basis&, const Basis&) = default;
+};
+
 /// One percept of the program: the level asked for, the map that realises it, and how to read it back.
 ///
 /// `prediction` is pure code that computes magnitude and level from the carrier's size, which is the `probe` input.
@@ -187,7 +253,7 @@ struct PerceptRecord {
   std::vector<Instruction> prediction;
   RegisterNumber magnitude = 0, level = 0;
   float valid_low = 0, valid_high = 0;  ///< of the carrier's size
-  float scatter = 0;                    ///< standard deviation of log10 magnitude
+  LawUncertainty uncertainty;           ///< of the map's law
   Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
   std::string map, device, source;  ///< the map's name, the device it was measured on, the citation
 
@@ -196,14 +262,13 @@ struct PerceptRecord {
   float period_low = 0, period_high = 0;  ///< m: the band that the extractor reads; 0, 0 for any
   float one = 0;                          ///< the carrier's size at level 1
   float near_threshold = 0;               ///< below this level it is near or below the threshold of perception
-  float spread = 0;                       ///< standard deviation of the observers' own exponents; 0: not known
-  std::uint16_t observers = 0;            ///< 0: not known
   /// The smallest difference of the carrier's size that people notice, at d' = 1: this share of the size, and at least
   /// `floor` (in `unit`). 0: not known.
   float weber = 0, floor = 0;
   Evidence weber_evidence = Evidence::estimated;
   std::string weber_source;
   std::string realisation;  ///< the device's own force for it, in Wale; empty if the author's physics carries it
+  Basis basis;
 
   friend bool operator==(const PerceptRecord&, const PerceptRecord&) = default;
 };

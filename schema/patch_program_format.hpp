@@ -15,7 +15,7 @@ namespace wale::patch_program_format {
 /// As in PNG: a byte that no text has, the name, then line ends and an end-of-file mark, which text transfers change.
 inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'P', 'P', '\r', '\n', 0x1a, '\n'};
 inline constexpr std::uint16_t major_version = 1;
-inline constexpr std::uint16_t minor_version = 0;
+inline constexpr std::uint16_t minor_version = 1;
 
 inline constexpr std::size_t header_size = 32;
 inline constexpr std::size_t checksum_offset = 24;
@@ -36,12 +36,13 @@ struct SectionKind {
 };
 
 /// Known sections in the order in which they stand in a file.
-inline constexpr std::array<SectionKind, 20> section_kinds = {
+inline constexpr std::array<SectionKind, 21> section_kinds = {
     {{"NAME", true, true},   {"REGS", true, true},   {"CONS", true, true},   {"PARM", true, true},
      {"SETU", true, true},   {"PEAK", true, true},   {"STAT", true, false},  {"GRID", true, false},
      {"TICK", true, true},   {"OUTP", true, true},   {"PICT", true, true},   {"FRAM", false, false},
      {"TABL", true, true},   {"PTCH", true, true},   {"DEVI", true, true},   {"VIBR", true, false},
-     {"PERC", false, false}, {"FATE", false, false}, {"LAYR", false, false}, {"PLAC", false, false}}};
+     {"PERC", false, false}, {"EVID", false, false}, {"FATE", false, false}, {"LAYR", false, false},
+     {"PLAC", false, false}}};
 
 constexpr std::size_t align(std::size_t size) { return (size + alignment - 1) / alignment * alignment; }
 

@@ -153,7 +153,7 @@ std::vector<HeightTable> read_tables(ByteReader& in) {
 Evidence read_evidence(ByteReader& in, std::string_view what) {
   const std::uint8_t value = in.u8();
   if (value < static_cast<std::uint8_t>(Evidence::measured) ||
-      value > static_cast<std::uint8_t>(Evidence::transferred)) {
+      value > static_cast<std::uint8_t>(Evidence::extrapolated)) {
     in.damaged(" has evidence grade ", int{value}, " for ", what, ", which this Wale does not know");
   }
   return static_cast<Evidence>(value);
@@ -177,7 +177,7 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     percept.level = in.u16();
     percept.valid_low = in.finite_f32("a percept's valid range");
     percept.valid_high = in.finite_f32("a percept's valid range");
-    percept.scatter = in.finite_f32("a percept's scatter");
+    percept.uncertainty.scatter = in.finite_f32("a percept's scatter");
     percept.slope = read_evidence(in, "a slope");
     percept.anchor = read_evidence(in, "an anchor");
     percept.handle = read_evidence(in, "a handle");
@@ -191,16 +191,50 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     }
     percept.extractor = static_cast<Extractor>(extractor);
     for (float* figure : {&percept.period_low, &percept.period_high, &percept.one, &percept.near_threshold,
-                          &percept.spread, &percept.weber, &percept.floor}) {
+                          &percept.uncertainty.spread, &percept.weber, &percept.floor}) {
       *figure = in.finite_f32("a percept's figure");
     }
-    percept.observers = in.u16();
+    percept.uncertainty.observers = in.u16();
     percept.weber_evidence = read_evidence(in, "a threshold");
     percept.weber_source = in.text("a threshold's source");
     percept.realisation = in.text("a realisation");
   }
   if (percepts.empty()) in.damaged(" is empty; a file without percepts leaves it out");
   return percepts;
+}
+
+/// Reads the basis of each percept; they have been read before.
+void read_bases(ByteReader& in, std::vector<PerceptRecord>& percepts) {
+  if (in.count(40, "percepts") != percepts.size() || percepts.empty())
+    in.damaged(" has not as many entries as there are percepts");
+  for (PerceptRecord& percept : percepts) {
+    Basis& basis = percept.basis;
+    basis.share = in.finite_f32("the share of a carrier");
+    basis.tolerance = in.finite_f32("the tolerance of a level");
+    LawUncertainty& law = percept.uncertainty;
+    for (float* figure : {&law.slope_error, &law.noise}) *figure = in.finite_f32("the uncertainty of a law");
+    law.stimuli = in.u16();
+    for (bool* answer :
+         {&basis.summand, &basis.valid_assumed, &law.scatter_assumed, &law.spread_assumed, &law.noise_assumed})
+      *answer = in.boolean("what is assumed");
+    StimulusDomain& domain = basis.domain;
+    domain.stated = in.boolean("whether stimuli are stated");
+    domain.profiles = in.u8(), domain.dimensions = in.u8();
+    if (domain.profiles > 15 || domain.dimensions > 2) in.damaged(" has stimuli that this Wale does not know");
+    domain.alone = in.boolean("whether stimuli were alone");
+    domain.crest_low = in.finite_f32("the crest of stimuli");
+    domain.crest_high = in.finite_f32("the crest of stimuli");
+    domain.crest_assumed = in.boolean("whether a crest is assumed");
+    basis.ranges.resize(in.count(25, "ranges"));
+    for (MeasuredRange& range : basis.ranges) {
+      range.quantity = in.text("the quantity of a range");
+      range.low = in.finite_f32("a range");
+      range.high = in.finite_f32("a range");
+      range.unit = in.text("the unit of a range");
+      range.unit_in_si = in.finite_f64("the unit of a range");
+      range.assumed = in.boolean("whether a range is assumed");
+    }
+  }
 }
 
 std::vector<FateRecord> read_fates(ByteReader& in) {
@@ -290,6 +324,7 @@ void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) 
   if (kind == "DEVI") program.device = read_device(in);
   if (kind == "VIBR") program.device.shaker = read_shaker(in);
   if (kind == "PERC") program.percepts = read_percepts(in);
+  if (kind == "EVID") read_bases(in, program.percepts);
   if (kind == "FATE") program.fates = read_fates(in);
   if (kind == "LAYR") program.layers = read_layers(in);
   if (kind == "PLAC") program.places = read_places(in, program);

@@ -118,6 +118,37 @@ void write_fates(ByteWriter& out, std::span<const FateRecord> fates) {
   }
 }
 
+void write_bases(ByteWriter& out, std::span<const PerceptRecord> percepts) {
+  out.u32(percepts.size());
+  for (const PerceptRecord& percept : percepts) {
+    const Basis& basis = percept.basis;
+    out.f32(basis.share);
+    out.f32(basis.tolerance);
+    const LawUncertainty& law = percept.uncertainty;
+    for (const float figure : {law.slope_error, law.noise}) out.f32(figure);
+    out.u16(law.stimuli);
+    for (const bool answer :
+         {basis.summand, basis.valid_assumed, law.scatter_assumed, law.spread_assumed, law.noise_assumed})
+      out.u8(answer);
+    out.u8(basis.domain.stated);
+    out.u8(basis.domain.profiles);
+    out.u8(basis.domain.dimensions);
+    out.u8(basis.domain.alone);
+    out.f32(basis.domain.crest_low);
+    out.f32(basis.domain.crest_high);
+    out.u8(basis.domain.crest_assumed);
+    out.u32(basis.ranges.size());
+    for (const MeasuredRange& range : basis.ranges) {
+      out.text(range.quantity);
+      out.f32(range.low);
+      out.f32(range.high);
+      out.text(range.unit);
+      out.f64(range.unit_in_si);
+      out.u8(range.assumed);
+    }
+  }
+}
+
 void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
   out.u32(percepts.size());
   for (const PerceptRecord& percept : percepts) {
@@ -132,7 +163,7 @@ void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
     out.u16(percept.level);
     out.f32(percept.valid_low);
     out.f32(percept.valid_high);
-    out.f32(percept.scatter);
+    out.f32(percept.uncertainty.scatter);
     out.u8(static_cast<std::uint8_t>(percept.slope));
     out.u8(static_cast<std::uint8_t>(percept.anchor));
     out.u8(static_cast<std::uint8_t>(percept.handle));
@@ -142,9 +173,9 @@ void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
     out.text(percept.unit);
     out.u8(static_cast<std::uint8_t>(percept.extractor));
     for (const float figure : {percept.period_low, percept.period_high, percept.one, percept.near_threshold,
-                               percept.spread, percept.weber, percept.floor})
+                               percept.uncertainty.spread, percept.weber, percept.floor})
       out.f32(figure);
-    out.u16(percept.observers);
+    out.u16(percept.uncertainty.observers);
     out.u8(static_cast<std::uint8_t>(percept.weber_evidence));
     out.text(percept.weber_source);
     out.text(percept.realisation);
@@ -209,6 +240,7 @@ std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& 
   if (kind == "DEVI") write_device(out, program.device);
   if (kind == "VIBR" && program.device.shaker) write_shaker(out, *program.device.shaker);
   if (kind == "PERC" && !program.percepts.empty()) write_percepts(out, program.percepts);
+  if (kind == "EVID" && !program.percepts.empty()) write_bases(out, program.percepts);
   if (kind == "FATE" && !program.fates.empty()) write_fates(out, program.fates);
   if (kind == "LAYR" && program.layers != Layers{}) write_layers(out, program.layers);
   if (kind == "PLAC" && program.places != SourcePlaces{}) write_places(out, program.places);

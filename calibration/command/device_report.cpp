@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/text/json_text.hpp"
+#include "compiler/text/readable.hpp"
 #include "runtime/device/match_device.hpp"
 
 namespace wale::command {
@@ -64,29 +65,30 @@ bool is_unknown(const DeclaredDevice& device, const char* setting) {
 
 /// A figure of the handle: "0.6 kg", or "unknown".
 std::string figure_text(const DeclaredDevice& device, const char* setting, double figure, const char* unit) {
-  return is_unknown(device, setting) ? "unknown" : fmt::format("{:.3g} {}", figure, unit);
+  return is_unknown(device, setting) ? "unknown" : readable("{:.3g} {}", figure, unit);
 }
 
 /// The figures of a device's force or vibration, in two lines after a column that holds its name.
 std::string figures_text(const DeclaredDevice& device, std::size_t column) {
   const DeviceProfile& profile = device.profile;
+  const auto lines = [&](const std::string& first, const std::string& second) {
+    return fmt::format("  {:<{}} {}\n  {:<{}} {}\n", profile.name, column, first, "", column, second);
+  };
   if (!profile.shaker)
-    return fmt::format("  {:<{}} 2 axes, {:.4g} N in {:.0f} steps, {:.4g} mm across in {:.0f} counts, {:.4g} Hz\n",
-                       profile.name, column, profile.force_newton, profile.force_counts,
-                       1e3 * profile.workspace_diameter, profile.position_counts, profile.rate) +
-           fmt::format("  {:<{}} moving mass {}, damping {}, friction {}\n", "", column,
-                       figure_text(device, "mass", profile.mass, "kg"),
-                       figure_text(device, "damping", profile.damping, "N s/m"),
-                       figure_text(device, "friction", profile.friction, "N"));
+    return lines(
+        readable("2 axes, {:.4g} N in {:.0f} steps, {:.4g} mm across in {:.0f} counts, {:.4g} Hz", profile.force_newton,
+                 profile.force_counts, 1e3 * profile.workspace_diameter, profile.position_counts, profile.rate),
+        fmt::format("moving mass {}, damping {}, friction {}", figure_text(device, "mass", profile.mass, "kg"),
+                    figure_text(device, "damping", profile.damping, "N s/m"),
+                    figure_text(device, "friction", profile.friction, "N")));
   const Shaker& shaker = *profile.shaker;
-  std::string text = fmt::format(
-      "  {:<{}} vibrates: up to {:.4g} m/s^2 at {:.4g} .. {:.4g} Hz, spin-up {:.3g} ms, {:.4g} Hz\n", profile.name,
-      column, shaker.peak(), shaker.frequency_low, shaker.frequency_high, 1e3 * shaker.spin_up, profile.rate);
+  const std::string vibrates =
+      readable("vibrates: up to {:.4g} m/s^2 at {:.4g} .. {:.4g} Hz, spin-up {:.3g} ms, {:.4g} Hz", shaker.peak(),
+               shaker.frequency_low, shaker.frequency_high, 1e3 * shaker.spin_up, profile.rate);
   if (shaker.position == PositionSource::none)
-    return text +
-           fmt::format("  {:<{}} no position: assumed to explore at {:.3g} m/s\n", "", column, shaker.exploring_speed);
-  return text + fmt::format("  {:<{}} position by {}, {:.4g} mm across in {:.0f} counts\n", "", column,
-                            position_word(shaker.position), 1e3 * profile.workspace_diameter, profile.position_counts);
+    return lines(vibrates, readable("no position: assumed to explore at {:.3g} m/s", shaker.exploring_speed));
+  return lines(vibrates, readable("position by {}, {:.4g} mm across in {:.0f} counts", position_word(shaker.position),
+                                  1e3 * profile.workspace_diameter, profile.position_counts));
 }
 
 std::string declared_text(const DeclaredDevice& device, std::size_t column) {

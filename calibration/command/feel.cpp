@@ -23,6 +23,7 @@
 #include "calibration/feel/background_loop.hpp"
 #include "calibration/feel/felt_device.hpp"
 #include "calibration/feel/material_watch.hpp"
+#include "calibration/feel/rehearsal.hpp"
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/declarations/declared_devices.hpp"
@@ -227,7 +228,7 @@ std::optional<RecordTo> recording_of(const FeelOptions& options, const RunManner
 
 RunOptions run_options(const FeelOptions& options, const RunManner& manner, const std::atomic<bool>& stop) {
   const bool is_recording = has_ending(options.record, ".wrec"), is_table = !options.record.empty() && !is_recording;
-  return {.seconds = options.seconds.value_or(options.watch ? HUGE_VAL : usual_seconds),
+  return {.seconds = options.seconds.value_or(usual_seconds),
           .most_newton = options.max_force.value_or(HUGE_VAL),
           .virtual_time = options.virtual_time,
           .stop = &stop,
@@ -266,6 +267,19 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
   return result.record_problem ? refuse(*result.record_problem) : done;
 }
 
+/// How long to run, s: as the person said, as usual, or as long as a simulated hand needs.
+double seconds_of_run(const FeelOptions& options, const PreparedRun& prepared, const std::atomic<bool>& stop) {
+  if (options.seconds || options.watch) return options.seconds.value_or(HUGE_VAL);
+  if (prepared.device.chosen.plugged) return usual_seconds;
+  const auto felt = open_prepared(options, prepared, stop);
+  if (!felt) return usual_seconds;
+  const double most_newton = options.max_force.value_or(HUGE_VAL);
+  const double needed = seconds_needed(*felt, prepared.material, usual_seconds, most_newton, stop);
+  if (needed > usual_seconds)
+    say(fmt::format("the run takes {:.0f} s, so that the hand crosses the texture {} times", needed, least_crossings));
+  return needed;
+}
+
 int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   const auto prepared_run = prepared(options, stop);
   if (!prepared_run) return prepared_run.status();
@@ -283,6 +297,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
 
   const bool live = isatty(fileno(stderr));
   RunOptions run = run_options(options, felt->manner(), stop);
+  run.seconds = seconds_of_run(options, *prepared_run, stop);
   if (live)
     run.progress = [vibrates = program.vibrates()](const Progress& now) {
       print_as_is(stderr, "\r" + progress_line(now, vibrates));
@@ -432,14 +447,17 @@ Run declare_feel(CLI::App& verb) {
   offer_trusted_files(verb, options->trusted);
   offer_name(verb, "--transport", options->transport, transport_names(),
              "the way to drive a real device, if it has several (default: the first that works; see `wale devices`)");
-  verb.add_option("--hand", options->hand,
-                  "how the hand on a simulated device moves: lateral (default), to and fro; circular; rest; or a CSV "
-                  "file with columns t (s), x (m), y (m)")
+  verb.add_option(
+          "--hand", options->hand,
+          "how the hand on a simulated device moves: lateral (default), to and fro; circular; press, in and out; "
+          "rest; then along x, y or an angle, and at a place, as in \"lateral along 30 deg at 20 mm, 5 mm\"; or "
+          "a CSV file with columns t (s), x (m), y (m)")
       ->type_name("HAND");
   offer_duration(
       verb, "--seconds", options->seconds, {.endless = true},
-      "how long to feel, as in 10, \"10 s\", \"2 min\" or inf (default: 5 s; with --watch until Ctrl-C; with "
-      "--blind 3 s for each of the two); also the longest wait for a device to be plugged in (default: until "
+      "how long to feel, as in 10, \"10 s\", \"2 min\" or inf (default: 5 s, or up to a minute where a simulated hand "
+      "needs it to cross the texture 50 times; with --watch until Ctrl-C; with --blind 3 s for each of the two); also "
+      "the longest wait for a device to be plugged in (default: until "
       "Ctrl-C)");
   auto* virtual_time =
       verb.add_flag("--virtual-time", options->virtual_time,

@@ -11,6 +11,7 @@
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/other_file.hpp"
 #include "compiler/text/output_file.hpp"
+#include "compiler/text/readable.hpp"
 #include "compiler/text/resolver.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
@@ -62,15 +63,15 @@ std::string verdict(const Replay& replay, double rate) {
 std::string replay_text(const std::string& file, const Recording& recording, const Replay& replay) {
   const RecordingHeader& header = recording.header();
   const Summary summary = summary_of(recording);
-  std::string text = fmt::format("{}: {} on the {}{}{}, {:.4g} s{}\n", visible_text(file),
-                                 recording.complete() ? "a run" : "the beginning of a run", header.device.name,
-                                 header.hand.empty() ? "" : ", ", visible_text(header.hand), summary.seconds,
-                                 header.virtual_time ? " of virtual time" : "");
-  text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", recording.ticks(), summary.missed,
-                      header.device.rate);
-  for (const std::string& material : summary.materials) text += fmt::format("  program      {}\n", material);
-  text += fmt::format("  changes      {} placed, {} moved, {} replaced, {} parameters set\n", summary.placements,
-                      summary.moves, summary.swaps, summary.sets);
+  std::string text = readable("{}: {} on the {}{}{}, {:.4g} s{}\n", visible_text(file),
+                              recording.complete() ? "a run" : "the beginning of a run", header.device.name,
+                              header.hand.empty() ? "" : ", ", visible_text(header.hand), summary.seconds,
+                              header.virtual_time ? " of virtual time" : "");
+  text += readable("  ticks        {} run, {} missed, at {:.4g} Hz\n", recording.ticks(), summary.missed,
+                   header.device.rate);
+  for (const std::string& material : summary.materials) text += readable("  program      {}\n", material);
+  text += readable("  changes      {} placed, {} moved, {} replaced, {} parameters set\n", summary.placements,
+                   summary.moves, summary.swaps, summary.sets);
   return text + fmt::format("  replay       {}\n", verdict(replay, header.device.rate));
 }
 

@@ -2,47 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <utility>
 #include <vector>
 
+#include "calibration/feel/hand_motion.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "runtime/device/built_for.hpp"
-#include "runtime/device/simulated/load_trace.hpp"
 #include "runtime/device/wait_for_device.hpp"
-#include "schema/spelling.hpp"
 #include "wale/simulated.hpp"
 #include "wale/simulated_pad.hpp"
 
 namespace wale {
 namespace {
 
-Result<Motion> motion_of(const std::string& hand, const HandDeclaration& person) {
-  if (hand == "lateral") return Motion(Lateral{person.lateral_amplitude, person.lateral_frequency, {}});
-  if (hand == "circular") return Motion(Circular{person.circular_radius, person.circular_frequency, {}});
-  if (hand == "rest") return Motion(Rest{});
-  auto trace = load_trace(hand);
-  if (!trace) {
-    Error error = std::move(trace.error());
-    std::error_code ignored;
-    const bool is_path = hand.find('/') != std::string::npos || has_ending(hand, ".csv");
-    if (is_path || std::filesystem::exists(hand, ignored)) return error;
-    const std::vector<std::string> motions{"lateral", "circular", "rest"};
-    auto near = nearest_spelling(hand, motions);
-    constexpr std::size_t telling = 4;  // letters; "circle" is meant as "circular", but differs by too many letters
-    for (const std::string& motion : motions)
-      if (!near && hand.size() >= telling && motion.starts_with(hand.substr(0, telling))) near = motion;
-    error.sentence = fmt::format("`{}` is neither lateral, circular, rest nor the file of a trace", hand);
-    error.mend = near ? fmt::format("did you mean `{}`?", *near) : "a trace is a CSV file of t, x, y";
-    error.code = Code::malformed_value;
-    error.place = {.name = "--hand", .text = hand};
-    return error;
-  }
-  return Motion(*std::move(trace));
-}
-
 Result<std::unique_ptr<Device>> simulated(const PatchProgram& program, const HandDeclaration& person,
                                           const std::string& hand) {
-  auto motion = motion_of(hand, person);
+  auto motion = motion_of(hand, person, common_modules()->declarations);
   if (!motion) return std::move(motion.error());
   std::unique_ptr<Device> device;
   if (program.vibrates())

@@ -34,7 +34,7 @@ Result<DeviceToFeel> device_to_feel(const DeviceRequest& request, std::span<cons
 
 /// How a device is run.
 struct FeltOptions {
-  std::string hand = "lateral";  ///< of a simulated person: lateral, circular, rest, or a trace's file
+  std::string hand = "lateral";  ///< of a simulated person: as `motion_of` reads it
   bool virtual_time = false;
   std::string transport;          ///< of a real device, as in `DeviceOptions`
   double most_newton = HUGE_VAL;  ///< what the user allows

@@ -9,6 +9,7 @@
 
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/text/json_text.hpp"
+#include "compiler/text/readable.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale {
@@ -41,7 +42,7 @@ std::string shown(const GuardCounts& counts) {
   std::string text;
   for (auto [name, count] : named(counts)) {
     std::ranges::replace(name, '_', name == "not_a_number" ? '-' : ' ');
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+    if (count > 0) text += readable("{}{} {}", text.empty() ? "" : ", ", name, count);
   }
   return text.empty() ? "none stepped in" : text + " (ticks)";
 }
@@ -88,6 +89,48 @@ nlohmann::ordered_json force_json(const ForceSize& size) {
   return {{"p99_newton", size.p99}, {"max_newton", size.maximum}, {"rms_newton", size.rms}};
 }
 
+/// About how long such a run must be for the hand to cross the texture often enough, s, a fifth longer than at the pace
+/// of this one; infinite if it crossed nothing, and nothing if this run was long enough or no percept needs crossings.
+std::optional<double> needed_seconds(const PatchProgram& program, const Felt& felt, double seconds, double settling) {
+  const bool needs = std::ranges::any_of(program.percepts, [](const PerceptRecord& percept) {
+    return percept.extractor == Extractor::lateral_force && percept.alone;
+  });
+  if (felt.vibration || !needs || felt.crossings >= least_crossings) return std::nullopt;
+  if (felt.crossings == 0) return HUGE_VAL;
+  constexpr double margin = 1.2;
+  const double pace = static_cast<double>(felt.crossings) / (seconds - settling);
+  return std::ceil(settling + margin * static_cast<double>(least_crossings) / pace);
+}
+
+/// What a map makes of the force, or why it makes nothing of it, for each percept.
+std::string levels_text(const FeltReport& report) {
+  const Felt& felt = report.felt;
+  std::string text;
+  for (std::size_t i = 0; i < report.levels.size(); ++i) {
+    const LevelBack& level = report.levels[i];
+    if (!level.back) {
+      text += fmt::format("  {:<12} no level: {}\n", level.name, in_words(level.back.error()));
+      continue;
+    }
+    const float size = felt.vibration ? felt.vibration->acceleration.p99 : felt.force_rubbing.p99;
+    const float aimed = std::min(level.predicted_amplitude, static_cast<float>(report.device.most()));
+    text += readable("  delivered    {:.3f} of {:.3f} {}{}\n", size, aimed, felt.vibration ? "m/s^2" : "N",
+                     aimed > 0 ? readable(" ({:.0f} %)", 100 * size / aimed) : "");
+    text += fmt::format("  {:<12} {:.2f}, as its map reads that {}{}\n", level.name, level.back->level,
+                        felt.vibration ? "shaking" : "force",
+                        report.asked[i] >= 0 ? fmt::format(" (asked: {:.2f})", report.asked[i]) : "");
+  }
+  if (report.levels.empty())
+    text += felt.vibration ? "  percepts     none that a map reads: it does not vibrate\n"
+                           : "  percepts     none that a map reads: its force has no texture\n";
+  if (!report.needed_seconds) return text;
+  if (*report.needed_seconds <= longest_proposed_run)
+    return text +
+           fmt::format("  longer       about {:.0f} s of this motion cross it {} times: --seconds \"{:.0f} s\"\n",
+                       *report.needed_seconds, least_crossings, *report.needed_seconds);
+  return text + "  longer       another motion may cross it sooner, as in --hand \"lateral along y\"\n";
+}
+
 /// "forces sent x" for "forces_sent_x".
 std::string spaced(std::string name) {
   std::ranges::replace(name, '_', ' ');
@@ -99,8 +142,8 @@ std::string plugged_text(const HotPlugReport& plugged, double seconds) {
   std::string text = "  driven       " + plugged.manner + "\n", counts;
   for (const auto& [name, count] : plugged.tally)
     if (count > 0)
-      counts += fmt::format("{}{} {} ({:.0f} a second)", counts.empty() ? "" : ", ", spaced(name), count,
-                            static_cast<double>(count) / seconds);
+      counts += readable("{}{} {} ({:.0f} a second)", counts.empty() ? "" : ", ", spaced(name), count,
+                         static_cast<double>(count) / seconds);
   if (!counts.empty()) text += "  packets      " + counts + "\n";
   const auto times = [](long count) { return fmt::format("{} time{}", count, count == 1 ? "" : "s"); };
   if (plugged.losses > 0)
@@ -133,10 +176,12 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
   report.guards = run.guards;
   report.scheduling = run.scheduling;
   report.predicted_amplitude = std::min(predicted_amplitude(bank), static_cast<float>(device.most()));
+  const double settling = std::min(settling_seconds, report.seconds / 2);
   report.felt = measure(run.record, {.position_step = device.position_step(),
                                      .predicted_amplitude = report.predicted_amplitude,
-                                     .settling = std::min(settling_seconds, report.seconds / 2),
+                                     .settling = settling,
                                      .vibrates = device.shaker.has_value()});
+  report.needed_seconds = needed_seconds(program, report.felt, report.seconds, settling);
   report.levels = levels_back(bank, report.felt, least_crossings);
   for (const auto& level : report.levels) {
     const auto& parameter = program.percepts[level.percept].parameter;
@@ -148,60 +193,50 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
 std::string felt_text(const FeltReport& report) {
   const Felt& felt = report.felt;
   std::string text = report.manner.plugged
-                         ? fmt::format("{} on {} as {}, in your hand, {:.4g} s\n", report.material,
-                                       report.manner.device, report.device.name, report.seconds)
-                         : fmt::format("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device,
-                                       report.device.name, visible_text(report.manner.hand), report.seconds,
-                                       report.manner.virtual_time ? " of virtual time" : "");
+                         ? readable("{} on {} as {}, in your hand, {:.4g} s\n", report.material, report.manner.device,
+                                    report.device.name, report.seconds)
+                         : readable("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device,
+                                    report.device.name, visible_text(report.manner.hand), report.seconds,
+                                    report.manner.virtual_time ? " of virtual time" : "");
   if (report.manner.versions > 1)
-    text += fmt::format(
+    text += readable(
         "  versions     {} of the file were felt: measured figures are over all of them, predicted ones of the last\n",
         report.manner.versions);
-  text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", report.ticks_run, report.ticks_missed,
-                      report.device.rate);
+  text += readable("  ticks        {} run, {} missed, at {:.4g} Hz\n", report.ticks_run, report.ticks_missed,
+                   report.device.rate);
   if (report.manner.virtual_time)
     text += "  lateness     none: virtual time\n";
   else
-    text += fmt::format("  lateness     p50 {:.0f} us, p99 {:.0f} us, maximum {:.0f} us\n", 1e6 * report.lateness.p50,
-                        1e6 * report.lateness.p99, 1e6 * report.lateness.maximum);
+    text += readable("  lateness     p50 {:.0f} us, p99 {:.0f} us, maximum {:.0f} us\n", 1e6 * report.lateness.p50,
+                     1e6 * report.lateness.p99, 1e6 * report.lateness.maximum);
   if (report.costs) text += cost_text(*report.costs);
-  if (!report.scheduling.empty()) text += fmt::format("  scheduling   {}\n", report.scheduling);
+  if (!report.scheduling.empty()) text += readable("  scheduling   {}\n", report.scheduling);
   if (report.manner.plugged) text += plugged_text(*report.manner.plugged, report.seconds);
   if (felt.vibration)
     text += vibration_text(*felt.vibration);
   else
-    text += fmt::format(
-        "  actuator     {}{}\n", force_text(felt.ticks_rubbing > 0 ? felt.force_rubbing : felt.force),
-        felt.ticks_rubbing > 0 ? " (at the handle, while rubbing)" : " (at the handle; the hand did not rub)");
+    text +=
+        readable("  actuator     {}{}\n", force_text(felt.ticks_rubbing > 0 ? felt.force_rubbing : felt.force),
+                 felt.ticks_rubbing > 0 ? " (at the handle, while rubbing)" : " (at the handle; the hand did not rub)");
   if (report.predicted_amplitude > 0)
     text +=
-        fmt::format("  predicted    amplitude {:.3f} {}\n", report.predicted_amplitude, felt.vibration ? "m/s^2" : "N");
+        readable("  aims at      amplitude {:.3f} {}\n", report.predicted_amplitude, felt.vibration ? "m/s^2" : "N");
   if (felt.interaction)
-    text += fmt::format(
+    text += readable(
         "  interaction  {} (hand on handle, with inertia and friction)\n",
         force_text(felt.interaction_rubbing && felt.ticks_rubbing > 0 ? *felt.interaction_rubbing : *felt.interaction));
   if (!report.device.has_position())
-    text += fmt::format("  place        none: `{}` does not measure the hand's position\n", report.device.name);
+    text += readable("  place        none: `{}` does not measure the hand's position\n", report.device.name);
   else if (felt.vibration)
-    text += fmt::format("  place        the hand ranged over {:.1f} mm\n", 1e3 * felt.position_range);
+    text += readable("  place        the hand ranged over {:.1f} mm\n", 1e3 * felt.position_range);
   else
-    text += fmt::format("  texture      {} crossings, {:.1f} % of the time stuck; the hand ranged over {:.1f} mm\n",
-                        felt.crossings, 100 * felt.stuck, 1e3 * felt.position_range);
-  for (std::size_t i = 0; i < report.levels.size(); ++i) {
-    const auto& level = report.levels[i];
-    if (level.back)
-      text += fmt::format("  {:<12} {:.2f} read back from the measured amplitude{}\n", level.name, level.back->level,
-                          report.asked[i] >= 0 ? fmt::format(" (asked: {:.2f})", report.asked[i]) : "");
-    else
-      text += fmt::format("  {:<12} not read back: {}\n", level.name, in_words(level.back.error()));
-  }
-  if (report.levels.empty())
-    text += felt.vibration ? "  percepts     none to read back: it does not vibrate\n"
-                           : "  percepts     none to read back: its force has no texture\n";
+    text += readable("  texture      {} crossings, {:.1f} % of the time stuck; the hand ranged over {:.1f} mm\n",
+                     felt.crossings, 100 * felt.stuck, 1e3 * felt.position_range);
+  text += levels_text(report);
   text += "  guards       " + shown(report.guards) + "\n";
   if (report.guards.restored > 0)
-    text += fmt::format("  memory       {} time{} a state was not a number and got its first value again\n",
-                        report.guards.restored, report.guards.restored == 1 ? "" : "s");
+    text += readable("  memory       {} time{} a state was not a number and got its first value again\n",
+                     report.guards.restored, report.guards.restored == 1 ? "" : "s");
   return text;
 }
 
@@ -243,11 +278,15 @@ std::string felt_json(const FeltReport& report) {
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     auto& entry = percepts[report.levels[i].name];
     if (const auto& back = report.levels[i].back)
-      entry = {{"level", back->level}, {"magnitude", back->magnitude}};
+      entry = {{"level", back->level},
+               {"magnitude", back->magnitude},
+               {"delivered", felt.vibration ? felt.vibration->acceleration.p99 : felt.force_rubbing.p99},
+               {"aimed", std::min(report.levels[i].predicted_amplitude, static_cast<float>(report.device.most()))}};
     else
       entry = {{"refused", in_words(report.levels[i].back.error())}};
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
   }
+  if (report.needed_seconds && std::isfinite(*report.needed_seconds)) json["needed_seconds"] = *report.needed_seconds;
   for (const auto& [name, count] : named(report.guards)) json["guards"][std::string(name)] = count;
   json["guards"]["restored"] = report.guards.restored;
   return json_lines(json);
@@ -256,10 +295,10 @@ std::string felt_json(const FeltReport& report) {
 std::string progress_line(const Progress& now, bool vibrates) {
   const std::string output = vibrates ? fmt::format("{:5.1f} m/s^2  {:4.0f} Hz", now.force.x, now.force.y)
                                       : fmt::format("{:5.2f} N", glm::length(now.force));
-  return fmt::format("{:7.1f} s  x {:>6} mm  y {:>6} mm  {:5.0f} mm/s  {}  {} ticks, {} missed{}\033[K", now.time,
-                     with_decimals(1e3 * now.position.x, 1), with_decimals(1e3 * now.position.y, 1),
-                     1e3 * glm::length(now.velocity), output, now.ticks_run, now.ticks_missed,
-                     now.inside ? "" : "  (off the patch)");
+  return readable("{:7.1f} s  x {:>6} mm  y {:>6} mm  {:5.0f} mm/s  {}  {} ticks, {} missed{}\033[K", now.time,
+                  with_decimals(1e3 * now.position.x, 1), with_decimals(1e3 * now.position.y, 1),
+                  1e3 * glm::length(now.velocity), output, now.ticks_run, now.ticks_missed,
+                  now.inside ? "" : "  (off the patch)");
 }
 
 }  // namespace wale

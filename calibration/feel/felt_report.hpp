@@ -34,10 +34,16 @@ struct FeltReport {
   float predicted_amplitude = 0;  ///< N, of a pad m/s^2; 0 when no percept of the program predicts one
   std::vector<LevelBack> levels;
   std::vector<double> asked;  ///< for each of `levels` the level asked for; negative if none was
+  /// s: about how long such a run must be for the hand to cross the texture often enough, if it did not; infinite if it
+  /// crossed nothing.
+  std::optional<double> needed_seconds;
 };
 
 /// The least number of crossings that a texture needs to be read back.
 inline constexpr long least_crossings = 50;
+
+/// Of a run whose hand moves over the texture, the seconds after which it is long enough. Longer runs are not proposed.
+inline constexpr double longest_proposed_run = 60;
 
 /// Measures a run, without its first part, in which forces slew in and the hand comes up to speed.
 FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfile& device, RunManner manner);

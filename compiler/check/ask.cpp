@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compiler/expression/check_name.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -25,7 +26,7 @@ std::vector<Fix> as_percentage(const Declared<MaterialDecl>& declared, const Per
 
 /// The value of a level or a tolerance, a constant without a unit. Of `0.6 mm` the number was meant.
 std::optional<double> plain_level(const Declared<MaterialDecl>& declared, ExprId expr, const Surroundings& surroundings,
-                                  const char* what) {
+                                  const char* what, const Percept& percept) {
   const auto* literal = std::get_if<NumberLiteral>(&declared.tree->expr(expr));
   if (literal == nullptr || literal->suffix.count == 0) return plain_constant(declared, expr, surroundings);
   Diagnostics found;
@@ -33,6 +34,19 @@ std::optional<double> plain_level(const Declared<MaterialDecl>& declared, ExprId
   for (Diagnostic diagnostic : found.all()) {
     if (diagnostic.code == Code::wrong_dimension) {
       const std::string number = fmt::format("{}", literal->value);
+      const std::string_view text = surroundings.sources.text(declared.tree->span(expr));
+      const std::string function = percept.carrier.substr(0, percept.carrier.find(' '));
+      const bool is_size = !percept.carrier.empty() && std::ranges::any_of(diagnostic.facts, [&](const Fact& fact) {
+        const auto* words = std::get_if<std::string>(&fact.value);
+        return fact.name == "found" && words && *words == declared.home->names().words(percept.carrier_dimension);
+      });
+      if (is_size) {
+        diagnostic.help =
+            fmt::format("levels go from 0 to 1; for {0} write `{1}({2}{0})` in a physical block", text, function,
+                        percept.argument() == "amplitude" && function != "vibrate" ? "height, amplitude: " : "");
+        surroundings.diagnostics.report(std::move(diagnostic));
+        continue;
+      }
       diagnostic.help = fmt::format("{} has no unit: write `{}`", what, number);
       diagnostic.fixes = {replace(declared.tree->span(expr), number, {}, false)};
     }
@@ -113,7 +127,7 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
                       : *named;  // a name means the same place on the scale for the percept and for its antonym
   } else if (node.value) {
     asked.span = declared.tree->span(*node.value);
-    const auto known = plain_level(declared, *node.value, surroundings, "a level");
+    const auto known = plain_level(declared, *node.value, surroundings, "a level", *meant.percept);
     if (!known) return;
     asked.level = *known;
   } else {
@@ -121,7 +135,7 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
   }
   if (!(asked.level >= 0 && asked.level <= 1))
     return report(
-        Code::level_out_of_range, asked.span, fmt::format("the level {:.4g} is outside 0 .. 1", asked.level),
+        Code::level_out_of_range, asked.span, readable("the level {:.4g} is outside 0 .. 1", asked.level),
         Advice(asked.level > most_meant_as_level && asked.level <= 100
                    ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`", node.name.text,
                                  asked.level, asked.level / 100)
@@ -130,7 +144,7 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
             .fact("high", 1)
             .fix(as_percentage(declared, node, asked.level)));
   if (node.tolerance) {
-    const auto tolerance = plain_level(declared, *node.tolerance, surroundings, "a tolerance");
+    const auto tolerance = plain_level(declared, *node.tolerance, surroundings, "a tolerance", *meant.percept);
     if (!tolerance) return;
     if (!(*tolerance >= 0 && *tolerance <= 1))
       return report(Code::level_out_of_range, declared.tree->span(*node.tolerance),

@@ -12,6 +12,7 @@
 #include "compiler/check/override_statements.hpp"
 #include "compiler/diagnostics/fix.hpp"
 #include "compiler/parse/made_from.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -225,12 +226,12 @@ class Assembler {
     if (weight >= least_weight && weight <= largest_weight) return true;
     if (weight > largest_weight)
       report(Code::value_out_of_range, span,
-             fmt::format("expected a weight of at most {}, found {:.6g}", largest_weight, weight),
+             readable("expected a weight of at most {}, found {:.6g}", largest_weight, weight),
              weight <= 100 ? fmt::format("1 is the material as it is; for a share write `{:.6g} %`", weight)
                            : "1 is the material as it is");
     else
       report(Code::value_out_of_range, span,
-             weight > 0 ? fmt::format("expected a weight of at least {:.6g}, found {:.6g}", least_weight, weight)
+             weight > 0 ? readable("expected a weight of at least {:.6g}, found {:.6g}", least_weight, weight)
                         : "the weight of a component must be greater than zero",
              "leave out components that are not in the blend");
     return false;
@@ -238,7 +239,7 @@ class Assembler {
 
   bool good_level(double level, Span span, const std::string& one) {
     if (level >= 0 && level <= 1) return true;
-    report(Code::level_out_of_range, span, fmt::format("the level {:.4g} is outside 0 .. 1", level),
+    report(Code::level_out_of_range, span, readable("the level {:.4g} is outside 0 .. 1", level),
            fmt::format("0 is none of it, 1 is {}", one));
     return false;
   }
@@ -261,7 +262,7 @@ class Assembler {
       return nullptr;
     if (!(*way >= 0 && *way <= 1)) {
       report(Code::value_out_of_range, from.tree->span(arguments[2].value),
-             fmt::format("the position {:.4g} is not between the two materials", *way), "give a number from 0 to 1");
+             readable("the position {:.4g} is not between the two materials", *way), "give a number from 0 to 1");
       return nullptr;
     }
     if (!same_structure(*first, *second, span)) return nullptr;

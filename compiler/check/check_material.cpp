@@ -6,6 +6,7 @@
 
 #include "compiler/check/blend.hpp"
 #include "compiler/check/check_statements.hpp"
+#include "compiler/check/check_usage.hpp"
 
 namespace wale {
 
@@ -39,6 +40,8 @@ class MaterialChecker {
     if (!node_.physical_span && node_.derived_from)
       material_.layers.physical = sources.text(tree_.span(*node_.derived_from));
     material_.layers.documentation = node_.documentation;
+    if (surroundings_.diagnostics.error_count() == errors_before_)
+      material_.doubted = check_usage(material_, checker_.record(), surroundings_) || checker_.record().doubted;
     material_.carriers = std::move(checker_.record().carriers);
     material_.open_spans = checker_.record().open_spans;
     material_.states = std::move(checker_.record().states);
@@ -78,6 +81,7 @@ class MaterialChecker {
         const bool quotient = term.kind == TermKind::operation && term.operation == Operation::divide;
         if (!(product && term.b == carrier.force_x) && !(quotient && term.a == carrier.force_x)) continue;
         if (terms.dependence(product ? term.a : term.b).in_tick()) continue;
+        material_.scales_a_texture = true;
         surroundings_.diagnostics.report(
             {.code = Code::scaled_texture,
              .span = term.span,

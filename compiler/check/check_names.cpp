@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compiler/expression/builtin_functions.hpp"
+#include "compiler/expression/other_languages.hpp"
 #include "compiler/parse/overloaded.hpp"
 
 namespace wale {
@@ -76,9 +77,11 @@ class BodyReader {
     std::vector<std::string> known = names_.constants.spellings();
     for (const auto& formal : function_.parameters) known.emplace_back(formal.name.text);
     known.insert(known.end(), {"hand", "velocity", "acceleration", "time", "button"});
+    const auto ours = instead_of_value(word.text);
     report(word, Code::unknown_name, fmt::format("nothing here is called `{}`", word.text),
-           did_you_mean(word.span, word.text, known,
-                        "a function can use its arguments, constants and the hand; make this an argument"));
+           ours ? Advice(std::string(*ours))
+                : did_you_mean(word.span, word.text, known,
+                               "a function can use its arguments, constants and the hand; make this an argument"));
   }
   void unknown_unit(const Word& word) {
     if (surroundings_.diagnostics.is_full()) return;
@@ -89,9 +92,11 @@ class BodyReader {
     if (names_.private_names.contains(word.text) || surroundings_.diagnostics.is_full()) return;
     auto known = names_.functions.spellings();
     for (const auto& builtin : builtins()) known.emplace_back(builtin.name);
+    const auto ours = instead_of_function(word.text);
     report(word, Code::unknown_name, fmt::format("no function is called `{}`", word.text),
-           did_you_mean(word.span, word.text, known,
-                        "schema/LANGUAGE.md lists them; `function name(…) = …` declares one"));
+           ours ? Advice(std::string(*ours))
+                : did_you_mean(word.span, word.text, known,
+                               "schema/LANGUAGE.md lists them; `function name(…) = …` declares one"));
   }
 
   void report(const Word& word, Code code, std::string message, Advice advice) {

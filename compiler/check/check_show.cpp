@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "compiler/check/check_statements.hpp"
 
@@ -146,10 +147,21 @@ void ShowChecker::colour(const SyntaxTree& tree, const Call& call) {
     return report(Code::missing_argument, call.callee.span, "a colour needs red, green and blue, each from 0 to 1",
                   "write, for example, `show colour(0.8, 0.5, 0.2)`");
   std::array<TermId, 3> parts{};
+  bool doubted = false;  // one part in 255ths is as all three
   for (std::size_t i = 0; i < 3; ++i) {
     const Value value = checker_.check_as(tree, arguments[i].value, scope_, Value::Type::number, Dimension{});
     if (value.failed() || !is_of_place(value)) return;
     parts[i] = value.x;
+    const auto known = constant_value(material_.terms, value.x);
+    if (known && !(*known >= 0 && *known <= 1) && !std::exchange(doubted, true))
+      report(Code::beyond_soft_range, value.span,
+             fmt::format("`{}` is {:.4g}, and the parts of a colour go from 0 to 1",
+                         i == 0   ? "red"
+                         : i == 1 ? "green"
+                                  : "blue",
+                         *known),
+             *known > 1 && *known <= 255 ? fmt::format("if it goes to 255, write `{:.3g}`", *known / 255)
+                                         : "give a number from 0 to 1");
   }
   material_.colour = parts;
 }

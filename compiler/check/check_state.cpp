@@ -27,29 +27,10 @@ std::optional<Dimension> StatementChecker::declared_dimension(const std::optiona
 }
 
 /// The bounds that the author wrote, or else those of the dimension.
-std::optional<StatementChecker::Bounds> StatementChecker::bounds(const Word& name, const std::optional<Word>& declared,
-                                                                 const std::optional<Range>& range,
-                                                                 const Dimension& dimension) {
-  const auto read = [&](const SyntaxTree& tree, const Range& written, Scope& scope) -> std::optional<Bounds> {
-    const auto low = checker_.constant(tree, written.low, scope, dimension);
-    const auto high = checker_.constant(tree, written.high, scope, dimension);
-    if (!low || !high) return std::nullopt;
-    if (*low <= *high) return Bounds{*low, *high};
-    report(Code::value_out_of_range, tree.span(written.low), "the range runs from high to low", "swap its ends");
-    return std::nullopt;
-  };
-  if (range) return read(tree(), *range, scope_);
-  std::optional<Bounds> found;
-  const auto take = [&](const DimensionBounds& of_dimension) {
-    Scope outside;
-    if (of_dimension.range) found = read(*of_dimension.tree, *of_dimension.range, outside);
-  };
-  if (declared)
-    if (const auto* of_dimension = declarations().dimension_bounds.find(declared->text)) take(*of_dimension);
-  if (!found)
-    declarations().dimensions.each([&](const std::string& known, const Dimension& other) {
-      if (!found && other == dimension) take(*declarations().dimension_bounds.find(known));
-    });
+std::optional<StateBounds> StatementChecker::bounds(const Word& name, const std::optional<Word>& declared,
+                                                    const std::optional<Range>& range, const Dimension& dimension) {
+  if (range) return checker_.bounds(tree(), *range, scope_, dimension);
+  const auto found = checker_.bounds_of(dimension, declared ? declared->text : std::string_view{});
   if (!found)
     report(Code::missing_setting, name.span, fmt::format("`{}` has no bounds", name.text),
            fmt::format("give it bounds, as in `state {} = … in LOW .. HIGH`", name.text));

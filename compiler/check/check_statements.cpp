@@ -4,11 +4,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <type_traits>
 #include <utility>
 
 namespace wale {
 
 namespace {
+
+/// The name that a statement declares, or null.
+const Word* declared_word(const PhysicalStatement& statement) {
+  return std::visit(
+      [](const auto& node) -> const Word* {
+        using Node = std::decay_t<decltype(node)>;
+        if constexpr (std::is_same_v<Node, ForceStatement>)
+          return node.name ? &*node.name : nullptr;
+        else if constexpr (requires { node.name; } && !std::is_same_v<Node, UpdateStatement>)
+          return &node.name;
+        else
+          return nullptr;
+      },
+      statement.what);
+}
 
 /// "3.25 mm", "0.5".
 std::string with_unit(double value, const std::string& unit) {
@@ -31,13 +48,21 @@ void StatementChecker::check(const std::vector<AssembledStatement>& statements) 
   };
   const auto parameters = static_cast<std::size_t>(std::ranges::count_if(statements, is_parameter));
   if (material_.parameters.empty()) material_.parameters.reserve(parameters);
+  checker_.look_below([&](std::string_view name) -> std::optional<Span> {
+    if (!statement_) return std::nullopt;
+    for (const auto& each : std::span(statement_ + 1, statements.data() + statements.size()))
+      if (const Word* declared = declared_word(*each.statement); declared && declared->text == name)
+        return declared->span;
+    return std::nullopt;
+  });
   for (const auto& assembled : statements) {
     const Span& span = assembled.statement->span;
-    if (!checker_.charge(operations_of_a_statement + operations_of_text(span), span)) return;
+    if (!checker_.charge(operations_of_a_statement + operations_of_text(span), span)) break;
     statement_ = &assembled;
     checker_.read(*assembled.home);
     std::visit(*this, assembled.statement->what);
   }
+  checker_.look_below({});
 }
 
 // ---- values -------------------------------------------------------------------------------------------------------
@@ -210,6 +235,7 @@ void StatementChecker::operator()(const ParamStatement& node) {
                  .fact("high", high / size, unit));
     }
   }
+  warn_of_percent(node);
   parameter.low = static_cast<float>(low);
   parameter.high = static_cast<float>(high);
   std::tie(parameter.unit, parameter.unit_in_si) = written_unit(node, value.dimension);
@@ -294,86 +320,6 @@ void StatementChecker::check_soft_range(const ParamStatement& node, const Dimens
                .fact("low", *from / size, unit)
                .fact("high", *to / size, unit));
   }
-}
-
-/// Whether the default lacks the unit that the range has. That is one error, and not one for each end of the range.
-bool StatementChecker::lacks_its_unit(const ParamStatement& node, const Value& value) {
-  if (!node.range || value.type != Value::Type::number || !value.dimension.plain()) return false;
-  const Value low = checker_.check(tree(), node.range->low, scope_);
-  if (low.failed()) return true;
-  if (low.type != Value::Type::number || low.dimension.plain()) return false;
-  const auto& names = declarations().names();
-  const std::string unit = written_unit(node, low.dimension).first;
-  const auto sides = names.side_by_side(low.dimension, value.dimension);
-  const std::string text(surroundings_.sources.text(value.span));
-  Diagnostic diagnostic = Advice(fmt::format("write `{} {}`", text, unit))
-                              .fix(append_unit(tree(), node.value, unit, surroundings_.sources))
-                              .see(tree().span(node.range->low), with_article(names.words(low.dimension)))
-                              .fact("expected", names.words(low.dimension))
-                              .fact("found", names.words(value.dimension))
-                              .about(Code::wrong_dimension, value.span,
-                                     fmt::format("`{}` is {}, but its default has no unit", node.name.text,
-                                                 with_article(names.words(low.dimension))));
-  diagnostic.expected = sides[0];
-  diagnostic.found = sides[1];
-  surroundings_.diagnostics.report(std::move(diagnostic));
-  return true;
-}
-
-/// Whether both ends of the range agree with each other and not with the default. That is one error, at the default.
-bool StatementChecker::disagrees_with_its_range(const ParamStatement& node, const Value& value) {
-  if (!node.range || value.type != Value::Type::number) return false;
-  const Value low = checker_.check(tree(), node.range->low, scope_);
-  if (low.failed() || low.type != Value::Type::number || low.dimension == value.dimension || low.dimension.plain())
-    return false;
-  const Value high = checker_.check(tree(), node.range->high, scope_);
-  if (high.failed() || high.type != Value::Type::number || high.dimension != low.dimension) return false;
-  const auto& names = declarations().names();
-  const auto sides = names.side_by_side(low.dimension, value.dimension);
-  const Span range = {tree().source, tree().span(node.range->low).begin, tree().span(node.range->high).end};
-  Diagnostic diagnostic =
-      Advice(fmt::format("give the default in {}, or the range in {}", customary_unit(declarations(), low.dimension),
-                         customary_unit(declarations(), value.dimension)))
-          .see(range, with_article(names.words(low.dimension)))
-          .fact("expected", names.words(low.dimension))
-          .fact("found", names.words(value.dimension))
-          .about(Code::wrong_dimension, value.span,
-                 fmt::format("the default of `{}` is {}, its range is of {}", node.name.text,
-                             with_article(names.words(value.dimension)), with_article(names.words(low.dimension))));
-  diagnostic.label = names.unit_beside(low.dimension, value.dimension);
-  diagnostic.expected = sides[0];
-  diagnostic.found = sides[1];
-  surroundings_.diagnostics.report(std::move(diagnostic));
-  return true;
-}
-
-/// Whether an end of a range is a bare number where the default has a unit, which is reported. The mend is in the unit
-/// that the author wrote, since `1 .. 5 N/mm` does not mean 1 N/m.
-bool StatementChecker::range_lacks_its_unit(const ParamStatement& node, const Range& range,
-                                            const Dimension& dimension) {
-  if (dimension.plain()) return false;
-  for (const ExprId end : {range.low, range.high}) {
-    ExprId bare = end;
-    while (const auto* unary = std::get_if<Unary>(&tree().expr(bare))) bare = unary->operand;
-    const auto* literal = std::get_if<NumberLiteral>(&tree().expr(bare));
-    if (!literal || literal->suffix.count > 0 || literal->value == 0) continue;
-    const auto& names = declarations().names();
-    const std::string unit = written_unit(node, dimension).first;
-    const Span span = tree().span(end);
-    const auto sides = names.side_by_side(dimension, Dimension{});
-    Diagnostic diagnostic =
-        Advice(fmt::format("a plain number needs its unit: write `{} {}`", surroundings_.sources.text(span), unit))
-            .fix(append_unit(tree(), end, unit, surroundings_.sources))
-            .fact("expected", names.words(dimension))
-            .fact("found", names.words(Dimension{}))
-            .about(Code::wrong_dimension, span,
-                   fmt::format("expected {}, found {}", names.words(dimension), names.words(Dimension{})));
-    diagnostic.expected = sides[0];
-    diagnostic.found = sides[1];
-    surroundings_.diagnostics.report(std::move(diagnostic));
-    return true;
-  }
-  return false;
 }
 
 /// The unit that the author wrote for a parameter, and its factor to SI.

@@ -42,9 +42,6 @@ class StatementChecker {
   void operator()(const ShowStatement& node);
 
  private:
-  struct Bounds {
-    double low = 0, high = 0;
-  };
   struct KnownMemory {
     std::uint32_t index = 0;
     std::optional<Span> next;  ///< the place of its update, once seen
@@ -57,6 +54,7 @@ class StatementChecker {
   std::optional<double> parameter_value(const ParamStatement& node, const Value& own_value);
   std::optional<double> mixed(const Mixture& mixture, const Dimension& dimension);
   Span place_of_default(const ParamStatement& node) const;
+  void warn_of_percent(const ParamStatement& node);
   bool lacks_its_unit(const ParamStatement& node, const Value& value);
   bool disagrees_with_its_range(const ParamStatement& node, const Value& value);
   bool range_lacks_its_unit(const ParamStatement& node, const Range& range, const Dimension& dimension);
@@ -64,8 +62,8 @@ class StatementChecker {
   void check_soft_range(const ParamStatement& node, const Dimension& dimension, double value, Parameter& parameter);
 
   std::optional<Dimension> declared_dimension(const std::optional<Word>& dimension);
-  std::optional<Bounds> bounds(const Word& name, const std::optional<Word>& declared, const std::optional<Range>& range,
-                               const Dimension& dimension);
+  std::optional<StateBounds> bounds(const Word& name, const std::optional<Word>& declared,
+                                    const std::optional<Range>& range, const Dimension& dimension);
   bool fits(const Value& value, ExprId expr, const Dimension& dimension);
   Value check_update(const UpdateStatement& node, Value::Type type, const Dimension& dimension);
   std::vector<std::string> remembered() const;

@@ -9,6 +9,7 @@
 #include "compiler/build_stage.hpp"
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
+#include "compiler/text/readable.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale::command {
@@ -95,7 +96,7 @@ int build_collection(const BuildOptions& options) {
     if (built.path.empty())
       refuse(fmt::format("`{}` is not built", built.material));
     else
-      print_out("{}  {} bytes\n", visible_text(built.path), built.bytes);
+      print_out("{}  {}\n", visible_text(built.path), readable("{} bytes", built.bytes));
   }
   const std::size_t all = collection->materials.size(), built = collection->built();
   print_out("{} of {} material{} built\n", built, all, all == 1 ? "" : "s");

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "compiler/preview/preview.hpp"
+#include "compiler/typed_number.hpp"
 
 namespace wale::command {
 namespace {
@@ -17,7 +21,40 @@ struct PreviewOptions {
   Choice choice;
   std::vector<std::string> settings;
   std::string out;
+  std::string along;              ///< "x", "y" or an angle in degrees; empty: where the surface changes
+  std::optional<Hand> at;         ///< of which only the place counts; by default the patch's centre
+  std::optional<double> seconds;  ///< of the trace
 };
+
+/// The direction and the place of the section, or why they make no sense.
+Result<SectionChoice> section_of(const PreviewOptions& options, PatchSize size) {
+  SectionChoice section;
+  if (options.along == "x" || options.along == "y") {
+    section.along = options.along == "x" ? 0 : std::numbers::pi / 2;
+    section.name = options.along;
+  } else if (!options.along.empty()) {
+    std::string number = options.along;
+    for (const std::string_view unit : {" deg", "deg", "°"})
+      if (number.ends_with(unit)) number.resize(number.size() - unit.size());
+    const auto angle = read_number("--along", number, {.least = -360, .most = 360, .example = 30});
+    if (!angle)
+      return Error{.code = angle.error().code,
+                   .sentence = fmt::format("expected x, y, or an angle in degrees, {}", found_typed(options.along)),
+                   .mend = "for example, `--along 30`, 30 degrees to the left of x",
+                   .place = {.name = "--along"}};
+    section.along = *angle * std::numbers::pi / 180;
+    section.name = fmt::format("{:.4g}°", *angle);
+  }
+  if (!options.at) return section;
+  const glm::dvec2 place(options.at->position);
+  if (std::abs(place.x) > size.width / 2 || std::abs(place.y) > size.height / 2)
+    return Error{.code = Code::value_out_of_range,
+                 .sentence = fmt::format("this place is outside the patch, {:.4g} mm by {:.4g} mm around its centre",
+                                         1e3 * size.width, 1e3 * size.height),
+                 .place = {.name = "--at"}};
+  section.at = place;
+  return section;
+}
 
 int preview(const PreviewOptions& options) {
   const auto programs = load_programs(options.choice, false);
@@ -27,7 +64,10 @@ int preview(const PreviewOptions& options) {
   if (!parameters) return refuse(parameters.error());
   const auto common = common_modules();
   const Bank bank(program, *parameters, program.default_size());
-  const auto drawing = draw_preview(bank, preview_text(bank, common->declarations), common->declarations);
+  const auto section = section_of(options, bank.size());
+  if (!section) return refuse(section.error());
+  const auto drawing =
+      draw_preview(bank, preview_text(bank, common->declarations), common->declarations, {*section, options.seconds});
   if (!drawing) return refuse(drawing.error());
   if (!drawing->has_text)
     print_error("wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
@@ -55,7 +95,16 @@ Run declare_preview(CLI::App& verb) {
       verb, options->out,
       "the picture to write, as in corduroy.png; also .jpg, .tif and the other formats that OpenImageIO writes")
       ->required();
-  verb.footer("for example: wale preview corduroy -o corduroy.png");
+  must_say(verb.add_option("--along", options->along,
+                           "the direction of the section: x, y, or an angle to the left of x in degrees, as in 30 "
+                           "(default: the axis along which the surface changes)"),
+           "x, y or an angle");
+  offer_hand(verb, "--at", options->at,
+             "a place on the section, from the patch's centre: \"10 mm, 5 mm\" (default: the centre)");
+  offer_duration(verb, "--seconds", options->seconds, {.most = 60, .example = 3},
+                 "how long the hand rubs before the picture is taken, and strokes for the spectrum (default: 1 s to 5 "
+                 "s, and 2 s)");
+  verb.footer("for example: wale preview corduroy -o corduroy.png --along 30 --at \"10 mm, 5 mm\"");
   return [options] { return preview(*options); };
 }
 

@@ -23,23 +23,6 @@ double exerts(const CueFacts& facts, const Declarations& declarations) {
   return found;
 }
 
-/// The name that the condition of a threshold has for a cue: "wall_stiffness", and "rate" for a vibration's frequency.
-std::string condition_name(const CueFacts& facts) {
-  if (facts.kind == CueKind::vibration_frequency) return "rate";
-  std::string name = facts.name;
-  std::ranges::replace(name, ' ', '_');
-  return name;
-}
-
-/// What the conditions of a threshold may ask of a material: its cues, and the speed of the hand on it, m/s.
-Sizes sizes_of(const Cues& cues, const std::optional<double>& speed) {
-  Sizes sizes;
-  for (const CueFacts& facts : cue_table())
-    if (cues[facts.kind]) sizes[condition_name(facts)] = *cues[facts.kind];
-  if (speed) sizes["speed"] = *speed;
-  return sizes;
-}
-
 Verdict verdict_of(const std::optional<double>& plainest, bool unknown) {
   if (plainest && *plainest >= 1) return Verdict::apart;
   return unknown ? Verdict::unknown : Verdict::alike;
@@ -58,9 +41,7 @@ Comparer::Comparer(const Declarations& declarations, const std::string& device) 
   for (const CueFacts& facts : cue_table()) {
     people_.emplace_back(declarations, facts.threshold, device, exerts(facts, declarations));
   }
-  // A stroke goes from one end to the other and back: four amplitudes.
-  if (const HandDeclaration* hand = declarations.hands.find("normal"); hand && hand->lateral_frequency > 0)
-    speed_ = 4 * hand->lateral_amplitude * hand->lateral_frequency;
+  speed_ = speed_of_strokes(declarations);
 }
 
 /// The difference in just noticeable differences; empty if no publication gives a threshold.

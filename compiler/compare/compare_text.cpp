@@ -10,6 +10,7 @@
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/text/json_text.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 namespace {
@@ -105,14 +106,14 @@ void write_table(std::string& text, const ComparisonMatrix& matrix) {
 /// For many materials: the pairs that people can hardly tell apart. The table of all pairs is in the JSON.
 void write_alike(std::string& text, const ComparisonMatrix& matrix) {
   const std::size_t alike = matrix.count(Verdict::alike), unknown = matrix.count(Verdict::unknown);
-  text += fmt::format("{} of {} pairs are hard to tell apart{}\n", alike, matrix.pair_count(), alike > 0 ? ":" : "");
+  text += readable("{} of {} pairs are hard to tell apart{}\n", alike, matrix.pair_count(), alike > 0 ? ":" : "");
   for (const ComparedPair& pair : matrix.nearest(most_listed))
     if (pair.distance.verdict == Verdict::alike)
-      text += fmt::format("  {:>4}  {} and {}\n", cell_text(pair.distance), matrix.materials()[pair.a].material,
-                          matrix.materials()[pair.b].material);
-  if (alike > most_listed) text += fmt::format("  and {} more; --json has all distances\n", alike - most_listed);
+      text += readable("  {:>4}  {} and {}\n", cell_text(pair.distance), matrix.materials()[pair.a].material,
+                       matrix.materials()[pair.b].material);
+  if (alike > most_listed) text += readable("  and {} more; --json has all distances\n", alike - most_listed);
   if (unknown > 0)
-    text += fmt::format("{} pairs are unknown: they differ in a cue that has no known threshold\n", unknown);
+    text += readable("{} pairs are unknown: they differ in a cue that has no known threshold\n", unknown);
 }
 
 /// One pair cue by cue, as JSON.
@@ -205,7 +206,7 @@ std::string comparison_text(const ComparisonMatrix& matrix, bool with_table) {
     write_cues(text, matrix, 0, 1);
     return text + shapes_are_not;
   }
-  text += fmt::format("{} materials, on {}\n", materials.size(), materials.front().device);
+  text += readable("{} materials, on {}\n", materials.size(), materials.front().device);
   if (with_table || materials.size() <= most_in_table) write_table(text, matrix);
   if (materials.size() > most_in_table) write_alike(text, matrix);
   for (const ComparedPair& nearest : matrix.nearest(1)) {

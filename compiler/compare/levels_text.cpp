@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -12,10 +13,21 @@
 
 namespace wale {
 
+namespace {
+
+/// The grade of the number of recognised levels; beyond the sizes that were compared it is extrapolated.
+std::string recognition_word(const LevelProposal& proposal) {
+  const bool compared = proposal.recognition->compared(proposal.levels.front().size, proposal.levels.back().size);
+  return compared ? evidence_word(proposal.recognition_evidence) : "extrapolated";
+}
+
+}  // namespace
+
 std::string levels_line(const LevelProposal& proposal) {
   std::vector<std::string> levels;
-  for (const ProposedLevel& each : proposal.levels)
-    levels.push_back(fmt::format("level_{} {}", levels.size() + 1, each.level));
+  const std::size_t count = proposal.levels.size();
+  for (std::size_t i = 0; i < count; ++i)
+    levels.push_back(fmt::format("level_{} {}", i + 1, proposal.levels[proposal.reversed ? count - 1 - i : i].level));
   return fmt::format("levels {} {{ {} }}", proposal.percept, fmt::join(levels, "; "));
 }
 
@@ -30,10 +42,9 @@ std::string proposal_text(const LevelProposal& proposal) {
     const ProposedLevel& each = proposal.levels[proposal.reversed ? count - 1 - i : i];
     const ProposedLevel& after = proposal.reversed && i > 0 ? proposal.levels[count - i] : each;
     const std::string apart = i == 0 ? "-" : fmt::format("{:.2f}", after.apart);
-    text +=
-        fmt::format("  {:<14} {:>8.{}f}  {:>14}  {:>5}", fmt::format("level_{}", proposal.reversed ? count - i : i + 1),
-                    proposal.reversed ? 1 - each.level : each.level, proposal.digits,
-                    fmt::format("{} {}", with_digits(each.size, 3), proposal.unit), apart);
+    text += fmt::format("  {:<14} {:>8.{}f}  {:>14}  {:>5}", fmt::format("level_{}", i + 1),
+                        proposal.reversed ? 1 - each.level : each.level, proposal.digits,
+                        fmt::format("{} {}", with_digits(each.size, 3), proposal.unit), apart);
     if (i > 0 && after.threshold)
       text += fmt::format("  ({}: {})", after.outside.empty() ? evidence_word(after.evidence) : "extrapolated",
                           after.threshold->source);
@@ -45,7 +56,16 @@ std::string proposal_text(const LevelProposal& proposal) {
     text += fmt::format(";\n  Weber fraction {:.2g} ({}, {})", each->weber, each->source, threshold_conditions(*each));
   text +=
       fmt::format("\n  {} by {} ({})\n", proposal.carrier, proposal.map->source, evidence_word(proposal.map_evidence));
-  if (proposal.most > count) text += fmt::format("  at most {} levels fit\n", proposal.most);
+  text += fmt::format("  told apart side by side: {} levels{}\n", proposal.most,
+                      proposal.most > count ? "; `--side-by-side` proposes them" : "");
+  if (const Threshold* found = proposal.recognition)
+    text += fmt::format("  recognised alone: about {:.0f} ({:.2g} within {}: {}, {})\n", std::round(found->recognised),
+                        found->recognised, found->valid ? found->valid->written : "an unknown range", found->source,
+                        recognition_word(proposal));
+  else
+    text += "  recognised alone: unknown; nobody has published it for this cue. Expect far fewer than side by side\n";
+  if (proposal.recognition && count > proposal.recognised())
+    text += "  these levels are for comparing, not for naming: people confuse them when each is felt alone\n";
   return text + '\n' + levels_line(proposal) + '\n';
 }
 
@@ -58,6 +78,12 @@ std::string proposal_json(const LevelProposal& proposal) {
                {"unit", proposal.unit},
                {"map", {{"source", proposal.map->source}, {"evidence", evidence_word(proposal.map_evidence)}}},
                {"most", proposal.most}};
+  Json& alone = json["recognised_alone"] = nullptr;
+  if (const Threshold* found = proposal.recognition)
+    alone = Json{{"levels", found->recognised},
+                 {"source", found->source},
+                 {"evidence", recognition_word(proposal)},
+                 {"valid", found->valid ? Json(found->valid->written) : Json(nullptr)}};
   Json& levels = json["levels"] = Json::array();
   for (const ProposedLevel& each : proposal.levels) {
     Json& level = levels.emplace_back(Json{{"level", each.level}, {"size", each.size}});

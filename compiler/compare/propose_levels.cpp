@@ -95,6 +95,18 @@ Error too_many(std::size_t steps, std::size_t most, double apart, const std::str
 
 }  // namespace
 
+std::size_t LevelProposal::recognised() const {
+  if (!recognition) return most;
+  return std::min(most, static_cast<std::size_t>(std::max(2.0, std::round(recognition->recognised))));
+}
+
+Result<LevelProposal> propose_recognised_levels(const std::string& percept, const std::string& device, double apart,
+                                                const Declarations& declarations) {
+  auto all = propose_levels(percept, device, std::nullopt, apart, declarations);
+  if (!all || all->recognised() == all->levels.size()) return all;
+  return propose_levels(percept, device, all->recognised(), apart, declarations);
+}
+
 Result<LevelProposal> propose_levels(const std::string& name, const std::string& device,
                                      std::optional<std::size_t> steps, double apart, const Declarations& declarations) {
   const PerceptName meant = declarations.percept_named(name);
@@ -151,6 +163,10 @@ Result<LevelProposal> propose_levels(const std::string& name, const std::string&
   proposal.device = device, proposal.carrier = percept.argument();
   proposal.unit = declarations.names().unit(percept.carrier_dimension);
   proposal.map = &map;
+  proposal.recognition = recognition(declarations, percept.cue, device);
+  if (const Threshold* found = proposal.recognition)
+    proposal.recognition_evidence = std::max(
+        {found->evidence, found->handle, found->device == device ? Evidence::measured : Evidence::transferred});
   proposal.map_evidence = std::max({map.slope, map.anchor, map.device == device ? map.handle : Evidence::transferred});
   for (const double level : written) {
     ProposedLevel each{.level = level, .size = scale.size_of(level)};

@@ -29,8 +29,14 @@ struct LevelProposal {
   const Map* map = nullptr;
   Evidence map_evidence = Evidence::estimated;  ///< the worst of its grades on this device
   std::vector<ProposedLevel> levels;            ///< two or more, rising on the scale
-  std::size_t most = 0;                         ///< the largest number of levels at the distance that was asked for
-  int digits = 2;                               ///< after the decimal point: the fewest that keep this distance
+
+  /// The number of levels that people recognise alone, a whole number of 2 at least; `most` if it is unknown.
+  std::size_t recognised() const;
+  std::size_t most = 0;  ///< the largest number of levels at the distance that was asked for: told apart side by side
+  /// How many people recognise when each is felt alone; null if nobody has published it for this cue.
+  const Threshold* recognition = nullptr;
+  Evidence recognition_evidence = Evidence::estimated;  ///< the worst of its grades on this device
+  int digits = 2;                                       ///< after the decimal point: the fewest that keep this distance
 };
 
 /// Proposes `steps` levels, 2 or more; without a number, as many as fit. Neighbours are at least `apart` just
@@ -42,7 +48,12 @@ struct LevelProposal {
 Result<LevelProposal> propose_levels(const std::string& percept, const std::string& device,
                                      std::optional<std::size_t> steps, double apart, const Declarations& declarations);
 
-/// `levels roughness { level_1 0.1; level_2 0.24 }`: the proposal as a line of Wale.
+/// The same with as many levels as people recognise when each is felt alone, if that is known and they fit.
+Result<LevelProposal> propose_recognised_levels(const std::string& percept, const std::string& device, double apart,
+                                                const Declarations& declarations);
+
+/// `levels roughness { level_1 0.1; level_2 0.24 }`: the proposal as a line of Wale. The names of an antonym's levels
+/// rise with the antonym; the numbers are those of the scale.
 std::string levels_line(const LevelProposal& proposal);
 std::string proposal_text(const LevelProposal& proposal);
 std::string proposal_json(const LevelProposal& proposal);

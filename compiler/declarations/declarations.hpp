@@ -124,6 +124,7 @@ struct HandDeclaration {
   double mass = 0, damping = 0, stiffness = 0;
   double lateral_amplitude = 0, lateral_frequency = 0;
   double circular_radius = 0, circular_frequency = 0;
+  double press_depth = 0, press_frequency = 0;
   double fewest_counts = 0, faithful_counts = 0;  ///< encoder counts per period
   double fewest_levels = 0;                       ///< command steps in the largest force
   std::string source;
@@ -202,6 +203,12 @@ struct Declarations {
   PerceptName percept_named(std::string_view name) const;
   /// All names of percepts, antonyms included.
   std::vector<std::string> percept_spellings() const;
+
+  /// The dimension with that name; `number` is that of plain numbers, if no dimension is called so.
+  std::optional<Dimension> dimension_named(std::string_view name) const {
+    if (const auto* found = dimensions.find(name)) return *found;
+    return name == "number" ? std::optional(Dimension{}) : std::nullopt;
+  }
 
   /// The dimension with that name; a plain number if a broken schema/units.wale lacks it.
   Dimension dimension(std::string_view name) const {

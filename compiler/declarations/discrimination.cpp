@@ -25,6 +25,7 @@ Discrimination::Discrimination(const Declarations& declarations, std::string_vie
   double least_force = 0;
   thresholds_.reserve(8);  // usually enough
   each_threshold(declarations, [&](const Threshold& each) {
+    if (each.recognised > 0) return;
     if (each.cue == cue) thresholds_.push_back(&each);
     if (each.cue == force_cue) least_force = std::max(least_force, each.floor);
   });
@@ -42,6 +43,16 @@ const Threshold* Discrimination::threshold(double a, double b) const {
     if (each->compared(a, b)) return each;
   }
   return thresholds_.front();
+}
+
+const Threshold* recognition(const Declarations& declarations, std::string_view cue, const std::string& device) {
+  const Threshold* best = nullptr;
+  each_threshold(declarations, [&](const Threshold& each) {
+    if (!(each.recognised > 0) || each.cue != cue) return;
+    const auto rank = [&](const Threshold& of) { return std::tuple(of.device != device, of.evidence, of.recognised); };
+    if (!best || rank(each) < rank(*best)) best = &each;
+  });
+  return best;
 }
 
 Evidence Discrimination::evidence(const Threshold& threshold) const {

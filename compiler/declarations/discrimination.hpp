@@ -47,4 +47,8 @@ class Discrimination {
   double least_ = 0;                          ///< size of the cue that exerts the smallest noticeable force
 };
 
+/// How many sizes of a cue people recognise when each is felt alone, by the best publication: one measured on the
+/// device itself, else the one with the best grade, else the one with the fewest sizes. Null if there is none.
+const Threshold* recognition(const Declarations& declarations, std::string_view cue, const std::string& device);
+
 }  // namespace wale

@@ -1,18 +1,13 @@
 #include "compiler/declarations/percepts.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
 namespace wale {
 
 double normal_quantile(double p) {
-  // Bisection of the distribution itself: exact to the last bits; slow, but never called in a tick.
-  double low = -9, high = 9;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(-middle / std::sqrt(2.0)) < p ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return boost::math::quantile(boost::math::normal(), p);
 }
 
 double sensitivity(Task task, double criterion) {

@@ -28,7 +28,9 @@ struct Condition {
   std::string quantity;
   SizeRange range;  ///< SI
   Dimension dimension;
-  std::string written;   ///< the range as written, "0.7 mm .. 10 mm", "below 350 Hz"
+  std::string written;  ///< the range as written, "0.7 mm .. 10 mm", "below 350 Hz"
+  std::string unit;     ///< of its last number as written, "mm"; empty for a plain number
+  double unit_in_si = 1;
   bool assumed = false;  ///< the range is assumed, not published
 };
 
@@ -98,10 +100,8 @@ struct Map {
   double valid_low = 0, valid_high = 0;  ///< range of the quantity, SI
   bool valid_assumed = false;            ///< that range is assumed, not published
   std::vector<Condition> conditions;     ///< other conditions of the measurement: "period", 0.7 mm .. 10 mm
-  double scatter = 0;                    ///< standard deviation of log10 magnitude around that of the average observer
-  bool scatter_assumed = false;          ///< the scatter is assumed, not published
-  double spread = 0;                     ///< standard deviation of the observers' exponents; 0 if unknown
-  int observers = 0;                     ///< 0: not known
+  LawUncertainty uncertainty;
+  StimulusDomain domain;                 ///< the stimuli that it was measured with
   Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
   bool tied = true;  ///< tied to the percept's reference stimulus; otherwise it can order stimuli but not set levels
   std::string device;
@@ -119,10 +119,11 @@ struct Map {
 
 /// The task by which a threshold was measured. It relates the criterion, a share p of correct answers, to d'.
 enum class Task {
-  forced_choice,  ///< choose one of two; d' = sqrt(2) z(p)
-  adjustment,     ///< make one equal to the other; d' = sqrt(2) z(p)
-  yes_no,         ///< say whether there is a difference; d' = 2 z(p) for an unbiased observer
-  one_interval,   ///< feel one of two and say which it is; d' = 2 z(p) for an unbiased observer
+  forced_choice,   ///< choose one of two; d' = sqrt(2) z(p)
+  adjustment,      ///< make one equal to the other; d' = sqrt(2) z(p)
+  yes_no,          ///< say whether there is a difference; d' = 2 z(p) for an unbiased observer
+  one_interval,    ///< feel one of two and say which it is; d' = 2 z(p) for an unbiased observer
+  identification,  ///< feel one of many and say which it is; gives `Threshold::recognised` and no d'
 };
 
 /// The smallest noticeable difference of a cue.
@@ -137,6 +138,9 @@ struct Threshold {
   double weber = 0;  ///< Weber fraction at d' = 1
   double floor = 0;  ///< smallest difference at d' = 1 near the absolute threshold, SI; 0 if unknown
   bool floor_assumed = false;
+  /// Of sizes felt one at a time, without another to compare with: how many people name correctly (absolute
+  /// identification). Such a record has no fraction and tells no two sizes apart; 0 in all others.
+  double recognised = 0;
   std::optional<Condition> valid;     ///< the sizes of the cue that were compared; empty if unknown
   std::vector<Condition> conditions;  ///< other conditions of the measurement: "speed", 25 mm/s .. 160 mm/s
   int observers = 0;                  ///< 0: not known

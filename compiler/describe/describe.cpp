@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "compiler/describe/describe_extracted.hpp"
+#include "compiler/describe/describe_percept.hpp"
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/measure/rehearsal.hpp"
 #include "compiler/read/cues.hpp"
@@ -21,42 +22,6 @@
 namespace wale {
 
 namespace {
-
-DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
-  const PatchProgram& program = bank.program().description();
-  const PerceptRecord& record = program.percepts[index];
-  DescribedPercept percept{.name = record.name,
-                           .carrier = record.carrier,
-                           .asked = {},
-                           .unit = record.unit,
-                           .realisation = record.realisation,
-                           .alone = record.alone,
-                           .slope = record.slope,
-                           .anchor = record.anchor,
-                           .handle = record.handle,
-                           .worst = std::max({record.slope, record.anchor, record.handle}),
-                           .map = record.map,
-                           .device = record.device,
-                           .source = record.source};
-  const float aimed = amplitude(bank, index);
-  // The device's limit cuts only carriers in the unit of its output.
-  const char* limited = program.vibrates() ? "m/s^2" : "N";
-  const float most = record.unit == limited ? static_cast<float>(program.device.most()) : HUGE_VALF;
-  percept.saturated = aimed > most;
-  percept.amplitude = std::min(aimed, most);
-  const Prediction prediction = predict(bank, index, static_cast<float>(percept.amplitude));
-  percept.level = prediction.level;
-  percept.magnitude = prediction.magnitude;
-  tell_intervals(percept, record.scatter, record.spread, record.one > 0 ? percept.amplitude / record.one : 0,
-                 record.near_threshold);
-  percept.observers = record.observers;
-  percept.blended = record.blended;
-  if (record.parameter) percept.asked = bank.registers()[program.first_parameter() + *record.parameter];
-  constexpr float rounding = 1e-5f;
-  percept.outside_validity =
-      percept.amplitude < record.valid_low * (1 - rounding) || percept.amplitude > record.valid_high * (1 + rounding);
-  return percept;
-}
 
 /// Whether code reads any of `count` registers from `first` on.
 bool reads(std::span<const Instruction> code, RegisterNumber first, std::size_t count) {
@@ -128,11 +93,10 @@ void describe_bounds(Description& description, const Program& program) {
 void describe_force(Description& description, const Bank& bank, const Declarations& declarations, Texture texture) {
   const PatchProgram& program = bank.program().description();
   ForceReading found;
+  const ReadParts needed = texture == Texture::extracted ? ReadParts{} : parts_for(program);
   // The tasks are independent; the longest come first.
   const std::array<std::function<void()>, 4> tasks = {
-      [&] {
-        if (texture == Texture::extracted) found = read(bank, declarations);
-      },
+      [&] { found = read(bank, declarations, needed); },
       [&] { description.grade = grade(bank, normal_hand(declarations)); },
       [&] { describe_bounds(description, bank.program()); },
       [&] { description.force = measured(bank, declarations); },
@@ -147,12 +111,18 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
   else
     work(0, 1);
   description.no_percept = why_no_texture(program, description.force);
-  if (texture == Texture::extracted) describe_extracted(description, bank, found, declarations);
+  description.percepts = recorded_percepts(bank, found, declarations);
+  description.fates = fates_at(bank, found, declarations);
+  if (texture == Texture::left_out) return;
+  tell_settings(description.percepts, bank, found, declarations);
+  describe_extracted(description, bank, found, declarations);
 }
 
 /// The shaking of a pad.
 void describe_shaking(Description& description, const Bank& bank, const Declarations& declarations) {
   description.shaking = measure_shaking(bank, declarations.hands.find("normal"));
+  description.percepts = recorded_percepts(bank, {}, declarations);
+  description.fates = fates_at(bank, {}, declarations);
   if (description.percepts.empty()) description.no_percept = "it does not shake the device";
 }
 
@@ -175,6 +145,7 @@ std::string evidence_word(Evidence evidence) {
     case Evidence::estimated: return "estimated";
     case Evidence::recalled: return "recalled";
     case Evidence::transferred: return "transferred";
+    case Evidence::extrapolated: return "extrapolated";
   }
   return "unknown";
 }
@@ -195,16 +166,10 @@ Description describe(const Bank& bank, const Declarations& declarations, Texture
   const PatchProgram& program = bank.program().description();
   Description description{
       .material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
-  for (std::size_t i = 0; i < program.percepts.size(); ++i) {
-    const DescribedPercept percept = describe_percept(bank, i);
-    // A parameter may make a viscosity or a spring push along instead of against the hand, and no map covers that.
-    if (std::isfinite(percept.level)) description.percepts.push_back(percept);
-  }
   if (program.vibrates())
     describe_shaking(description, bank, declarations);
   else
     describe_force(description, bank, declarations, texture);
-  description.fates = fates_at(bank, declarations);
   description.parameters = program.parameters;
   description.states = program.states;
   description.memories = program.grids;

@@ -5,49 +5,67 @@
 #include <vector>
 
 #include "compiler/describe/fates_at.hpp"
-#include "compiler/read/relief.hpp"
+#include "compiler/describe/level_intervals.hpp"
+#include "compiler/evidence/percept_reading.hpp"
 #include "compiler/grade/grade.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/prove/force_bound.hpp"
 #include "compiler/prove/prove.hpp"
+#include "compiler/read/relief.hpp"
+#include "compiler/read/wall.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
 
-struct Declarations;
-
-/// The predicted feel of one percept of a program, at given parameters.
+/// One percept of a program at given parameters: what is asked for, what the finished program reads, and on what
+/// evidence. The three are never mixed.
 struct DescribedPercept {
   std::string name;
   std::string carrier;
+
   std::optional<double> asked;  ///< the level asked for; empty if the author did not ask for one
-  double amplitude = 0;         ///< the carrier's size, in `unit`
-  std::string unit;             ///< of the carrier's size, SI: "N", "N s/m"
-  std::string realisation;      ///< the device's own force for it, as written; empty if the author wrote the force
-  double level = 0, magnitude = 0;
-  /// 95 % of the means of such groups of people lie between these levels, by the map's scatter
-  double low = 0, high = 0;
-  /// The same for single people, whose exponents differ more than the means do; equal to the above if this spread is
-  /// not published.
-  double individual_low = 0, individual_high = 0;
-  int observers = 0;            ///< people behind the map; 0 if not published
-  bool near_threshold = false;  ///< near or below the threshold of feeling
+  double aimed = 0;             ///< the carrier's size that it was solved for, in `unit`
   bool blended = false;         ///< a blend asks for it: mixed from the levels of its components
-  bool extracted = false;       ///< read from the program's force; the author did not ask for it
-  bool saturated = false;       ///< the device pushes less than the percept needs; `level` is what it delivers
-  bool outside_validity = false;
-  bool alone = true;  ///< no other force pushes; otherwise a run cannot read the level back
-  Evidence slope, anchor, handle, worst;
+  bool solved = false;          ///< its size was found from the level; otherwise the author wrote it
+  std::string realisation;      ///< the device's own force for it, as written; empty if the author wrote the force
+
+  double amplitude = 0;             ///< the carrier's size that is read from the finished program, in `unit`
+  std::string unit;                 ///< of the carrier's size, SI: "N", "N s/m"
+  bool readable = true;             ///< otherwise it is the size aimed at, as far as the device gives it
+  double level = 0, magnitude = 0;  ///< of that size, by the map
+  LawUncertainty uncertainty;       ///< of the map
+  LevelIntervals intervals;         ///< of the level, by that uncertainty
+  bool near_threshold = false;  ///< near or below the threshold of feeling
+  bool extracted = false;       ///< the program has no record of it: only its force tells
+  bool saturated = false;       ///< the device pushes less than the percept needs
+  bool alone = true;            ///< no other force pushes; otherwise a run cannot read the level back
+  /// What it reads where its level is at the least, in the middle and at the most: of a level that is a parameter.
+  struct Setting {
+    double asked = 0, reads = 0;
+  };
+  std::vector<Setting> settings;
+  std::string parameter;  ///< the name of that parameter
+
+  /// The worst of slope, anchor, handle and domain.
+  Evidence evidence() const;
+  Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
+  std::optional<Evidence> domain;     ///< empty if the map does not state its stimuli
+  std::string domain_why;             ///< how the stimulus differs from those of the map
+  std::vector<OutsideRange> outside;  ///< what was not measured
+  bool outside_validity() const { return !outside.empty(); }
+  std::vector<std::string> assumed;  ///< figures of the map that are assumed: "scatter", "spread", "amplitude", …
   std::string map, device, source;
 };
 
 /// The texture of a program's force, and its name by the `rule`s that classify textures.
 struct DescribedTexture {
-  Relief force;       ///< with amplitude 0 there is no relief
-  std::string kind;    ///< in the words of the rules: "grating", "perlin", "spring", "viscous", "nothing", …
+  Relief force;      ///< with amplitude 0 there is no relief
+  std::string kind;  ///< in the words of the rules: "grating", "perlin", "spring", "viscous", "nothing", …
   /// what its strongest wave counts as, by its period: "roughness", "bumpiness"; empty without one, and if it
   /// is too fine for any
   std::string counts_as;
+  /// What the hand meets of the strongest wave, if that is too fine for the device's encoder.
+  std::optional<ReliefWave> encoder_pattern;
   std::string texture_class, size_class;  ///< "flat texture", "moguls"; empty without a texture or a rule
   /// how sure people are that it is a texture: "high", "low", or the stimulus that they rated
   std::string confidence;
@@ -62,8 +80,13 @@ struct Description {
   Layers layers;
   std::vector<DescribedPercept> percepts;
   std::optional<DescribedTexture> texture;  ///< if declarations were given
-  std::string no_percept;                   ///< why no percept is of a texture, in a line; empty if one is
-  std::vector<DescribedFate> fates;         ///< fate of each percept and of the physics on the device
+  struct Wall {
+    WallFace face;
+    WallDepth depth;
+  };
+  std::optional<Wall> wall;          ///< the stiffest, if a reading found one
+  std::string no_percept;            ///< why no percept is of a texture, in a line; empty if one is
+  std::vector<DescribedFate> fates;  ///< fate of each percept and of the physics on the device
   std::optional<MeasuredShaking>
       shaking;                        ///< of a program that vibrates; its force, bound, grade and texture are empty
   Measured force;                     ///< `max_newton` includes a rehearsal if the program has memory

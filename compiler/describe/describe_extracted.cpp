@@ -5,37 +5,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/describe/describe_percept.hpp"
 #include "compiler/read/cues.hpp"
+#include "compiler/read/encoder_pattern.hpp"
 #include "compiler/read/tolerances.hpp"
+#include "compiler/solve/basis.hpp"
 #include "compiler/solve/choose_map.hpp"
 #include "compiler/solve/law.hpp"
 
 namespace wale {
 namespace {
 
-constexpr double normal_95 = 1.96;  // 95 % of a normal distribution lie within so many standard deviations of its mean
-
-DescribedPercept told_by(const Percept& percept, const Map& map, double size, const Description& description,
-                         const Declarations& declarations) {
-  DescribedPercept told;
-  told.name = percept.name;
-  told.carrier = percept.carrier;
-  told.amplitude = size;
-  told.unit = declarations.names().unit(percept.carrier_dimension);
-  told.extracted = true;
+DescribedPercept told_by(const Percept& percept, const Map& map, double size, const DeviceDeclaration& device,
+                         const Bank& bank, const ForceReading& found, const Declarations& declarations) {
   const Law law(map, percept);
-  told.level = law.level_of(size);
-  told.magnitude = law.magnitude_of(size);
-  tell_intervals(told, map.scatter, map.spread, size / percept.one, percept.near_threshold);
-  told.outside_validity = size < map.valid_low * (1 - reading) || size > map.valid_high * (1 + reading);
-  told.alone = false;
-  told.slope = map.slope, told.anchor = map.anchor;
-  told.handle = map.device == description.device.name ? map.handle : Evidence::transferred;
-  told.worst = std::max({told.slope, told.anchor, told.handle});
-  told.observers = map.observers;
-  told.map = map.name.empty() ? fmt::format("{} from {}", map.percept, map.from) : map.name;
-  told.device = map.device;
-  told.source = map.source;
+  DescribedPercept told{.amplitude = size,
+                        .level = law.level_of(size),
+                        .magnitude = law.magnitude_of(size),
+                        .extracted = true,
+                        .alone = false};
+  PerceptRecord record = record_by(map, percept, device, declarations);
+  if (!map.name.empty()) record.map = map.name;
+  tell_evidence(told, record, bank, found, declarations);
   return told;
 }
 
@@ -46,10 +37,29 @@ double as_well_as_read(double size) {
   return std::round(size / digit) * digit;
 }
 
+/// What the irregular stimuli of chapter 4 were, by their forces: Perlin's noise, smooth between the values of a
+/// lattice, changes gently over its grain, and a noise of independent forces jumps about within it. Both are alike in
+/// every direction. Fractals, mixtures and most photographs are neither.
+std::string kind_of_irregular(const Relief& relief) {
+  constexpr double alike = 0.45;  // of the anisotropy: that of a sample of a few grains is not quite 0
+  if (relief.anisotropy > alike || !(relief.period > 0) || !relief.waves.empty()) return "irregular";
+  // The change over one grain, in amplitudes.
+  const double change = relief.steepness * relief.period;
+  constexpr double smoothest = 6.3, roughest = 9, jumping = 20;
+  if (change >= smoothest && change <= roughest) return "perlin";
+  return change >= jumping ? "noise" : "irregular";
+}
+
 /// The kind of surface in the words of the rules, which name the stimuli of chapter 4; each stimulus was one thing
-/// alone.
-std::string kind_of(const Cues& cues, const ForceReading& found, double largest_newton) {
-  if (cues[CueKind::amplitude]) return found.relief().regular() ? "grating" : "perlin";
+/// alone. A few ridges over the whole patch are stripes, more of them a grating.
+std::string kind_of(const Cues& cues, const ForceReading& found, double largest_newton, const PatchSize& size) {
+  if (cues[CueKind::amplitude]) {
+    const Relief& relief = found.relief();
+    if (!relief.regular()) return relief.period > 0 ? kind_of_irregular(relief) : "";
+    constexpr double few = 3;
+    const double side = std::min(size.width, size.height) - 2 * size.rim;
+    return relief.oriented() && side < few * relief.period ? "stripes" : "grating";
+  }
   const auto things = std::ranges::count_if(cues.values, [](const auto& value) { return value.has_value(); });
   if (things == 0 && largest_newton < least_force) return "nothing";
   if (things != 1) return {};
@@ -71,22 +81,26 @@ std::string counting_as(const Relief& relief, const Declarations& declarations) 
   return found;
 }
 
-DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double largest_newton,
-                            const Declarations& declarations) {
-  DescribedTexture texture{.force = found.relief(), .kind = kind_of(cues, found, largest_newton)};
+/// `count` (m) is the step of the device's encoder.
+DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double largest_newton, const PatchSize& size,
+                            double count, const Declarations& declarations) {
+  DescribedTexture texture{.force = found.relief(), .kind = kind_of(cues, found, largest_newton, size)};
   if (!cues[CueKind::amplitude]) texture.force = {};
   texture.counts_as = counting_as(found.relief(), declarations);
-  // The rules name textures, and what they name has a period.
+  if (texture.force.regular() && !texture.force.waves.empty())
+    texture.encoder_pattern = encoder_pattern(texture.force.waves.front(), count);
+  // The rules name textures, and what they name has a period. People sorted ridges into classes, and were asked for
+  // their confidence for the kinds that the rule names; of other surfaces the rules say nothing.
   const bool has_texture = texture.force.amplitude > 0 && texture.force.period > 0;
+  const bool has_ridges = has_texture && (texture.kind == "grating" || texture.kind == "stripes");
   std::map<std::string, double> sizes;
   if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", as_well_as_read(texture.force.period)}};
   for (const Rule* rule : declarations.rules()) {
     const Rule::Case* holds = rule->first(sizes, texture.kind);
     if (!holds) continue;
-    if (rule->name == "texture_class" && has_texture) texture.texture_class = holds->label;
-    if (rule->name == "size_class" && has_texture) texture.size_class = holds->label;
-    // The last case of the rule covers gratings and noises only; it says nothing of other surfaces.
-    if (rule->name == "texture_confidence" && (has_texture || !holds->kind.empty())) {
+    if (rule->name == "texture_class" && has_ridges) texture.texture_class = holds->label;
+    if (rule->name == "size_class" && has_ridges) texture.size_class = holds->label;
+    if (rule->name == "texture_confidence" && !holds->kind.empty()) {
       texture.confidence = holds->label;
       texture.confidence_mean = holds->confidence, texture.confidence_spread = holds->spread;
       texture.source = rule->source;
@@ -97,24 +111,12 @@ DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double 
 
 }  // namespace
 
-void tell_intervals(DescribedPercept& percept, double scatter, double spread, double size_over_one,
-                    double near_threshold) {
-  const auto within = [&](double deviation, double& low, double& high) {
-    low = percept.level * std::pow(10, -normal_95 * deviation);
-    high = percept.level * std::pow(10, normal_95 * deviation);
-  };
-  within(scatter, percept.low, percept.high);
-  // People agree on the reference stimulus, which is level 1 for everyone. They differ more the further a level is from
-  // it.
-  const double apart = size_over_one > 0 ? spread * std::log10(size_over_one) : 0;
-  within(std::hypot(scatter, apart), percept.individual_low, percept.individual_high);
-  percept.near_threshold = percept.level < near_threshold;
-}
-
 void describe_extracted(Description& description, const Bank& bank, const ForceReading& found,
                         const Declarations& declarations) {
   const Cues cues = cues_of(bank, found);
-  description.texture = texture_of(cues, found, description.force.max_newton, declarations);
+  description.texture = texture_of(cues, found, description.force.max_newton, description.patch,
+                                   description.device.position_step(), declarations);
+  if (found.wall) description.wall = {*found.wall, deepest(bank, *found.wall)};
   const DeviceDeclaration* device = declarations.devices.find(description.device.name);
   if (!device) return;
   declarations.percepts.each([&](const std::string& name, const Percept& percept) {
@@ -122,7 +124,7 @@ void describe_extracted(Description& description, const Bank& bank, const ForceR
     const auto size = carrier_of(found, percept, declarations);
     if (!size || !(*size > 0) || !percept.has_reference) return;
     if (const Map* map = choose_map(percept, *device, declarations).map)
-      description.percepts.push_back(told_by(percept, *map, *size, description, declarations));
+      description.percepts.push_back(told_by(percept, *map, *size, *device, bank, found, declarations));
   });
   if (description.texture->force.amplitude > 0) description.no_percept.clear();
 }

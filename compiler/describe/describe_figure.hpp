@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "compiler/text/readable.hpp"
 #include "schema/patch_program.hpp"
 
 namespace wale {
@@ -20,12 +21,9 @@ inline std::string with_decimals(double value, int decimals) {
   return text;
 }
 
-/// `value` with so many significant digits, and below ten million never with an exponent: "1000", not "1e+03". No minus
-/// before zero.
+/// `value` with so many significant digits, as people write it: "1000", not "1e+03". No minus before zero.
 inline std::string with_digits(double value, int digits) {
-  std::string text = fmt::format("{:.{}g}", value + 0.0, digits);
-  const double size = std::abs(value);
-  return size >= 1 && size < 1e7 && text.find('e') != std::string::npos ? fmt::format("{:.0f}", value) : text;
+  return as_people_write(fmt::format("{:.{}g}", value + 0.0, digits), value);
 }
 
 /// "1 degree", "45 degrees".

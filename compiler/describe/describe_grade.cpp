@@ -5,62 +5,71 @@
 #include <cmath>
 
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 namespace {
 
-std::string line(std::string_view key, const std::string& words) { return fmt::format("  {:<12} {}\n", key, words); }
+std::string line(std::string_view key, const std::string& words) { return readable("  {:<12} {}\n", key, words); }
 
 std::string place_words(const WorstPlace& place) {
   std::string words =
-      fmt::format("({}, {}) mm", with_decimals(1e3 * place.position.x, 1), with_decimals(1e3 * place.position.y, 1));
+      readable("({}, {}) mm", with_decimals(1e3 * place.position.x, 1), with_decimals(1e3 * place.position.y, 1));
   if (place.velocity != glm::vec2(0.0f))
     words +=
-        fmt::format(" moving at ({}, {}) m/s", with_decimals(place.velocity.x, 2), with_decimals(place.velocity.y, 2));
+        readable(" moving at ({}, {}) m/s", with_decimals(place.velocity.x, 2), with_decimals(place.velocity.y, 2));
   return words;
 }
 
 std::string damping_words(const Grade& grade) {
   if (grade.required_damping == 0) return "needs no damping";
   if (std::isinf(grade.required_damping)) return "no damping makes the sampled loop passive";
-  return fmt::format("needs a damping of {:.3g} N s/m or more", grade.required_damping);
+  return readable("needs a damping of {:.3g} N s/m or more", grade.required_damping);
+}
+
+/// The verdict by the device's damping as it is assumed. Whoever needs more than device and hand have is not called
+/// unstable: a loop may stay stable beyond the damping that makes it passive.
+std::string assumed_words(const Grade& grade) {
+  std::string words = readable("by the assumed {:.3g} N s/m: ", grade.device_damping);
+  switch (*grade.assumed_standing()) {
+    case Standing::passive: return words + "passive by itself";
+    case Standing::stable_in_the_hand: return words + "not passive by itself, stable in the hand";
+    default: return words + "not passive by itself, and a hand does not make it so";
+  }
 }
 
 std::string standing_line(const Grade& grade, const DeviceProfile& device) {
   std::string words = damping_words(grade);
   if (grade.standing == Standing::not_analysed) return "not analysed: the program is too large";
   if (grade.required_damping == 0) return words;
-  if (!grade.damping_known) {
-    words += device.damping > 0 ? fmt::format("; the damping of `{}` is assumed ({:.3g})", device.name, device.damping)
-                                : fmt::format("; the damping of `{}` is not known", device.name);
-    return words;
-  }
-  words +=
-      fmt::format("; `{}` has {:.3g}, which leaves a margin of {:.3g}", device.name, device.damping, *grade.margin());
+  if (grade.assumed_standing()) return words + "; " + assumed_words(grade);
+  if (!grade.damping_known)
+    return words + (device.damping > 0
+                        ? readable("; the damping of `{}` is assumed ({:.3g})", device.name, device.damping)
+                        : readable("; the damping of `{}` is not known", device.name));
+  words += readable("; `{}` has {:.3g}, which leaves a margin of {:.3g}", device.name, device.damping, *grade.margin());
   if (grade.standing == Standing::stable_in_the_hand || grade.standing == Standing::unstable)
-    words += fmt::format(", and a hand adds {:.3g}", grade.hand_damping);
+    words += readable(", and a hand adds {:.3g}", grade.hand_damping);
   return words;
 }
 
 std::string step_line(const Grade& grade) {
-  std::string words =
-      fmt::format("the force changes by {:.3g} N from one encoder count to the next", grade.step_newton);
+  std::string words = readable("the force changes by {:.3g} N from one encoder count to the next", grade.step_newton);
   if (grade.jumps) words += " (the force jumps)";
   if (grade.buzzes)
-    words += *grade.buzzes
-                 ? fmt::format(": more than the friction of {:.3g} N can hold, so it may buzz", grade.friction)
-                 : fmt::format(", which the friction of {:.3g} N holds", grade.friction);
+    words += *grade.buzzes ? readable(": more than the friction of {:.3g} N can hold, so it may buzz", grade.friction)
+                           : readable(", which the friction of {:.3g} N holds", grade.friction);
   return words;
 }
 
 std::string resolution_line(const Grade& grade) {
   std::string words =
-      fmt::format("details of {:.3g} mm, {:.3g} encoder counts", 1e3 * grade.finest_period, grade.counts_per_period);
+      readable("details of {:.3g} mm, {:.3g} encoder counts", 1e3 * grade.finest_period, grade.counts_per_period);
   if (grade.counts_per_period < grade.fewest_counts)
     words += ", too few for the encoder to show them as they are";
   else if (grade.counts_per_period < grade.faithful_counts)
     words += ", coarse";
-  words += fmt::format("; sampled often enough up to {:.2g} m/s", grade.fastest_hand);
+  words += readable("; sampled often enough up to {:.2g} m/s", grade.fastest_hand);
   return words;
 }
 
@@ -71,15 +80,15 @@ std::string grade_text(const Grade& grade, const DeviceProfile& device) {
   if (grade.standing == Standing::not_analysed) return text;
   for (const auto& reason : grade.energy.reasons) text += line("", reason);
   if (grade.standing == Standing::active && grade.energy.watt() > 0)
-    text += line("", fmt::format("gives a hand up to {:.2g} W", grade.energy.watt()));
-  if (grade.required_damping > 0) text += line("", fmt::format("largest at {}", place_words(grade.worst)));
+    text += line("", readable("gives a hand up to {:.2g} W", grade.energy.watt()));
+  if (grade.required_damping > 0) text += line("", readable("largest at {}", place_words(grade.worst)));
   if (grade.stiffness > 0)
-    text += line("stiffness", fmt::format("{:.4g} N/m at most, at {}", grade.stiffness, place_words(grade.stiffest)));
+    text += line("stiffness", readable("{:.4g} N/m at most, at {}", grade.stiffness, place_words(grade.stiffest)));
   // Smaller steps cannot be commanded.
   if (grade.step_newton > 0.1 * device.force_step()) text += line("steps", step_line(grade));
   if (grade.finest_period < device.workspace_diameter) text += line("resolution", resolution_line(grade));
   if (grade.force_levels > 0 && grade.force_levels < grade.fewest_levels)
-    text += line("", fmt::format("only {:.2g} steps of force can be commanded: coarse", grade.force_levels));
+    text += line("", readable("only {:.2g} steps of force can be commanded: coarse", grade.force_levels));
   return text;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "compiler/describe/describe.hpp"
@@ -34,6 +35,7 @@ nlohmann::ordered_json to_json(const WorstPlace& place) {
 nlohmann::ordered_json to_json(const Grade& grade) {
   nlohmann::ordered_json json = {{"name", standing_word(grade.standing)}};
   if (grade.standing == Standing::not_analysed) return json;
+  if (const auto assumed = grade.assumed_standing()) json["assumed"] = standing_word(*assumed);
   json["required_damping"] = figure(grade.required_damping);
   json["at"] = to_json(grade.worst);
   json["device_damping"] = figure(grade.device_damping);
@@ -72,6 +74,8 @@ nlohmann::ordered_json to_json(const DescribedTexture& texture) {
   json["orientation_rad"] = figure(force.orientation);
   json["anisotropy"] = figure(force.anisotropy);
   json["regularity"] = figure(force.regularity);
+  if (const auto& met = texture.encoder_pattern)
+    json["encoder_pattern"] = {{"period_m", figure(met->period)}, {"orientation_rad", figure(met->orientation)}};
   auto& waves = json["waves"] = nlohmann::ordered_json::array();
   for (const ReliefWave& wave : force.waves)
     waves.push_back({{"period_m", figure(wave.period)},
@@ -101,32 +105,55 @@ void add_force(nlohmann::ordered_json& json, const Description& description) {
                        {"at", to_json(description.grade.stiffest)}};
 }
 
+nlohmann::ordered_json to_json(const OutsideRange& outside) {
+  const auto end = [](double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(figure(value)) : nlohmann::ordered_json(nullptr);
+  };
+  return {{"quantity", outside.quantity}, {"value_si", figure(outside.value)}, {"low_si", end(outside.low)},
+          {"high_si", end(outside.high)}, {"assumed", outside.assumed},        {"words", in_words(outside)}};
+}
+
 nlohmann::ordered_json to_json(const DescribedPercept& percept) {
-  nlohmann::ordered_json entry;
+  using Json = nlohmann::ordered_json;
+  Json entry;
+  entry["asked"] = percept.asked ? Json(figure(*percept.asked)) : Json(nullptr);
   entry["level"] = figure(percept.level);
+  entry["evidence"] = evidence_word(percept.evidence());
+  entry["evidence_of"] = {{"slope", evidence_word(percept.slope)},
+                          {"anchor", evidence_word(percept.anchor)},
+                          {"handle", evidence_word(percept.handle)},
+                          {"domain", percept.domain ? evidence_word(*percept.domain) : "not stated"}};
+  entry["domain"] = percept.domain_why;
+  Json& outside = entry["outside"] = Json::array();
+  for (const OutsideRange& each : percept.outside) outside.push_back(to_json(each));
+  entry["assumed"] = percept.assumed;
+  entry["map"] = percept.map;
+  entry["measured_on"] = percept.device;
+  entry["source"] = percept.source;
   entry["magnitude"] = figure(percept.magnitude);
-  entry["low"] = figure(percept.low);
-  entry["high"] = figure(percept.high);
-  entry["individual_low"] = figure(percept.individual_low);
-  entry["individual_high"] = figure(percept.individual_high);
+  entry["low"] = figure(percept.intervals.means.low);
+  entry["high"] = figure(percept.intervals.means.high);
+  entry["means_differ_more"] = percept.intervals.means_differ_more;
+  const auto& people = percept.intervals.people;
+  entry["individual_low"] = people ? nlohmann::ordered_json(figure(people->low)) : nullptr;
+  entry["individual_high"] = people ? nlohmann::ordered_json(figure(people->high)) : nullptr;
   entry["near_threshold"] = percept.near_threshold;
-  entry["read_from_force"] = percept.extracted;
   entry["carrier"] = percept.carrier;
   entry["size"] = figure(percept.amplitude);
   entry["unit"] = percept.unit;
   if (percept.unit == "N") entry["amplitude_newton"] = figure(percept.amplitude);
+  if (percept.solved) entry["solved_size"] = figure(percept.aimed);
+  entry["read"] = percept.readable;
+  entry["read_from_force"] = percept.extracted;
   if (!percept.realisation.empty()) entry["realised_as"] = percept.realisation;
-  if (percept.asked) entry["asked"] = figure(*percept.asked);
+  if (!percept.settings.empty()) {
+    Json& settings = entry["settings"] = Json::array();
+    for (const DescribedPercept::Setting& each : percept.settings)
+      settings.push_back({{"asked", figure(each.asked)}, {"level", figure(each.reads)}});
+  }
   entry["saturated"] = percept.saturated;
-  entry["outside_validity"] = percept.outside_validity;
+  entry["outside_validity"] = percept.outside_validity();
   entry["alone"] = percept.alone;
-  entry["evidence"] = evidence_word(percept.worst);
-  entry["evidence_of"] = {{"slope", evidence_word(percept.slope)},
-                          {"anchor", evidence_word(percept.anchor)},
-                          {"handle", evidence_word(percept.handle)}};
-  entry["map"] = percept.map;
-  entry["measured_on"] = percept.device;
-  entry["source"] = percept.source;
   return entry;
 }
 
@@ -184,6 +211,12 @@ nlohmann::ordered_json to_json(const Description& description) {
   for (const auto& percept : description.percepts) percepts[percept.name] = to_json(percept);
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
   if (description.texture) json["texture"] = to_json(*description.texture);
+  if (const auto& wall = description.wall)
+    json["wall"] = {{"at", {figure(wall->face.place.x), figure(wall->face.place.y)}},
+                    {"inward", {figure(wall->face.inward.x), figure(wall->face.inward.y)}},
+                    {"stiffness", figure(wall->face.stiffness)},
+                    {"depth_m", figure(wall->depth.depth)},
+                    {"max_newton", figure(wall->depth.newton)}};
   json["fates"] = to_json(description.fates);
   if (description.shaking) {
     json["shaking"] = to_json(*description.shaking);

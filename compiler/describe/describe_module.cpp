@@ -9,6 +9,7 @@
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/modules/library_index.hpp"
 #include "compiler/text/json_text.hpp"
+#include "compiler/text/readable.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale {
@@ -109,8 +110,8 @@ std::string module_text(const ModuleDescription& description) {
   }
   if (!description.units.empty()) text += "\nunits\n";
   for (const auto& unit : description.units) {
-    text += fmt::format("  {:<12} {:.6g}{}{} ({})\n", unit.name, unit.in_si, unit.si_unit.empty() ? "" : " ",
-                        unit.si_unit, unit.dimension);
+    text += readable("  {:<12} {:.6g}{}{} ({})\n", unit.name, unit.in_si, unit.si_unit.empty() ? "" : " ", unit.si_unit,
+                     unit.dimension);
     write_documentation(text, 6, unit.documentation);
   }
   if (!description.dimensions.empty()) text += "\ndimensions\n";

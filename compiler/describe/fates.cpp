@@ -28,7 +28,8 @@ std::string cell(const DeviceFates& device, const Row& row) {
   for (const DescribedFate& described : *device.fates) {
     const FateRecord& each = described.record;
     if (Row{each.name, each.percept} != row) continue;
-    return each.fate == Fate::saturated ? fmt::format("saturated {:.2f}", each.given) : fate_word(each.fate);
+    const bool to_level = each.percept && each.fate == Fate::saturated;
+    return to_level ? fmt::format("saturated {:.2f}", each.given) : fate_word(each.fate);
   }
   return "";
 }

@@ -8,8 +8,12 @@
 #include "compiler/declarations/declarations.hpp"
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/evidence/percept_reading.hpp"
+#include "compiler/grade/grade.hpp"
+#include "compiler/measure/cut_force.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/solve/saturation.hpp"
+#include "compiler/text/readable.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
 #include "runtime/machine/lane.hpp"
 
@@ -117,17 +121,15 @@ class FateFinder {
     now.fate = how.empty() ? Fate::kept : Fate::approximated;
     if (now.given < now.asked * (1 - rounding)) {
       now.fate = Fate::saturated;
-      const std::string why = saturation_reason(program_.device.name, size <= most_);
+      const std::string why = saturation_reason(program_.device.name, size < most_ * (1 - rounding));
       how = how.empty() ? why : fmt::format("{}; {}", why, how);
     }
     now.reason = how;
     return now;
   }
 
-  /// How the percept is realised, which is the same at all parameters. The program's record says it, unless the percept
-  /// saturates at the defaults: then the record gives the saturation as its reason.
+  /// How the percept is realised, which is the same at all parameters.
   std::string realised_how() const {
-    if (record_.fate != Fate::saturated) return record_.reason;
     const bool foreign = percept_.handle == Evidence::transferred && percept_.device != program_.device.name;
     return realisation_reason(percept_.realisation, foreign ? map_ : "", percept_.device);
   }
@@ -175,20 +177,10 @@ std::optional<std::size_t> solved_percept(const PatchProgram& program, const Fat
   return std::nullopt;
 }
 
-/// The largest output of the device, in N or m/s^2; for a pad that shakes at one frequency, the largest there.
-double most_given(const Bank& bank, const Declarations& declarations) {
-  const DeviceProfile& device = bank.program().description().device;
-  if (!device.shaker) return device.most();
-  constexpr float steady = 1e-3f;
-  const MeasuredShaking shaking = measure_shaking(bank, declarations.hands.find("normal"));
-  if (!(shaking.highest > 0) || shaking.highest - shaking.lowest > steady * shaking.highest) return device.most();
-  return std::min(device.most(), device.shaker->acceleration(1, shaking.highest));
-}
-
 /// The largest size of a percept's carrier that an output of `given` allows, in the percept's unit.
 double most_of(const PatchProgram& program, const PerceptRecord& percept, const Declarations& declarations,
                double given) {
-  if (percept.unit == (program.vibrates() ? "m/s^2" : "N")) return given;
+  if (percept.unit == (program.vibrates() ? "m/s^2" : "N")) return given * percept.basis.share;
   const Percept* declared = declarations.percepts.find(percept.name);
   return declared && declared->exerts > 0 ? given / declared->exerts : HUGE_VAL;
 }
@@ -203,28 +195,52 @@ std::string map_of(const PerceptRecord& percept, const Declarations& declaration
 
 }  // namespace
 
-std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declarations) {
+namespace {
+
+/// Corrects a fate by what the program reads at the bank's parameters.
+void confirm_fate(FateRecord& fate, const Bank& bank, std::size_t index, const ForceReading& found,
+                  const Declarations& declarations) {
+  const PerceptRecord& record = bank.program().description().percepts[index];
+  const PerceptReading told = percept_reading(bank, index, found, declarations);
+  const std::string why = why_approximated(record, told, fate.asked, found, declarations);
+  if (why.empty() || (fate.fate == Fate::saturated && outside_ranges(record, told).empty())) return;
+  if (fate.fate != Fate::saturated) {
+    fate.fate = Fate::approximated;
+    fate.given = static_cast<float>(std::clamp(told.level, 0.0, 1.0));
+  }
+  fate.reason = fate.reason.empty() ? why : fmt::format("{}; {}", why, fate.reason);
+}
+
+}  // namespace
+
+std::vector<DescribedFate> fates_at(const Bank& bank, const ForceReading& found, const Declarations& declarations) {
   const PatchProgram& program = bank.program().description();
   const double given = most_given(bank, declarations);
+  const auto speed = static_cast<float>(normal_hand(declarations).speed());
   std::vector<DescribedFate> all;
   for (const FateRecord& record : program.fates) {
     const auto index = solved_percept(program, record);
     if (!index) {
-      all.push_back({record, {}});
+      all.push_back({is_of_force(record) ? fate_of_force(record, bank, speed) : record, {}});
       continue;
     }
     const double most = most_of(program, program.percepts[*index], declarations, given);
     all.push_back(FateFinder(bank, record, *index, most, map_of(program.percepts[*index], declarations)).found());
+    confirm_fate(all.back().record, bank, *index, found, declarations);
   }
   return all;
+}
+
+std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declarations) {
+  return fates_at(bank, read(bank, declarations, parts_for(bank.program().description())), declarations);
 }
 
 std::string changes_text(const DescribedFate& fate) {
   std::string text;
   for (const FateChange& each : fate.changes)
-    text += fmt::format("{}{} {} {} {:.3g}{}{}", text.empty() ? "" : "; ", fate_word(each.fate),
-                        each.above ? "above" : "below", each.parameter, each.value, each.unit.empty() ? "" : " ",
-                        each.unit);
+    text +=
+        readable("{}{} {} {} {:.3g}{}{}", text.empty() ? "" : "; ", fate_word(each.fate),
+                 each.above ? "above" : "below", each.parameter, each.value, each.unit.empty() ? "" : " ", each.unit);
   return text;
 }
 

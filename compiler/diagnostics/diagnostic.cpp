@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "compiler/text/readable.hpp"
+
 namespace wale {
 
 namespace {
@@ -68,8 +70,8 @@ void Diagnostics::report_spent(const Span& place, Work on) {
   const std::size_t most = budget_.allowed();
   report({.code = Code::program_too_large,
           .span = place,
-          .message = fmt::format("{} more than {} operations", what, most),
-          .expected = fmt::format("at most {} operations to compile this text", most),
+          .message = readable("{} more than {} operations", what, most),
+          .expected = readable("at most {} operations to compile this text", most),
           .found = "more",
           .help = mend,
           .facts = {{"limit", NumberWithUnit{static_cast<double>(most), ""}}}});

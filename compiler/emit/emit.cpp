@@ -8,6 +8,7 @@
 #include <ranges>
 
 #include "compiler/graph/temporaries.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -404,8 +405,8 @@ std::optional<PatchProgram> emit(const LoweredMaterial& lowered, const SolvedMat
   if (emitter.registers_needed() > register_limit) {
     diagnostics.report({.code = Code::program_too_large,
                         .span = material.span,
-                        .message = fmt::format("`{}` needs {} registers, and a patch program has {}", material.name,
-                                               emitter.registers_needed(), register_limit),
+                        .message = readable("`{}` needs {} registers, and a patch program has {}", material.name,
+                                            emitter.registers_needed(), register_limit),
                         .help = "split the material, or use values soon after they are computed"});
     return std::nullopt;
   }

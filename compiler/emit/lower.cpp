@@ -111,7 +111,10 @@ LoweredMaterial lower(const SolvedMaterial& material, Diagnostics& diagnostics) 
         nodes[id] = derived(nodes[term.a]);
         break;
       }
-      case TermKind::peak: nodes[id] = graph.peak(nodes[term.a], half_width, half_height); break;
+      case TermKind::peak:
+        nodes[id] = graph.peak(nodes[term.a], half_width, half_height);
+        lowered.flat = lowered.flat || graph.is_zero(nodes[id]);
+        break;
       case TermKind::operation:
       case TermKind::open:
       case TermKind::cells:

@@ -29,6 +29,7 @@ struct LoweredMaterial {
   std::vector<State> states;               ///< in the order of `SolvedMaterial::states`
   std::vector<Write> writes;               ///< in the order of `SolvedMaterial::writes`
   std::vector<std::vector<NodeId>> marks;  ///< operands, in the order of `SolvedMaterial::marks`
+  bool flat = false;                       ///< a texture without slope: a peak of 0 at every parameter
   std::vector<Percept> percepts;           ///< in the order of `SolvedMaterial::percepts`
 };
 

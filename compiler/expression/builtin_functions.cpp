@@ -6,6 +6,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "compiler/text/readable.hpp"
+
 namespace wale {
 
 bool BuiltinCall::number(std::size_t i) const {
@@ -174,16 +176,40 @@ Value within(const BuiltinCall& call) {
   if (known && low && high && !(*known >= *low && *known <= *high)) {
     const std::string unit = call.reading.dimension_names().unit(call.value(0).dimension);
     const std::string suffix = unit.empty() ? "" : " " + unit;
-    return call.reading.calls.report(
-        Code::value_out_of_range, call.terms()[call.value(0).x].span,
-        fmt::format("{:.4g}{} is out of range", *known, suffix), "",
-        fmt::format("give a value from {:.4g}{} to {:.4g}{}", *low, suffix, *high, suffix));
+    return call.reading.calls.report(Code::value_out_of_range, call.terms()[call.value(0).x].span,
+                                     readable("{:.4g}{} is out of range", *known, suffix), "",
+                                     readable("give a value from {:.4g}{} to {:.4g}{}", *low, suffix, *high, suffix));
   }
   return call.scalar(
       call.terms().apply(Operation::maximum,
                          call.terms().apply(Operation::minimum, call.value(0).x, call.value(2).x, call.span),
                          call.value(1).x, call.span),
       call.value(0).dimension);
+}
+
+/// `usual(…)`: the value itself. `check_usage` warns if it is known and outside the range of the two others.
+Value usual(const BuiltinCall& call) {
+  if (!call.number(0) || !call.number(1) || !call.number(2)) return call.failed();
+  for (const std::size_t bound : {1, 2})
+    if (call.value(bound).dimension != call.value(0).dimension) return call.mismatched(bound, 0);
+  const auto low = constant_value(call.terms(), call.value(1).x), high = constant_value(call.terms(), call.value(2).x);
+  if (low && high)
+    call.reading.record.usual.push_back(
+        {.name = std::string(call.reading.surroundings.sources.text(call.actuals[0].span)),
+         .value = call.value(0).x,
+         .low = *low,
+         .high = *high,
+         .dimension = call.value(0).dimension,
+         .span = call.reading.calls.blame(call.actuals[0].span)});
+  return call.value(0);
+}
+
+/// The sine or cosine of an angle, which is recorded for `check_usage`.
+Value of_angle(const BuiltinCall& call, Operation operation) {
+  const Value result = of_plain(call, operation);
+  if (!result.failed())
+    call.reading.record.angles.push_back({call.value(0).x, call.reading.calls.blame(call.actuals[0].span)});
+  return result;
 }
 
 Value gradient(const BuiltinCall& call) {
@@ -234,36 +260,6 @@ Value lattice(const BuiltinCall& call) {
   return call.scalar(call.terms().apply(Operation::hash, place[0], place[1], place[2], call.span));
 }
 
-/// `phase(frequency)`: a new state that runs from 0 to 1 `frequency` times per second.
-Value phase(const BuiltinCall& call) {
-  if (!call.number(0)) return call.failed();
-  const auto frequency = call.reading.names->dimension("frequency");
-  if (call.value(0).dimension != frequency)
-    return call.reading.calls.report(
-        Code::wrong_dimension, call.actuals[0].span,
-        fmt::format("expected a frequency, found {}",
-                    with_article(call.reading.dimension_names().words(call.value(0).dimension))),
-        call.reading.dimension_names().unit(call.value(0).dimension), "write something like `phase(2 Hz)`");
-  const auto [known, added] = call.reading.record.phases.try_emplace(call.value(0).x, 0);
-  if (added) {
-    const auto index = static_cast<std::uint32_t>(call.reading.record.states.size());
-    const TermId now = call.terms().add({.kind = TermKind::state, .index = index, .span = call.span});
-    const TermId step = call.terms().apply(Operation::multiply, call.value(0).x,
-                                           call.terms().input(Input::seconds_per_tick), call.span);
-    const TermId sum = call.terms().apply(Operation::add, now, step, call.span);
-    const TermId next =
-        call.terms().apply(Operation::subtract, sum, call.terms().apply(Operation::floor, sum, call.span), call.span);
-    call.reading.record.states.push_back({.name = fmt::format("phase {}", index),
-                                          .low = 0,
-                                          .high = 1,
-                                          .initial = call.terms().literal(0, call.span),
-                                          .next = next,
-                                          .span = call.span});
-    known->second = now;
-  }
-  return call.scalar(known->second);
-}
-
 }  // namespace
 
 Value held(Terms& terms, const Value& value, TermId ceiling, Span span) {
@@ -288,8 +284,8 @@ const std::vector<Builtin>& builtins() {
       {"abs", {"value"}, 1, absolute},
       {"floor", {"value"}, 1, [](Call call) { return of_plain(call, Operation::floor); }},
       {"sqrt", {"value"}, 1, square_root},
-      {"sin", {"angle"}, 1, [](Call call) { return of_plain(call, Operation::sine); }},
-      {"cos", {"angle"}, 1, [](Call call) { return of_plain(call, Operation::cosine); }},
+      {"sin", {"angle"}, 1, [](Call call) { return of_angle(call, Operation::sine); }},
+      {"cos", {"angle"}, 1, [](Call call) { return of_angle(call, Operation::cosine); }},
       {"atan2", {"y", "x"}, 2, arctangent},
       {"exp", {"value"}, 1, [](Call call) { return of_plain(call, Operation::exp2, log2_e); }},
       {"log", {"value"}, 1, [](Call call) { return of_plain(call, Operation::log2, 1, ln_2); }},
@@ -304,10 +300,12 @@ const std::vector<Builtin>& builtins() {
       {"dot", {"a", "b"}, 2, dot},
       {"normalise", {"vector"}, 1, normalise},
       {"within", {"value", "low", "high"}, 3, within},
+      {"usual", {"value", "low", "high"}, 3, usual},
       {"grad", {"height"}, 1, gradient, true},
       {"peak", {"value"}, 1, peak, true},
       {"hold", {"value", "ceiling"}, 2, hold},
       {"phase", {"frequency"}, 1, phase, true},
+      {"stretch", {"place", "reach"}, 2, stretch, true},
       {"image", {"file", "scale", "height", "smooth"}, 3, image, true},
       {"relief", {"file", "scale", "height", "smooth"}, 3, relief},
       {"table", {"file", "place", "value"}, 1, table},

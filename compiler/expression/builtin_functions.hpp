@@ -47,6 +47,10 @@ const std::vector<Builtin>& builtins();
 /// The builtin function with that name, or null.
 const Builtin* builtin_named(std::string_view name);
 
+// builtin_memory.cpp: functions that remember, each call with states of its own
+Value phase(const BuiltinCall& call);
+Value stretch(const BuiltinCall& call);
+
 // builtin_files.cpp: functions that read files
 Value relief(const BuiltinCall& call);
 Value image(const BuiltinCall& call);

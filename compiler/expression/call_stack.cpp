@@ -11,6 +11,14 @@ bool CallStack::contains(std::string_view name, bool constant) const {
   return std::ranges::any_of(open_, [&](const Open& each) { return each.name == name && each.constant == constant; });
 }
 
+std::string CallStack::circle(std::string_view constant) const {
+  auto each = std::ranges::find_if(open_, [&](const Open& open) { return open.constant && open.name == constant; });
+  if (each == open_.end() || each + 1 == open_.end()) return {};
+  std::string text = fmt::format(": `{}`", constant);
+  for (++each; each != open_.end(); ++each) text += fmt::format(" needs `{}`, which", each->name);
+  return fmt::format("{} needs `{}`", text, constant);
+}
+
 void CallStack::enter(std::string_view name, bool constant, Span site) {
   if (open_.empty()) outside_ = terms_.attributed();
   open_.push_back({name, constant, site});
@@ -44,6 +52,12 @@ Value CallStack::report(Code code, Span span, std::string message, std::string l
 
 void CallStack::say(Diagnostic diagnostic) {
   const Span span = diagnostic.span;
+  // A wrong argument may cause several errors inside a function of another file. They are one mistake, at the call.
+  if (!open_.empty() && !at_home(span) && severity_of(diagnostic.code) == Severity::error) {
+    const auto [place, is_new] =
+        failed_calls_.try_emplace({open_.front().site.source, open_.front().site.begin}, open_.front().site.end);
+    if (!is_new && place->second == open_.front().site.end) return;
+  }
   diagnostic.span = blame(span);
   diagnostic.message += inside(span);
   if (diagnostic.label.empty()) diagnostic.label = called_from(span);

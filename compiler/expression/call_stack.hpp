@@ -1,8 +1,10 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compiler/diagnostics/advice.hpp"
@@ -24,6 +26,8 @@ class CallStack {
   std::size_t depth() const { return open_.size(); }
   /// Whether the definition is being read already; using it again would be recursion.
   bool contains(std::string_view name, bool constant) const;
+  /// ": `a` needs `b`, which needs `a`", for a constant that is being read and others inside it; empty without others.
+  std::string circle(std::string_view constant) const;
   /// Begins reading a definition that is used at `site`; `leave` ends it.
   void enter(std::string_view name, bool constant, Span site);
   void leave();
@@ -52,6 +56,8 @@ class CallStack {
   Diagnostics& diagnostics_;
   Terms& terms_;
   std::vector<Open> open_;
+  /// The calls inside which an error was reported, by source and begin, with their ends.
+  std::map<std::pair<SourceId, std::uint32_t>, std::uint32_t> failed_calls_;
   std::optional<Span> outside_;  ///< the place to which terms were attributed before the outermost definition
 };
 

@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "compiler/diagnostics/fix.hpp"
+#include "compiler/expression/argument_mend.hpp"
 #include "compiler/expression/builtin_functions.hpp"
 #include "compiler/expression/check_name.hpp"
 #include "compiler/expression/dimension_mend.hpp"
@@ -29,17 +31,38 @@ std::string takes(const FormalNames& formals) {
   return formals.empty() ? "write it without arguments" : fmt::format("it takes: {}", fmt::join(formals, ", "));
 }
 
+/// A declared function and the dimensions of its formals; null for one of the compiler's own.
+struct Declaration {
+  const FunctionDecl* function = nullptr;
+  const std::vector<std::optional<Dimension>>* dimensions = nullptr;
+};
+
+/// The advice for an argument name that the function does not have.
+Advice argument_name_mend(const SyntaxTree& tree, const Call& call, const Word& name, const Value& value,
+                          const FormalNames& formals, std::size_t position, const Declaration& declaration) {
+  std::string meant;
+  if (declaration.function && value.type == Value::Type::number)
+    meant = formal_of_dimension(*declaration.function, *declaration.dimensions, call, tree, position, value.dimension);
+  const std::string all = fmt::format("it takes: {}", fmt::join(formals, ", "));
+  Advice otherwise = all;
+  if (!meant.empty())
+    otherwise = Advice(fmt::format("did you mean `{}`? {}", meant, all)).fix(replace(name.span, meant, {}, false));
+  return did_you_mean(name.span, name.text, {formals.begin(), formals.end()}, std::move(otherwise));
+}
+
 /// The index of the formal for an argument; the number of formals if there is none, which is reported.
-std::size_t formal_of(ExpressionReading& reading, const Argument& argument, Span span, std::string_view callee,
-                      const FormalNames& formals, std::size_t position) {
+std::size_t formal_of(ExpressionReading& reading, const SyntaxTree& tree, const Argument& argument, const Value& value,
+                      const Call& call, const FormalNames& formals, std::size_t position,
+                      const Declaration& declaration) {
+  const std::string_view callee = call.callee.text;
+  const Span span = tree.span(argument.value);
   if (argument.name) {
     const Word& name = *argument.name;
     const auto found = std::ranges::find(formals, name.text);
     if (found == formals.end())
       reading.calls.report(Code::unknown_argument, name.span,
                            fmt::format("`{}` takes no argument `{}`", callee, name.text), "",
-                           did_you_mean(name.span, name.text, {formals.begin(), formals.end()},
-                                        fmt::format("it takes: {}", fmt::join(formals, ", "))));
+                           argument_name_mend(tree, call, name, value, formals, position, declaration));
     return static_cast<std::size_t>(found - formals.begin());
   }
   if (position >= formals.size())
@@ -56,13 +79,13 @@ struct BoundArguments {
   bool good = true;
 };
 BoundArguments bind_arguments(ExpressionReading& reading, const SyntaxTree& tree, const Call& call,
-                              const FormalNames& formals, Scope& scope) {
+                              const FormalNames& formals, Scope& scope, const Declaration& declaration = {}) {
   BoundArguments bound{.actuals = std::vector<Actual>(formals.size())};
   std::size_t position = 0;
   for (const Argument& argument : tree.arguments(call)) {
     const Span span = tree.span(argument.value);
     const Value value = check_expression(reading, tree, argument.value, scope);
-    const std::size_t index = formal_of(reading, argument, span, call.callee.text, formals, position);
+    const std::size_t index = formal_of(reading, tree, argument, value, call, formals, position, declaration);
     if (!argument.name) ++position;
     if (index == formals.size()) {
       bound.good = false;
@@ -126,8 +149,7 @@ bool may_expand(ExpressionReading& reading, const Word& callee) {
 }
 
 std::optional<Dimension> dimension_of(const FormalParameter& formal, const Declarations& home) {
-  const auto* known = formal.dimension ? home.dimensions.find(formal.dimension->text) : nullptr;
-  return known ? std::optional(*known) : std::nullopt;
+  return formal.dimension ? home.dimension_named(formal.dimension->text) : std::nullopt;
 }
 
 Value call_function(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call,
@@ -136,22 +158,21 @@ Value call_function(ExpressionReading& reading, const SyntaxTree& tree, ExprId e
   if (!may_expand(reading, call.callee)) return failed_value(span);
   const auto& parameters = function.node->parameters;
   const FormalNames formals = names_of(parameters);
-  auto [actuals, bound] = bind_arguments(reading, tree, call, formals, scope);
+  std::vector<std::optional<Dimension>> dimensions;
+  dimensions.reserve(parameters.size());
+  for (const FormalParameter& each : parameters) dimensions.push_back(dimension_of(each, *function.home));
+  auto [actuals, bound] = bind_arguments(reading, tree, call, formals, scope, {function.node, &dimensions});
   bool good = bound;
   for (std::size_t i = 0; i < formals.size(); ++i) {
     if (!actuals[i].given && !parameters[i].default_value && bound) {
       missing_argument(reading, call, span, formals[i], formals);
       good = false;
     }
-    const auto dimension = dimension_of(parameters[i], *function.home);
-    const Value& value = actuals[i].value;
-    const bool measurable = value.type == Value::Type::number || value.type == Value::Type::vector;
-    if (!actuals[i].given || !dimension || !measurable || value.dimension == *dimension) continue;
-    for (const Argument& argument : tree.arguments(call))
-      if (tree.span(argument.value) == actuals[i].span)
-        report_dimension(reading, tree, argument.value, scope, value.dimension, *dimension);
-    good = false;
   }
+  const CallArguments arguments{tree, call, *function.node, dimensions, actuals, span};
+  good = fit(reading, arguments, scope) && good;
+  good = good && are_vectors_where_needed(reading, arguments, *function.tree);
+  if (good && reading.calls.empty()) warn_of_exchanged(reading, arguments);
   return good ? expanded(reading, function, std::move(actuals), scope, span) : failed_value(span);
 }
 
@@ -161,6 +182,10 @@ Value unknown_function(ExpressionReading& reading, const Call& call, Scope& scop
     return reading.calls.report(Code::wrong_type, call.callee.span, fmt::format("`{}` is not a function", name), "",
                                 fmt::format("to multiply, write `{} * (…)`", name));
   if (const auto hidden = private_name(reading, call.callee)) return *hidden;
+  if (reading.names->units.contains(name))
+    return reading.calls.report(Code::unknown_name, call.callee.span,
+                                fmt::format("`{}` is a unit, not a function", name), "",
+                                "to multiply, write `* (…)`; a range is written `in LOW .. HIGH`");
   return reading.calls.report(Code::unknown_name, call.callee.span, fmt::format("no function is called `{}`", name), "",
                               spelling_mend(reading, call.callee, nullptr, Sought::function,
                                             "schema/LANGUAGE.md lists them; `function name(…) = …` declares one"));

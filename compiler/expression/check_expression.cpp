@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "compiler/diagnostics/fix.hpp"
 #include "compiler/expression/arithmetic.hpp"
 #include "compiler/expression/check_call.hpp"
 #include "compiler/expression/check_name.hpp"
@@ -30,6 +32,10 @@ Value ambiguous_unit(ExpressionReading& reading, const Word& word, Span declared
 /// Names after the units of a number multiply or divide it: `0.3 denim`, `5 N / mass`.
 Value times_name(ExpressionReading& reading, const Value& value, const SuffixFactor& part, Scope& scope) {
   if (!has_value(reading, part.name.text, scope)) {
+    if (reading.names->units.contains(part.name.text))
+      return reading.calls.report(Code::unknown_unit, part.name.span,
+                                  fmt::format("the unit `{}` stands behind a name that is no unit", part.name.text), "",
+                                  "a number's units come first, then the names that multiply or divide it");
     if (const auto hidden = private_name(reading, part.name)) return *hidden;
     const bool is_full = reading.surroundings.diagnostics.is_full();
     return reading.calls.report(Code::unknown_unit, part.name.span,
@@ -75,6 +81,8 @@ Value number(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, co
   Value value{
       .type = Value::Type::number, .x = reading.terms.literal(scaled, span), .dimension = dimension, .span = span};
   for (; next < suffix.size(); ++next) {
+    // Behind an unknown name, units cannot be told from names; names that have a value count as used.
+    if (value.failed() && !has_value(reading, suffix[next].name.text, scope)) continue;
     value = times_name(reading, value, suffix[next], scope);
     value.span = span;
   }
@@ -107,7 +115,32 @@ Value unary(ExpressionReading& reading, const SyntaxTree& tree, const Unary& nod
   return complement(reading, value);
 }
 
+/// The name of a unit that a `*` or `/` joins to a number as if it were a value, `s` in `2 N*s`; empty otherwise.
+std::string_view joined_unit(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
+                             const Scope& scope) {
+  const auto* node = std::get_if<Binary>(&tree.expr(expr));
+  if (!node || (node->op != BinaryOperator::multiply && node->op != BinaryOperator::divide)) return {};
+  const auto* name = std::get_if<NameUse>(&tree.expr(node->right));
+  if (!name || !reading.names->units.contains(name->name) || has_value(reading, name->name, scope)) return {};
+  const auto* literal = std::get_if<NumberLiteral>(&tree.expr(node->left));
+  const bool has_unit = literal && literal->suffix.count > 0;
+  return has_unit || !joined_unit(reading, tree, node->left, scope).empty() ? name->name : std::string_view();
+}
+
+/// Reports `2 N*s/m` once, with what was meant: `2 N s/m`.
+Value report_joined_units(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr) {
+  const Span span = tree.span(expr);
+  std::string meant(reading.surroundings.sources.text(span));
+  for (std::size_t star = meant.find('*'); star != std::string::npos; star = meant.find('*', star))
+    meant.replace(star, 1, " ");
+  meant.erase(std::unique(meant.begin(), meant.end(), [](char a, char b) { return a == ' ' && b == ' '; }),
+              meant.end());
+  return reading.calls.report(Code::unknown_name, span, "the units of a number are joined by spaces", "",
+                              Advice(fmt::format("write `{}`", meant)).fix(replace(span, meant)));
+}
+
 Value binary(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Binary& node, Scope& scope) {
+  if (!joined_unit(reading, tree, expr, scope).empty()) return report_joined_units(reading, tree, expr);
   const Value left = check_expression(reading, tree, node.left, scope);
   const Value right = check_expression(reading, tree, node.right, scope);
   return applied(reading, {tree, node, left, right, scope, tree.span(expr)});
@@ -159,49 +192,69 @@ Value ExpressionChecker::check(const SyntaxTree& tree, ExprId expr, Scope& scope
   return check_expression(reading_, tree, expr, scope);
 }
 
-Value ExpressionChecker::check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type,
-                                  const Dimension& dimension) {
-  const Value value = check(tree, expr, scope);
+Value check_expression_as(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope,
+                          Value::Type type, const Dimension& dimension) {
+  const Value value = check_expression(reading, tree, expr, scope);
   if (value.failed()) return value;
   const bool measurable = value.type == Value::Type::number || value.type == Value::Type::vector;
+  const std::string written(reading.surroundings.sources.text(value.span));
+  const bool is_height = value.type == Value::Type::number &&
+                         reading.terms.dependence(value.x).on(Dependence::position) &&
+                         (value.dimension.plain() || value.dimension == reading.names->dimension("length"));
+  if (type == Value::Type::vector && is_height && dimension == reading.names->dimension("force")) {
+    report_dimension(
+        reading, tree, expr, value.dimension, dimension,
+        Advice(fmt::format("a height is no force; to push the hand down its slopes write `lateral({})`", written)));
+    return failed_value(value.span);
+  }
   if (measurable && value.dimension != dimension) {
-    report_dimension(reading_, tree, expr, scope, value.dimension, dimension);
+    report_dimension(reading, tree, expr, scope, value.dimension, dimension);
     return failed_value(value.span);
   }
   if (value.type == type) return value;
-  const std::string text(reading_.surroundings.sources.text(value.span));
-  const std::string zero = "0 " + reading_.dimension_names().unit(dimension);
+  const std::string zero = "0 " + reading.dimension_names().unit(dimension);
   const std::string mend =
-      type == Value::Type::vector && measurable ? fmt::format("give both parts, as in `vector({}, {})`", text, zero)
-      : value.type == Value::Type::vector       ? fmt::format("take its `length({})`, or work with `x` and `y`", text)
+      type == Value::Type::vector && measurable ? fmt::format("give both parts, as in `vector({}, {})`", written, zero)
+      : value.type == Value::Type::vector       ? fmt::format("take its `length({})`, or work with `x` and `y`", written)
                                                 : make_calculable(value.type);
-  return reading_.calls.report(Code::wrong_type, value.span,
-                               fmt::format("expected {}, found {}", type_words(type), type_words(value.type)), "",
-                               mend);
+  return reading.calls.report(Code::wrong_type, value.span,
+                              fmt::format("expected {}, found {}", type_words(type), type_words(value.type)), "", mend);
+}
+
+Value ExpressionChecker::check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type,
+                                  const Dimension& dimension) {
+  return check_expression_as(reading_, tree, expr, scope, type, dimension);
 }
 
 Value ExpressionChecker::named(const Word& word, Scope& scope) { return value_of_name(reading_, word, scope); }
 
-std::optional<double> ExpressionChecker::constant(const SyntaxTree& tree, ExprId expr, Scope& scope,
-                                                  const Dimension& dimension) {
-  const Value value = check_as(tree, expr, scope, Value::Type::number, dimension);
-  return value.failed() ? std::nullopt : constant(value);
-}
-
-std::optional<double> ExpressionChecker::constant(const Value& value) {
-  const auto known = constant_value(reading_.terms, value.x);
+std::optional<double> constant_number(ExpressionReading& reading, const Value& value) {
+  const auto known = constant_value(reading.terms, value.x);
   if (!known) {
-    reading_.calls.report(Code::not_constant, value.span, "expected a value known at compile time", "it may change",
-                          "use numbers, units and other constants");
+    reading.calls.report(Code::not_constant, value.span, "expected a value known at compile time", "it may change",
+                         "use numbers, units and other constants");
     return std::nullopt;
   }
   if (!std::isfinite(*known)) {
-    reading_.calls.report(Code::number_out_of_range, value.span, "the result is not a finite number", "",
-                          "look for a division by zero, or the root or logarithm of a negative number");
+    reading.calls.report(Code::number_out_of_range, value.span, "the result is not a finite number", "",
+                         "look for a division by zero, or the root or logarithm of a negative number");
     return std::nullopt;
   }
   return known;
 }
+
+std::optional<double> constant_number(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope,
+                                      const Dimension& dimension) {
+  const Value value = check_expression_as(reading, tree, expr, scope, Value::Type::number, dimension);
+  return value.failed() ? std::nullopt : constant_number(reading, value);
+}
+
+std::optional<double> ExpressionChecker::constant(const SyntaxTree& tree, ExprId expr, Scope& scope,
+                                                  const Dimension& dimension) {
+  return constant_number(reading_, tree, expr, scope, dimension);
+}
+
+std::optional<double> ExpressionChecker::constant(const Value& value) { return constant_number(reading_, value); }
 
 Value ExpressionChecker::call_with(const Declared<FunctionDecl>& function, std::vector<Actual> actuals,
                                    const Scope& scope, Span span) {

@@ -16,6 +16,11 @@ struct Actual {
   bool given = false;
 };
 
+/// The range that a state cannot leave, in SI.
+struct StateBounds {
+  double low = 0, high = 0;
+};
+
 /// Finds the types and dimensions of expressions, and turns them into terms with all functions inlined. One checker
 /// serves one material. Its parts are functions that take an `ExpressionReading`: `check_name.hpp`, `arithmetic.hpp`,
 /// `check_call.hpp`, `fields.hpp`, `builtin_functions.hpp`, `dimension_mend.hpp`.
@@ -38,6 +43,12 @@ class ExpressionChecker {
   /// The same for a number that has been checked.
   std::optional<double> constant(const Value& number);
 
+  /// The bounds that a range gives to states of that dimension; empty after an error, which is reported.
+  std::optional<StateBounds> bounds(const SyntaxTree& tree, const Range& written, Scope& scope,
+                                    const Dimension& dimension);
+  /// The bounds of states that have none of their own: as `state_bounds` below.
+  std::optional<StateBounds> bounds_of(const Dimension& dimension, std::string_view declared);
+
   /// Calls a declared function with checked arguments in the order of its formals; those that are not given get their
   /// defaults.
   Value call_with(const Declared<FunctionDecl>& function, std::vector<Actual> actuals, const Scope& scope, Span span);
@@ -55,6 +66,11 @@ class ExpressionChecker {
   void spend_on(std::optional<Span> component) { reading_.component = component; }
   const std::optional<Span>& spender() const { return reading_.component; }
 
+  /// From now on, tells which names are declared further down (`ExpressionReading::declared_below`).
+  void look_below(std::function<std::optional<Span>(std::string_view)> declared) {
+    reading_.declared_below = std::move(declared);
+  }
+
   CallRecord& record() { return reading_.record; }
 
  private:
@@ -63,6 +79,18 @@ class ExpressionChecker {
 
 /// The value of an expression: as `ExpressionChecker::check`, for the parts of the checker.
 Value check_expression(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope);
+
+/// As `ExpressionChecker::check_as` and `ExpressionChecker::constant`, for the parts of the checker.
+Value check_expression_as(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope,
+                          Value::Type type, const Dimension& dimension);
+std::optional<double> constant_number(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope,
+                                      const Dimension& dimension);
+std::optional<double> constant_number(ExpressionReading& reading, const Value& number);
+
+/// The bounds of states of a dimension that have none of their own: those of the dimension with the name `declared`
+/// (may be empty), otherwise of the first in the alphabet that is equal to it and has bounds. Empty if there are none.
+std::optional<StateBounds> state_bounds(ExpressionReading& reading, const Dimension& dimension,
+                                        std::string_view declared = {});
 
 /// In words, a quantity with which a value changes: "place", "velocity".
 std::string what_changes(const Dependence& dependence);

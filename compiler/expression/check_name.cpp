@@ -7,6 +7,8 @@
 
 #include "compiler/expression/builtin_functions.hpp"
 #include "compiler/expression/fields.hpp"
+#include "compiler/expression/other_languages.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 
@@ -73,8 +75,9 @@ std::optional<Value> constant_named(ExpressionReading& reading, const Word& word
   if (!found) return std::nullopt;
   CallStack& calls = reading.calls;
   if (calls.contains(word.text, true))
-    return calls.report(Code::recursive_definition, word.span, fmt::format("`{}` is defined by itself", word.text), "",
-                        "a `let` cannot use itself, directly or through others");
+    return calls.report(
+        Code::recursive_definition, word.span, fmt::format("`{}` is defined by itself", word.text), "",
+        fmt::format("a `let` cannot use itself, directly or through others{}", calls.circle(word.text)));
   const auto known = reading.known.constants.find(found->node);
   if (known == reading.known.constants.end()) {
     if (calls.depth() >= deepest_call)
@@ -174,7 +177,22 @@ Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* 
   if (auto imported =
           in_file ? import_mend(surroundings, word.text, {"function", "constant", "unit", "dimension"}) : std::nullopt)
     return *std::move(imported);
+  if (const auto ours = sought == Sought::function ? instead_of_function(word.text) : instead_of_value(word.text))
+    return std::string(*ours);
+  if (const std::size_t dot = word.text.rfind('.');
+      dot != std::string_view::npos && !nearest_spelling(word.text, candidates))
+    return did_you_mean(word.span, word.text.substr(dot + 1), candidates, std::move(otherwise), false);
   return did_you_mean(word.span, word.text, candidates, std::move(otherwise));
+}
+
+/// The advice for a name that is declared further down; empty if none is.
+std::optional<Advice> below_mend(const ExpressionReading& reading, const Word& word) {
+  if (!reading.calls.empty() || !reading.declared_below) return std::nullopt;
+  const auto below = reading.declared_below(word.text);
+  if (!below) return std::nullopt;
+  const unsigned line = reading.surroundings.sources.place(*below).line;
+  return Advice(fmt::format("it is declared further down, in line {}; move that above this line", line))
+      .see(*below, "declared here");
 }
 
 Value bound_value(ExpressionReading& reading, Scope::Binding& binding, Span span, Scope& scope) {
@@ -210,9 +228,11 @@ Value free_value(ExpressionReading& reading, const Word& word, Scope& scope) {
     return report(Code::not_constant, fmt::format("expected a constant, but `{}` changes as the hand moves", word.text),
                   "use numbers, units and other constants");
   if (const auto hidden = private_name(reading, word)) return *hidden;
+  auto below = below_mend(reading, word);
   return report(Code::unknown_name, fmt::format("nothing here is called `{}`", word.text),
-                spelling_mend(reading, word, &scope, Sought::value,
-                              fmt::format("declare it above, as in `let {} = …`", word.text)));
+                below ? *std::move(below)
+                      : spelling_mend(reading, word, &scope, Sought::value,
+                                      fmt::format("declare it above, as in `let {} = …`", word.text)));
 }
 
 }  // namespace wale

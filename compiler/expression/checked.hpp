@@ -101,11 +101,13 @@ struct CheckedMaterial {
   std::optional<std::array<TermId, 3>> colour;  ///< red, green and blue in 0 .. 1, if the author gives a colour
   std::vector<CheckedMark> marks;
   Span force_span;
+  bool scales_a_texture = false;  ///< a constant factor changes an open texture, which has been reported
   std::optional<std::array<double, 2>> patch;  ///< width and height in m, if the material has a `patch`
   Span patch_span;
   double active_watt = 0;  ///< power that the author allows it to give, W; 0 without `active`
   Span active_span;
   Layers layers;
+  bool doubted = false;  ///< a value or an argument was reported that was hardly meant: W0308, W0312, W0313
 };
 
 /// A checked file with all modules that it refers to. The modules are kept because declarations point into them.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "compiler/declarations/unit_names.hpp"
@@ -113,6 +114,54 @@ std::optional<Advice> fraction_mend(const ExpressionReading& reading, const Synt
       .fix(replace(tree.span(expr), meant, {}, false));
 }
 
+/// A period where a frequency was expected, or the reverse: the value that the number stands for.
+std::optional<Advice> inverse_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
+                                   const Dimension& expected, const Dimension& found) {
+  if (Dimension{} / found != expected) return std::nullopt;
+  const Declarations& declarations = reading.surroundings.declarations;
+  const auto* literal = std::get_if<NumberLiteral>(&tree.expr(expr));
+  if (!literal || literal->value == 0) return std::nullopt;
+  double size = literal->value;
+  for (const SuffixFactor& part : tree.suffix(*literal)) {
+    const Unit* unit = declarations.units.find(part.name.text);
+    if (!unit) return std::nullopt;
+    size *= std::pow(unit->factor, part.divides ? -part.exponent : part.exponent);
+  }
+  const std::string unit = customary_unit(declarations, expected);
+  const Unit* written = declarations.units.find(unit);
+  if (!written) return std::nullopt;
+  const DimensionNames& names = reading.dimension_names();
+  const std::string meant = fmt::format("{:.6g} {}", 1 / size / written->factor, unit);
+  return Advice(fmt::format("{} of {} is {} of {}: write `{}`", with_article(names.words(found)),
+                            reading.surroundings.sources.text(tree.span(expr)), with_article(names.words(expected)),
+                            meant, meant))
+      .fix(replace(tree.span(expr), meant, {}, false));
+}
+
+/// `Ns` and `Nmm`: two units without the space between them.
+std::optional<std::string> parted_units(std::string_view word, const Declarations& declarations) {
+  for (std::size_t cut = 1; cut < word.size(); ++cut)
+    if (declarations.units.contains(word.substr(0, cut)) && declarations.units.contains(word.substr(cut)))
+      return fmt::format("{} {}", word.substr(0, cut), word.substr(cut));
+  return std::nullopt;
+}
+
+/// `mW`: a prefix that the declared unit behind it is not used with.
+std::optional<Advice> prefix_mend(std::string_view word, const Declarations& declarations) {
+  struct Prefix {
+    std::string_view symbol;
+    double factor;
+  };
+  constexpr Prefix prefixes[] = {{"m", 1e-3}, {"k", 1e3}, {"u", 1e-6}, {"M", 1e6}, {"c", 1e-2}, {"n", 1e-9}};
+  for (const Prefix& prefix : prefixes) {
+    if (!word.starts_with(prefix.symbol) || word.size() == prefix.symbol.size()) continue;
+    const std::string_view unit = word.substr(prefix.symbol.size());
+    if (!declarations.units.contains(unit)) continue;
+    return Advice(fmt::format("write it in `{0}`: 1 {1} is {2:g} {0}", unit, word, prefix.factor));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<Fix> append_unit(const SyntaxTree& tree, ExprId expr, const std::string& unit, const SourceSet& sources) {
@@ -131,6 +180,11 @@ Advice unit_mend(const Word& word, const Declarations& declarations, const Surro
     return Advice(fmt::format("write `{}`", *symbol))
         .fix(replace(word.span, *symbol, {}, false))
         .fact("meant", *symbol);
+  if (auto prefix = prefix_mend(word.text, declarations)) return *std::move(prefix);
+  if (const auto parted = parted_units(word.text, declarations))
+    return Advice(fmt::format("units are joined by a space: write `{}`", *parted))
+        .fix(replace(word.span, *parted, {}, false))
+        .fact("meant", *parted);
   // No safe fix: one letter may change a factor from a million to a thousandth, as in `MN` and `mN`.
   return did_you_mean(word.span, word.text, declarations.units.spellings(),
                       "declare it, as in `unit thou = 25.4 um`, or use one of schema/units.wale", false);
@@ -141,16 +195,26 @@ Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, 
   const Surroundings& surroundings = reading.surroundings;
   const std::string unit = customary_unit(surroundings.declarations, expected);
   const std::string text(surroundings.sources.text(tree.span(expr)));
-  const bool is_literal = std::holds_alternative<NumberLiteral>(tree.expr(bare(tree, expr)));
+  const auto* literal = std::get_if<NumberLiteral>(&tree.expr(bare(tree, expr)));
+  const bool is_literal = literal != nullptr, is_call = std::holds_alternative<Call>(tree.expr(expr));
   if (found.plain()) {
+    if (is_literal && literal->suffix.count > 0)  // `50 %`, `30 deg`
+      return fmt::format("write {}, in {}", with_article(reading.dimension_names().words(expected)), unit);
     if (is_literal)
       return Advice(fmt::format("a plain number needs its unit: write `{} {}`", text, unit))
           .fix(append_unit(tree, expr, unit, surroundings.sources));
-    return fmt::format("give it a unit, as in `({}) * 1 {}`", text, unit);
+    return is_call ? fmt::format("give it a unit, as in `{} * 1 {}`", text, unit)
+                   : fmt::format("give it a unit, as in `({}) * 1 {}`", text, unit);
   }
-  if (expected.plain())
-    return fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`",
-                       customary_unit(surroundings.declarations, found));
+  if (expected.plain()) {
+    const std::string of_found = customary_unit(surroundings.declarations, found);
+    const bool is_name = std::holds_alternative<NameUse>(tree.expr(expr));
+    if (is_name || is_call)
+      return fmt::format("divide it by a quantity of its own dimension, as in `{} / 2 {}`", text, of_found);
+    return fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`", of_found);
+  }
+  if (auto inverse = is_literal ? inverse_mend(reading, tree, expr, expected, found) : std::nullopt)
+    return *std::move(inverse);
   if (auto fraction = fraction_mend(reading, tree, expr, expected, found)) return *std::move(fraction);
   if (is_literal) return fmt::format("write {}, in {}", with_article(reading.dimension_names().words(expected)), unit);
   std::vector<ProductName> factors;
@@ -160,11 +224,16 @@ Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, 
 
 void report_dimension(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
                       const Dimension& found, const Dimension& expected) {
+  report_dimension(reading, tree, expr, found, expected, dimension_mend(reading, tree, expr, scope, expected, found));
+}
+
+void report_dimension(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Dimension& found,
+                      const Dimension& expected, Advice advice) {
   const DimensionNames& names = reading.dimension_names();
   const auto sides = names.side_by_side(expected, found);
   const std::string of_expected = names.words(expected), of_found = names.words(found);
   Diagnostic diagnostic =
-      dimension_mend(reading, tree, expr, scope, expected, found)
+      std::move(advice)
           .fact("expected", of_expected)
           .fact("found", of_found)
           .about(Code::wrong_dimension, tree.span(expr), fmt::format("expected {}, found {}", of_expected, of_found));

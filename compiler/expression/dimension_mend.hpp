@@ -8,6 +8,10 @@ namespace wale {
 [[gnu::cold]] void report_dimension(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
                                     const Dimension& found, const Dimension& expected);
 
+/// The same with other advice.
+[[gnu::cold]] void report_dimension(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
+                                    const Dimension& found, const Dimension& expected, Advice advice);
+
 /// Advice on how to turn an expression of dimension `found` into one of dimension `expected`.
 [[gnu::cold]] Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
                                     const Scope& scope, const Dimension& expected, const Dimension& found);

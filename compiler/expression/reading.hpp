@@ -32,13 +32,31 @@ struct Surroundings {
   const FindExporter* find_exporter = nullptr;  ///< to suggest imports; null if there are none to suggest
 };
 
+/// An argument of `sin` or `cos`, and the place to report for it.
+struct CheckedAngle {
+  TermId angle = 0;
+  Span span;
+};
+
+/// A value with the range that `usual` states for it, SI.
+struct CheckedUsual {
+  std::string name;
+  TermId value = 0;
+  double low = 0, high = 0;
+  Dimension dimension;
+  Span span;
+};
+
 /// The results of reading expressions besides terms and tables.
 struct CallRecord {
   std::vector<Carrier> carriers;
   std::vector<Span> open_spans;      ///< one for each open quantity: the call that leaves it open
-  std::vector<CheckedState> states;  ///< states that calls of `phase` add
+  std::vector<CheckedState> states;  ///< states that calls of `phase` and `stretch` add
   std::map<TermId, TermId> phases;   ///< the state term of each `phase`, by its frequency
   std::vector<CheckedPeriod> periods;
+  std::vector<CheckedAngle> angles;
+  std::vector<CheckedUsual> usual;
+  bool doubted = false;                              ///< arguments that seem to be exchanged were reported
   std::vector<std::unique_ptr<const Field>> fields;  ///< fields to which values point
 
   /// Stores a field for the life of the record, since values point to it.
@@ -78,6 +96,8 @@ struct ExpressionReading {
   KnownNames known;
   /// How many expressions are being read, one inside another; those of functions that are called count too.
   std::size_t depth = 0;
+  /// The place where a name is declared further down in the block that is being read; nothing outside such a block.
+  std::function<std::optional<Span>(std::string_view name)> declared_below{};
   /// The component of a blend whose statements are being read, and which therefore spends the budget.
   std::optional<Span> component;
 

@@ -29,6 +29,13 @@ constexpr double sharp_over_step =
     1.5;  // ratio of a slope to the step between counts above which the slope is a sharp tip
 constexpr double jump_over_slope = 1.5;  // ratio of a step between counts to the slope above which the step is a jump
 
+/// The standing of a program that needs damping and gives no energy, by the device's damping and the hand's.
+Standing by_damping(const Grade& grade) {
+  if (grade.required_damping <= grade.device_damping) return Standing::passive;
+  const double with_hand = grade.device_damping + grade.hand_damping;
+  return grade.required_damping <= with_hand ? Standing::stable_in_the_hand : Standing::unstable;
+}
+
 class Grader {
  public:
   Grader(const Bank& bank, const GradingHand& hand)
@@ -100,7 +107,7 @@ class Grader {
   }
 
   /// The largest speed of the exploring hand, m/s.
-  double peak_speed() const { return 2 * pi * hand_.frequency * hand_.radius; }
+  double peak_speed() const { return hand_.speed(); }
 
   /// The least power that counts, W: a share of the power that the hand absorbs at its pace.
   double least_watt() const { return share_of_hand * hand_.damping * peak_speed() * peak_speed(); }
@@ -341,17 +348,12 @@ class Grader {
   }
 
   void decide() {
-    const double with_hand = grade_.device_damping + grade_.hand_damping;
     if (grade_.energy.active())
       grade_.standing = Standing::active;
     else if (grade_.required_damping == 0)
       grade_.standing = Standing::passive;
-    else if (!grade_.damping_known)
-      grade_.standing = Standing::unknown;
-    else if (grade_.required_damping <= grade_.device_damping)
-      grade_.standing = Standing::passive;
     else
-      grade_.standing = grade_.required_damping <= with_hand ? Standing::stable_in_the_hand : Standing::unstable;
+      grade_.standing = grade_.damping_known ? by_damping(grade_) : Standing::unknown;
   }
 
   const Bank& bank_;
@@ -398,6 +400,11 @@ std::string_view standing_word(Standing standing) {
 }
 
 double Energy::watt() const { return std::max({curl_watt, motion_watt, source_watt}); }
+
+std::optional<Standing> Grade::assumed_standing() const {
+  if (standing != Standing::unknown || device_damping <= 0) return std::nullopt;
+  return by_damping(*this);
+}
 
 std::optional<double> Grade::margin() const {
   if (!damping_known) return std::nullopt;

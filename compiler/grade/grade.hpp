@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,8 @@ struct GradingHand {
   double fewest_counts = 0;    ///< encoder counts per period below which a texture is distorted
   double faithful_counts = 0;  ///< encoder counts per period from which on it is faithful
   double fewest_levels = 0;    ///< command steps in the largest force below which steps are felt
+
+  double speed() const { return 2 * std::numbers::pi * radius * frequency; }  ///< of its circles, m/s
 };
 
 /// Energy that a program gives to the hand by itself, at a hand's own pace.
@@ -85,6 +88,9 @@ struct Grade {
 
   Energy energy;
 
+  /// The standing by the device's damping as it is assumed, if the standing is unknown for want of a measured one;
+  /// nothing if nobody assumed it either.
+  std::optional<Standing> assumed_standing() const;
   /// The device's damping minus the required one, N s/m; empty if the device's is not known.
   std::optional<double> margin() const;
 };

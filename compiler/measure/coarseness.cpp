@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/measure/rehearsal.hpp"
+#include "compiler/text/readable.hpp"
 #include "wale/picture.hpp"
 
 namespace wale {
@@ -62,7 +63,7 @@ int pixels_of_a_sample(double cost, int side) {
 }
 
 std::string coarseness_note(const std::string& material, std::size_t coarseness) {
-  return fmt::format(
+  return readable(
       "the tick of `{}` costs so much that only one of {} places was sampled; if it remembers, its answer "
       "to motion was not measured",
       material, coarseness);

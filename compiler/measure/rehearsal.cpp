@@ -49,7 +49,7 @@ double longest_trajectory(const std::vector<ShownMark>& marks) {
 
 bool remembers(const PatchProgram& program) { return !program.states.empty() || !program.grids.empty(); }
 
-Rehearsal rehearse(Bank bank, const HandDeclaration* hand) {
+Rehearsal rehearse(Bank bank, const HandDeclaration* hand, std::optional<double> seconds) {
   const PatchProgram& program = bank.program().description();
   Rehearsal result(bank.program());
   result.memory.enter(bank, {});
@@ -58,7 +58,7 @@ Rehearsal rehearse(Bank bank, const HandDeclaration* hand) {
   if (!remembers(program) && result.marks.empty()) return result;
 
   const double rate = program.device.rate > 0 ? std::min(program.device.rate, most_rate) : 1000;
-  result.seconds = std::clamp(longest_trajectory(result.marks), least_seconds, most_seconds);
+  result.seconds = seconds.value_or(std::clamp(longest_trajectory(result.marks), least_seconds, most_seconds));
   const Stroke stroke = stroke_over(bank.size(), result.seconds, hand);
   const long ticks = std::lround(result.seconds * rate), every = std::max(1L, ticks / most_samples);
   std::vector<std::vector<ShownMark>> shown;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "compiler/declarations/declarations.hpp"
@@ -28,8 +29,8 @@ struct Rehearsal {
 };
 
 /// Runs a program that remembers or shows marks for a simulated time: one second, or as long as its longest trajectory,
-/// at most five seconds. The hand goes to and fro along a slightly curved stroke. The program's ticks run without
-/// guards. Deterministic.
-Rehearsal rehearse(Bank bank, const HandDeclaration* hand);
+/// at most five seconds; or for `seconds`. The hand goes to and fro along a slightly curved stroke. The program's ticks
+/// run without guards. Deterministic.
+Rehearsal rehearse(Bank bank, const HandDeclaration* hand, std::optional<double> seconds = {});
 
 }  // namespace wale

@@ -90,7 +90,7 @@ class Declarer {
                  fmt::format("`{}` has two arguments `{}`", node.name.text, node.parameters[i].name.text),
                  Advice("give one of them another name").see(node.parameters[before].name.span, "the first one"));
     for (const auto& parameter : node.parameters)
-      if (parameter.dimension && !declarations_.dimensions.contains(parameter.dimension->text))
+      if (parameter.dimension && !declarations_.dimension_named(parameter.dimension->text))
         unknown_dimension(*parameter.dimension);
     for (const auto& parameter : node.parameters)
       if (const auto* hidden = declarations_.constants.entry(parameter.name.text))

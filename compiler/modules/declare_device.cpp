@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compiler/modules/declare_records.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -156,9 +157,9 @@ void read_motors(RecordReader& reader, DeviceProfile& profile) {
         !(lawful && profile.heating_seconds >= DeviceProfile::least_heating_seconds))
       reader.report(
           Code::value_out_of_range, continuous->span,
-          fmt::format("the sustained force of an axis must be greater than zero and at most its largest force, {:.6g} "
-                      "N; its heating time must be at least {:.6g} ms",
-                      profile.force_newton, 1e3 * DeviceProfile::least_heating_seconds),
+          readable("the sustained force of an axis must be greater than zero and at most its largest force, {:.6g} "
+                   "N; its heating time must be at least {:.6g} ms",
+                   profile.force_newton, 1e3 * DeviceProfile::least_heating_seconds),
           "write, for example, `sustained 5 N, 20 s`, or `sustained unknown` if it is not known");
   }
   if (const auto* active = known("active")) {

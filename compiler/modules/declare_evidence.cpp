@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace wale {
 
@@ -95,6 +96,17 @@ std::optional<Condition> range_of(RecordReader& reader, const SettingItem& item,
       fmt::format("{}{}{}", bound, one_sided ? " " : "", reader.sources.text({value.source, value.begin, end.end}));
   condition.assumed = has_word(item, "assumed");
   condition.dimension = first->dimension;
+  // "10 mm": the number, and the unit in which people read it.
+  const std::string last(reader.sources.text(item.range_end ? end : value));
+  char* rest = nullptr;
+  const double number = std::strtod(last.c_str(), &rest);
+  const double worth = item.range_end ? reader.value(*item.range_end, first->dimension).value_or(0) : first->value;
+  condition.unit = rest;
+  condition.unit.erase(0, condition.unit.find_first_not_of(' '));
+  if (number > 0 && worth > 0)
+    condition.unit_in_si = worth / number;
+  else
+    condition.unit.clear();
   if (item.range_end)
     condition.range = {first->value, reader.value(*item.range_end, first->dimension).value_or(first->value)};
   else if (bound == "above")

@@ -21,6 +21,15 @@ void report_law(RecordReader& reader, const Diagnostics& found, const std::strin
   reader.diagnostics.continue_budget(found);
 }
 
+struct ProfileWord {
+  std::string_view word;
+  SurfaceProfile profile;
+};
+constexpr ProfileWord profile_words[] = {{"grating", SurfaceProfile::grating},
+                                         {"noise", SurfaceProfile::noise},
+                                         {"photograph", SurfaceProfile::photograph},
+                                         {"bump", SurfaceProfile::bump}};
+
 /// Reads one map, setting by setting.
 class MapReader {
  public:
@@ -39,19 +48,35 @@ class MapReader {
     read_couples();
     read_law();
     read_validity();
-    if (const auto* scatter = reader_.required("scatter", "0.05")) {
-      map_.scatter = reader_.quantity(*scatter, 0, "number").value_or(0);
-      map_.scatter_assumed = !scatter->items.empty() && has_word(scatter->items[0], "assumed");
-    }
-    if (const auto* spread = reader_.setting("spread"))
-      map_.spread = reader_.quantity(*spread, 0, "number").value_or(0);
-    map_.observers = whole_number(reader_, "observers");
+    read_uncertainty();
+    read_domain();
     map_.quotes = quotes_of(reader_);
     if (const auto* on = reader_.required("on", "sandpaper")) map_.device = measured_on(*on);
     return std::move(map_);
   }
 
  private:
+  void read_uncertainty() {
+    LawUncertainty& law = map_.uncertainty;
+    const auto read = [&](const Setting* setting, float& figure, bool* assumed) {
+      if (!setting) return;
+      figure = static_cast<float>(reader_.quantity(*setting, 0, "number").value_or(0));
+      if (assumed) *assumed = !setting->items.empty() && has_word(setting->items[0], "assumed");
+      if (figure < 0)
+        reader_.report(Code::value_out_of_range, setting->span, "a standard deviation is not negative",
+                       "leave it out where it is not known");
+    };
+    read(reader_.required("scatter", "0.05"), law.scatter, &law.scatter_assumed);
+    read(reader_.setting("slope_error"), law.slope_error, nullptr);
+    read(reader_.setting("spread"), law.spread, &law.spread_assumed);
+    read(reader_.setting("noise"), law.noise, &law.noise_assumed);
+    const auto counted = [&](const char* key) {
+      return static_cast<std::uint16_t>(std::clamp(whole_number(reader_, key), 0, 65535));
+    };
+    law.observers = counted("observers");
+    law.stimuli = counted("stimuli");
+  }
+
   /// Reads the quantity that the law starts from: the percept's carrier, or another one of the dimension in `quantity
   /// length`.
   void read_quantity() {
@@ -228,6 +253,34 @@ class MapReader {
       reader_.report(Code::value_out_of_range, valid->span,
                      fmt::format("the range of `{}` is empty or missing", map_.from),
                      fmt::format("write, for example, `valid {} 9 pu .. 194 pu`", map_.from));
+  }
+
+  /// `domain grating, one_dimensional, alone`: the stimuli that it was measured with.
+  void read_domain() {
+    const auto* domain = reader_.setting("domain");
+    if (!domain) return;
+    map_.domain.stated = true;
+    for (const auto& item : domain->items) {
+      const auto crest = condition_of(reader_, item);
+      if (crest && crest->quantity == "crest" && crest->dimension == Dimension{} && item.range_end) {
+        map_.domain.crest_low = static_cast<float>(crest->range.low);
+        map_.domain.crest_high = static_cast<float>(crest->range.high);
+        map_.domain.crest_assumed = crest->assumed;
+        continue;
+      }
+      const std::string word = item.value ? "" : words_of(item);
+      const auto* profile = std::ranges::find(profile_words, word, &ProfileWord::word);
+      if (profile != std::end(profile_words))
+        map_.domain.profiles |= static_cast<std::uint8_t>(profile->profile);
+      else if (word == "one_dimensional" || word == "two_dimensional")
+        map_.domain.dimensions = word == "one_dimensional" ? 1 : 2;
+      else if (word == "alone")
+        map_.domain.alone = true;
+      else
+        reader_.report(Code::wrong_type, item.span, fmt::format("expected a kind of stimulus, found `{}`", word),
+                       "write `grating`, `noise`, `photograph` or `bump`; `one_dimensional` or `two_dimensional`; "
+                       "`alone`, if nothing else pushed; `crest 1.2 .. 2.2`, the largest force over the effective one");
+    }
   }
 
   RecordReader& reader_;

@@ -26,7 +26,7 @@ std::optional<Dimension> carrier_dimension(const Declarations& declarations, con
   if (!function) return std::nullopt;
   for (const auto& formal : function->node->parameters)
     if (formal.name.text == words[1].text && formal.dimension)
-      if (const auto* known = function->home->dimensions.find(formal.dimension->text)) return *known;
+      if (const auto known = function->home->dimension_named(formal.dimension->text)) return *known;
   return std::nullopt;
 }
 

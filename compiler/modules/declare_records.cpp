@@ -190,6 +190,7 @@ void declare_hand(RecordReader& reader, Declarations& declarations) {
   };
   motion("lateral", hand.lateral_amplitude, hand.lateral_frequency);
   motion("circular", hand.circular_radius, hand.circular_frequency);
+  motion("press", hand.press_depth, hand.press_frequency);
   if (const auto* counts = reader.setting("counts_per_period")) {
     hand.fewest_counts = reader.quantity(*counts, 0, "number").value_or(0);
     hand.faithful_counts = reader.quantity(*counts, 1, "number").value_or(0);

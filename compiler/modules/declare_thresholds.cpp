@@ -12,9 +12,10 @@ namespace {
 const std::pair<const char*, Task> task_words[] = {{"forced_choice", Task::forced_choice},
                                                    {"adjustment", Task::adjustment},
                                                    {"yes_no", Task::yes_no},
-                                                   {"one_interval", Task::one_interval}};
+                                                   {"one_interval", Task::one_interval},
+                                                   {"identification", Task::identification}};
 
-/// Reads the task and the criterion of a threshold, and its fraction at d' = 1.
+/// Reads the task of a threshold, and its criterion and fraction at d' = 1, or the number of sizes that are recognised.
 void read_task(RecordReader& reader, Threshold& threshold) {
   if (const auto* task = reader.required("task", "forced_choice"); task && !task->items.empty()) {
     const std::vector<std::string_view> words = plain_words(task->items[0]);
@@ -25,8 +26,17 @@ void read_task(RecordReader& reader, Threshold& threshold) {
       threshold.task = known->second;
     else
       reader.report(Code::wrong_type, task->span, fmt::format("no task is called `{}`", name),
-                    "write `forced_choice`, `adjustment`, `yes_no` or `one_interval`");
+                    "write `forced_choice`, `adjustment`, `yes_no`, `one_interval` or `identification`");
   }
+  if (threshold.task == Task::identification) {
+    threshold.recognised = reader.positive("recognised", 0, "number", "2.9");
+    if (reader.setting("recognised") && !(threshold.recognised >= 1))
+      reader.report(Code::value_out_of_range, reader.setting("recognised")->span, "people recognise one size at least",
+                    "write, for example, `recognised 2.9`");
+    threshold.recognised = std::max(threshold.recognised, 1.0);
+    return;
+  }
+  threshold.published = reader.positive("weber", 0, "number", "0.1");
   if (const auto* criterion = reader.required("criterion", "75 %")) {
     threshold.criterion = reader.quantity(*criterion, 0, "number").value_or(0.75);
     threshold.criterion_assumed = !criterion->items.empty() && has_word(criterion->items[0], "assumed");
@@ -81,7 +91,6 @@ void declare_threshold(RecordReader& reader, Declarations& declarations) {
   }
   if (const auto* name = reader.setting("name"); name && !name->items.empty())
     threshold.name = words_of(name->items[0]);
-  threshold.published = reader.positive("weber", 0, "number", "0.1");
   read_task(reader, threshold);
   if (const auto* floor = reader.setting("floor"); floor && !floor->items.empty() && floor->items[0].value) {
     threshold.floor = reader.value(*floor->items[0].value, threshold.dimension).value_or(0);

@@ -202,7 +202,7 @@ void Lexer::next() {
     case Beginning::number: return number();
     case Beginning::symbol: {
       const auto byte = static_cast<unsigned char>(here());
-      if (begins_lookalike[byte] && after() == here()) break;
+      if (begins_lookalike[byte] && may_be_lookalike()) break;
       return add_symbol(lone_symbols[byte], 1);
     }
     case Beginning::quote: return text(1);

@@ -30,7 +30,8 @@ std::string with_u(std::string_view name) {
 std::string help_for(char c, bool visible) {
   switch (c) {
     case '#': return "comments begin with `//`";
-    case '!': return "compare values with `<`, `<=`, `>` and `>=`; choose with `if … then … else …`";
+    case '!': return "for the opposite of a condition write `not`";
+    case '.': return "functions are called as `clamp(value, low, high)`; a vector has the parts `.x` and `.y`";
     case '?': return "write `if … then … else …`";
     case '\\': return "a line continues by itself after an operator, a comma, `=` or `..`, and inside parentheses";
     case '`': return "write texts in straight quotes: `\"`";
@@ -88,6 +89,12 @@ void Lexer::foreign_name() {
     at_ += character.bytes;
   }
   const std::string_view word = text_.substr(begin, at_ - begin);
+  if (word == "π") {
+    report(Code::unexpected_character, begin, at_, "`π` is written in Latin letters", "write `pi`",
+           {replace(span(begin, at_),
+                    begin > 0 && std::isdigit(static_cast<unsigned char>(text_[begin - 1])) ? " pi" : "pi")});
+    return add_corrected("pi", begin);
+  }
   if (foreign) {
     // The name may be used many times; report it once.
     if (reported_names_.emplace(word).second) {
@@ -108,7 +115,8 @@ bool Lexer::may_be_lookalike() const {
   const auto c = static_cast<unsigned char>(text_[at_]);
   if (!begins_lookalike[c]) return false;
   if (c == '.') return starts("...");
-  return c >= 0x80 || after() == here() || (c == '!' && after() == '=');
+  return c >= 0x80 || after() == here() || (c == '!' && after() == '=') || (c == '=' && after() == '>') ||
+         (c == ':' && after() == '=');
 }
 
 bool Lexer::quote() {
@@ -174,7 +182,11 @@ void Lexer::add_corrected(std::string name, std::size_t begin) {
 /// The fix for a lookalike; none if it may mean several things.
 std::vector<Fix> Lexer::lookalike_fixes(const Lookalike& each, std::size_t begin) const {
   if (each.kind == TokenKind::unreadable) return {};
-  return {replace(span(begin, at_), quoted_token(each.meant))};
+  std::string meant = quoted_token(each.meant);
+  const bool is_word = begins_name(meant.front());
+  if (is_word && begin > 0 && continues_name(text_[begin - 1])) meant = " " + meant;
+  if (is_word && at_ < text_.size() && continues_name(text_[at_])) meant += " ";
+  return {replace(span(begin, at_), meant)};
 }
 
 /// Reports an unknown character; a run of the same character is one error.
@@ -186,14 +198,19 @@ void Lexer::unknown(const Character& character) {
   report(Code::unexpected_character, begin, at_,
          visible ? fmt::format("Wale does not use the character `{}`", text_.substr(begin, character.bytes))
                  : fmt::format("invisible character U+{:04X}", static_cast<std::uint32_t>(character.code)),
-         help_for(text_[begin], visible), unknown_fixes(begin, visible));
-  add(TokenKind::unreadable, begin);
+         text_.substr(begin).starts_with("#include") ? "other files are known by `import`, as in `import fabric.denim`"
+                                                     : help_for(text_[begin], visible),
+         unknown_fixes(begin, visible));
+  // `!button` is read as `not button`, so that nothing else is reported for it.
+  add(text_[begin] == '!' && at_ == begin + 1 ? TokenKind::word_not : TokenKind::unreadable, begin);
 }
 
 /// Fixes: remove an invisible character; replace a `#` at the beginning of a line, a comment in many languages, by
 /// `//`.
 std::vector<Fix> Lexer::unknown_fixes(std::size_t begin, bool visible) const {
   if (!visible) return {replace(span(begin, at_), "")};
+  if (text_[begin] == '!' && at_ == begin + 1) return {replace(span(begin, at_), "not ")};
+  if (text_[begin] == '#' && starts_line_ && text_.substr(begin).starts_with("#include")) return {};
   if (text_[begin] == '#' && starts_line_) return {replace(span(begin, at_), "//")};
   return {};
 }

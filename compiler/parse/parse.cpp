@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compiler/diagnostics/fix.hpp"
+#include "compiler/parse/borrowed.hpp"
 #include "compiler/parse/parser.hpp"
 #include "schema/spelling.hpp"
 
@@ -138,6 +139,7 @@ bool Parser::version() {
         fmt::format("`wale {}`", known_version), here().kind == TokenKind::end ? "the end of the file" : shown(here()),
         fmt::format("write `wale {}` {}", known_version, plain_start ? "in a line above everything else" : "here"),
         state_version(is_wale, has_number, !is_wale && holds(declaration_words, first)));
+    lost_ = here().kind == TokenKind::left_brace || here().kind == TokenKind::left_bracket;  // JSON or the like
     if (plain_start) return true;
   }
   advance();
@@ -179,8 +181,15 @@ void Parser::declaration() {
   std::string_view keyword = here().kind == TokenKind::name ? spelling(here()) : "";
   const auto known = [&] { return holds(declaration_words, keyword); };
   if (!known()) {
-    const auto meant = followed_by(TokenKind::name) ? nearest_spelling(keyword, declaration_words) : std::nullopt;
+    auto meant = followed_by(TokenKind::name) && !borrowed_declaration(keyword)
+                     ? nearest_spelling(keyword, declaration_words)
+                     : std::nullopt;
     std::string help;
+    const auto borrowed = borrowed_declaration(here().kind == TokenKind::word_from ? "from" : keyword);
+    if (borrowed)
+      help = *borrowed == "import"     ? "write `import`, and the module with dots: `import fabric.denim`"
+             : *borrowed == "function" ? "write `function name(…) = …`, with one expression"
+                                       : fmt::format("write `{}`", *borrowed);
     if (meant) help = fmt::format("did you mean `{}`?", *meant);
     bool defines = !keyword.empty() && followed_by(TokenKind::equals);
     if (defines) help = fmt::format("write `material {0} = …`, or `let {0} = …` for a value", keyword);
@@ -197,11 +206,16 @@ void Parser::declaration() {
                 "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, "
                 "`class`, `device`, `levels` or `hand`",
                 shown(here()), std::move(help),
-                meant     ? respell_here(declaration_words)
+                borrowed && *borrowed == "let" && !meant ? std::vector{replace(span_of(here()), *borrowed)}
+                : meant                                  ? respell_here(declaration_words)
                 : defines ? std::vector{insert_before(span_of(here()), "material ", "write `material`", false),
                                         insert_before(span_of(here()), "let ", "write `let`", false)}
                           : std::vector<Fix>{},
                 {}, meant ? std::vector<Fact>{{"meant", *meant}} : std::vector<Fact>{});
+    // A borrowed `const` or `struct` is read as what was meant; what follows `def` and `from` is not like Wale's.
+    const bool reads_on =
+        borrowed && !meant && followed_by(TokenKind::name) && (*borrowed == "let" || *borrowed == "material");
+    if (reads_on) meant = borrowed;
     lost_ = lost_ || !meant;
     if (lost_ || keyword == "wale") throw Abandon{};
     keyword = input_.rewrite(*meant);
@@ -340,8 +354,9 @@ void Parser::material() {
   material.documentation = documentation_here();
   advance();
   material.name = declared_name("material");
-  if (at(TokenKind::equals)) {
-    advance();
+  remembered_.clear();
+  if (at(TokenKind::equals) || borrowed_origin()) {
+    if (at(TokenKind::equals)) advance();
     in_origin_ = true;
     material.derived_from = expression();
   }

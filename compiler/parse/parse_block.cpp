@@ -12,16 +12,6 @@ namespace {
 constexpr std::string_view sections[] = {"representative", "perceptual", "physical"};
 const std::vector<std::string> section_names(std::begin(sections), std::end(sections));
 
-/// The keywords of physical statements, in the order of `PhysicalKeyword`; `x' = …` has no keyword.
-const std::vector<std::string> physical_words = {"param",  "let",   "height", "force", "patch",
-                                                 "active", "state", "memory", "next",  "show"};
-
-std::optional<PhysicalKeyword> physical_keyword_named(std::string_view word) {
-  const auto found = std::ranges::find(physical_words, word);
-  if (found == physical_words.end()) return std::nullopt;
-  return static_cast<PhysicalKeyword>(found - physical_words.begin());
-}
-
 template <class List>
 bool holds(const List& list, std::string_view word) {
   for (const auto& each : list) {
@@ -43,6 +33,11 @@ Setting Parser::setting() {
     throw Abandon{};
   }
   Setting setting;
+  if (followed_by(TokenKind::left_brace) && holds(sections, spelling(here()))) {
+    complain_at(Code::unexpected_token, span_of(here()), fmt::format("`{}` belongs in a material", spelling(here())),
+                "a setting", shown(here()), "begin the declaration with `material`");
+    throw Abandon{};
+  }
   setting.key = take_word();
   in_setting_ = true;
   if (at(TokenKind::equals) || at(TokenKind::colon)) {
@@ -162,14 +157,19 @@ void Parser::material_section(MaterialDecl& material, bool& misplaced) {
 /// probably all meant for the same section, or a section ended too early. A physical statement is read all the same.
 void Parser::stray_statement(MaterialDecl& material, bool& misplaced) {
   const bool physical =
-      here().kind == TokenKind::name && (holds(physical_words, spelling(here())) || kind(at_ + 1) == TokenKind::prime);
+      here().kind == TokenKind::name && (physical_keyword_named(spelling(here())) || kind(at_ + 1) == TokenKind::prime);
+  const bool is_level = kind(at_ + 1) == TokenKind::number;
+  const bool is_said = is_word(at_, "title") || is_word(at_, "called") || is_word(at_, "kind") || is_word(at_, "like");
   if (misplaced) {
     reported_ = true;
   } else {
     complain_at(Code::unexpected_token, span_of(here()),
                 fmt::format("{} is outside the sections of the material", shown(here())),
                 "`representative`, `perceptual` or `physical`", shown(here()),
-                physical ? "put it into `physical { … }`" : "put it into the section to which it belongs");
+                physical   ? "put it into `physical { … }`"
+                : is_said  ? "put it into `representative { … }`"
+                : is_level ? "put it into `perceptual { … }`"
+                           : "put it into the section to which it belongs");
   }
   misplaced = true;
   if (!physical) throw Abandon{};
@@ -186,10 +186,13 @@ void Parser::second_percept() {
   if (kind(name) != TokenKind::name || !has_level || ends_statement(name + 1)) return;
   const Span between = {tree_.source, token(name - 1).end, token(name).begin};
   const Span second = {tree_.source, token(name).begin, token(name + 1).end};
-  complain_at(
-      Code::unexpected_token, second, "a line asks for one percept", "the end of the line",
-      fmt::format("`{}`", sources_.text(second)), fmt::format("put `{}` into a line of its own", sources_.text(second)),
-      {replace(comma ? Span{tree_.source, here().begin, token(name).begin} : between, "; ", "part them with `;`")});
+  // `roughness roughness 0.5` is one percept, written twice.
+  const bool is_other = spelling(token(name)) != spelling(token(name - 1)) || comma;
+  complain_at(Code::unexpected_token, second, "a line asks for one percept", "the end of the line",
+              fmt::format("`{}`", sources_.text(second)),
+              fmt::format("put `{}` into a line of its own", sources_.text(second)),
+              {replace(comma ? Span{tree_.source, here().begin, token(name).begin} : between, "; ",
+                       "part them with `;`", is_other)});
   throw Abandon{};
 }
 
@@ -201,8 +204,11 @@ PerceptStatement Parser::percept_statement() {
     advance();
   }
   if (here().kind != TokenKind::name) {
-    complain_at(Code::unexpected_token, span_of(here()), "expected the name of a percept",
-                "a percept, as in `roughness 0.6`", shown(here()), {});
+    const bool quoted = here().kind == TokenKind::text;
+    complain_at(
+        Code::unexpected_token, span_of(here()), "expected the name of a percept", "a percept, as in `roughness 0.6`",
+        shown(here()), quoted ? "write names without quotes" : "",
+        quoted ? std::vector{replace(span_of(here()), std::string(input_.texts[here().value]))} : std::vector<Fix>{});
     throw Abandon{};
   }
   percept.name = take_word();
@@ -241,206 +247,6 @@ PerceptStatement Parser::percept_statement() {
     percept.value = erroneous(begin);
   }
   return percept;
-}
-
-/// The kind of the statement here, by its first word. A misspelt word is reported and read as the one that was meant.
-PhysicalKeyword Parser::physical_keyword() {
-  if (here().kind == TokenKind::name) {
-    if (followed_by(TokenKind::prime)) return PhysicalKeyword::prime;
-    const std::string_view word = spelling(here());
-    if (const auto known = physical_keyword_named(word)) return *known;
-    const bool defines = followed_by(TokenKind::equals);
-    const std::vector<std::string> candidates = defines ? std::vector<std::string>{"force"} : physical_words;
-    const auto meant = nearest_spelling(std::string(word), candidates);
-    const bool plausible = meant && (defines || followed_by(TokenKind::name) || *meant == "patch");
-    if (plausible) {
-      complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with `{}`", word),
-                  "`" + *meant + "`", fmt::format("`{}`", word), fmt::format("did you mean `{}`?", *meant),
-                  respell_here(candidates), {}, {{"meant", *meant}});
-      return *physical_keyword_named(*meant);
-    }
-    if (defines) {
-      complain_at(Code::unexpected_token, span_of(here()),
-                  fmt::format("the definition of `{}` lacks its keyword", word), "`let`, `param`, `height` or `state`",
-                  fmt::format("`{}`", word), fmt::format("write `let {} = …`", word),
-                  {insert_before(span_of(here()), "let ", {}, false)});
-      return PhysicalKeyword::equals;
-    }
-  }
-  const bool operation = here().kind >= TokenKind::plus && here().kind <= TokenKind::greater_equal;
-  complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with {}", shown(here())),
-              "`param`, `let`, `height`, `state`, `memory`, `force`, `patch`, `next`, `show` or `name' = …`",
-              shown(here()), operation ? "to continue on the next line, end the line above with the operator" : "",
-              operation ? move_operator_up() : std::vector<Fix>{});
-  throw Abandon{};
-}
-
-PhysicalStatement Parser::physical_statement() {
-  const std::size_t begin = at_;
-  PhysicalStatement result;
-  switch (const PhysicalKeyword keyword = physical_keyword()) {
-    case PhysicalKeyword::prime:
-    case PhysicalKeyword::next: result.what = update(); break;
-    case PhysicalKeyword::param: result.what = param(); break;
-    case PhysicalKeyword::state: result.what = state(); break;
-    case PhysicalKeyword::memory: result.what = memory(); break;
-    case PhysicalKeyword::patch: result.what = patch(); break;
-    case PhysicalKeyword::active: result.what = active(); break;
-    case PhysicalKeyword::force: result.what = force(); break;
-    case PhysicalKeyword::show:
-      advance();
-      result.what = ShowStatement{expression()};
-      break;
-    case PhysicalKeyword::height: {
-      const auto [name, value] = definition(keyword);
-      result.what = HeightStatement{name, value};
-      break;
-    }
-    case PhysicalKeyword::let:
-    case PhysicalKeyword::equals: {
-      const auto [name, value] = definition(keyword);
-      result.what = LetStatement{name, value};
-      break;
-    }
-  }
-  result.span = since(begin);
-  return result;
-}
-
-/// Reads `let reach = …` or `height ribs = …`: a name and its value.
-std::pair<Word, ExprId> Parser::definition(PhysicalKeyword keyword) {
-  const bool is_height = keyword == PhysicalKeyword::height, has_keyword = keyword != PhysicalKeyword::equals;
-  if (has_keyword) advance();
-  const Word name = has_keyword ? declared_name(is_height ? "height" : "value") : take_word();
-  if (!take(TokenKind::equals))
-    missing("`=`", fmt::format("write `{} {} = …`", is_height ? "height" : "let", name.text), insert_equals());
-  return {name, expression()};
-}
-
-/// Reads `force drag = viscous(2 N s/m) limit 3 N`.
-ForceStatement Parser::force() {
-  advance();
-  ForceStatement force{};
-  if (at(TokenKind::name) && followed_by(TokenKind::equals)) force.name = declared_name("force");
-  if (!take(TokenKind::equals)) missing("`=`", "write `force = …`", insert_equals());
-  in_force_ = true;
-  force.value = expression();
-  if (at(TokenKind::name) && is_word(at_, "limit")) {
-    advance();
-    force.limit = expression();
-  }
-  return force;
-}
-
-/// Reads `param wale = 2.5 mm in 1 mm .. 5 mm "distance between ribs"`.
-ParamStatement Parser::param() {
-  ParamStatement param;
-  param.documentation = documentation_here();
-  advance();
-  param.name = declared_name("parameter");
-  if (!take(TokenKind::equals)) missing("`=`", fmt::format("write `param {} = …`", param.name.text), insert_equals());
-  param.value = expression();
-  param.range = optional_range();
-  if (at(TokenKind::comma) && is_word(at_ + 1, "soft")) {
-    advance();
-    advance();
-    param.soft_range = range();
-  }
-  if (at(TokenKind::text)) {
-    param.description = input_.texts[here().value];
-    advance();
-  }
-  return param;
-}
-
-/// Reads `state p : position = hand in -60 mm .. 60 mm`.
-StateStatement Parser::state() {
-  advance();
-  StateStatement state;
-  state.name = declared_name("state");
-  state.dimension = optional_dimension();
-  if (!take(TokenKind::equals))
-    missing("`=`", fmt::format("a state needs an initial value: write `state {} = …`", state.name.text),
-            insert_equals());
-  state.value = expression();
-  state.range = optional_range();
-  return state;
-}
-
-/// Reads `memory track : length = 0 mm in 0 mm .. 5 mm, cell 1 mm`.
-MemoryStatement Parser::memory() {
-  advance();
-  MemoryStatement memory{};
-  memory.name = declared_name("memory");
-  memory.dimension = optional_dimension();
-  if (!take(TokenKind::equals)) missing("`=`", fmt::format("write `memory {} = …`", memory.name.text));
-  memory.value = expression();
-  memory.range = optional_range();
-  if (!at(TokenKind::comma) || !is_word(at_ + 1, "cell"))
-    fail("expected `, cell`" + after_previous(), "`, cell` and a length",
-         "give the width of its cells, as in `memory track = 0 in 0 .. 1, cell 1 mm`");
-  advance();
-  advance();
-  memory.cell = expression();
-  return memory;
-}
-
-std::optional<Word> Parser::optional_dimension() {
-  if (!at(TokenKind::colon)) return std::nullopt;
-  advance();
-  if (!at(TokenKind::name)) fail("expected a dimension" + after_previous(), "a dimension, as in `: length`", {});
-  return take_word();
-}
-
-/// Reads `v' = …` or `next v = …`.
-UpdateStatement Parser::update() {
-  UpdateStatement update{};
-  update.derivative = kind(at_ + 1) == TokenKind::prime;
-  if (!update.derivative) advance();
-  update.name = update.derivative ? take_word() : declared_name("state");
-  if (update.derivative) advance();
-  if (!take(TokenKind::equals)) missing("`=`", fmt::format("write `next {} = …`", update.name.text), insert_equals());
-  update.value = expression();
-  return update;
-}
-
-PatchStatement Parser::patch() {
-  advance();
-  if (at(TokenKind::equals)) {
-    complain("the size of the patch has no `=` before it", "a length",
-             fmt::format("write `patch {}`", spelling(token(at_ + 1))), drop_here());
-    advance();
-  }
-  PatchStatement patch{{expression()}};
-  while (at(TokenKind::comma)) {
-    advance();
-    patch.sizes.push_back(expression());
-  }
-  return patch;
-}
-
-ActiveStatement Parser::active() {
-  advance();
-  if (at(TokenKind::equals)) {
-    complain("the active power has no `=` before it", "a power",
-             fmt::format("write `active {}`", spelling(token(at_ + 1))), drop_here());
-    advance();
-  }
-  return {expression()};
-}
-
-std::optional<Range> Parser::optional_range() {
-  if (!at(TokenKind::word_in)) return std::nullopt;
-  advance();
-  return range();
-}
-
-Range Parser::range() {
-  Range range{};
-  range.low = expression();
-  if (!take(TokenKind::range)) missing("`..`", "a range is written `in 1 mm .. 5 mm`", insert_range());
-  range.high = expression();
-  return range;
 }
 
 /// Goes past the `{` of a block. If it is missing, the block is read from the next line on, since otherwise each of its

@@ -88,7 +88,10 @@ Word Parser::declared_name(std::string_view declares) {
   const bool ends_heading =
       kind(behind) == TokenKind::left_brace || (kind(behind) == TokenKind::equals && !token(behind).starts_line);
   const bool may_name_dimension = declares == "state" || declares == "memory";  // `state p position`, without its `:`
-  const bool second_word = behind > at_ && ends_heading && !may_name_dimension;
+  const bool is_origin = declares == "material" && followed_by(TokenKind::name) &&
+                         (is_word(at_, "extends") || is_word(at_, "inherits") || is_word(at_, "is") ||
+                          is_word(at_, "of") || is_word(at_, "like"));
+  const bool second_word = behind > at_ && ends_heading && !may_name_dimension && !is_origin;
   return hyphen || second_word ? joined_name(declares, name) : name;
 }
 
@@ -230,17 +233,29 @@ std::string Parser::mend_here() const {
     case TokenKind::number:
     case TokenKind::left_parenthesis:
       if (!ends_value(previous.kind)) return {};
+      if (next.kind == TokenKind::name && after.kind == TokenKind::colon && !open_parentheses_.empty())
+        return fmt::format("put a comma before `{}`", spelling(next));
       if (begins_another_statement(next, after)) return fmt::format("put `{}` on a line of its own", spelling(next));
       if (next.kind == TokenKind::left_parenthesis)
         return fmt::format("to multiply, write `{} * (…)`", spelling(previous));
       return fmt::format("to multiply, write `{} * {}{}`", spelling(previous), spelling(next),
-                         after.kind == TokenKind::left_parenthesis ? "(…)" : "");
+                         after.kind == TokenKind::left_parenthesis ? "(…)" : "") +
+             (previous.kind == TokenKind::name && after.kind == TokenKind::left_parenthesis
+                  ? fmt::format("; to call a function, `{}({}(…))`", spelling(previous), spelling(next))
+                  : "");
     case TokenKind::comma:
       if (previous.kind == TokenKind::number && touching && after.kind == TokenKind::number &&
           after.begin == next.end) {
         return fmt::format("write decimals with a point: `{}.{}`", spelling(previous), spelling(after));
       }
-      return {};
+      return in_force_ && open_parentheses_.empty() ? "forces are added with `+`" : "";
+    case TokenKind::percent:
+      if (previous.kind != TokenKind::name && previous.kind != TokenKind::right_parenthesis) return {};
+      return previous.kind == TokenKind::name && !ends_statement(at_ + 1)
+                 ? fmt::format("the remainder is a function: write `modulo({}, {})`", spelling(previous),
+                               value_at(at_ + 1))
+                 : "the remainder is a function: `modulo(value, divisor)`";
+    case TokenKind::left_bracket: return "the parts of a vector are `.x` and `.y`; Wale has no lists";
     case TokenKind::equals: return "`=` defines; compare values with `<`, `<=`, `>` and `>=`";
     case TokenKind::less:
     case TokenKind::less_equal:

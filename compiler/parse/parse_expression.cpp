@@ -174,7 +174,11 @@ void Parser::no_operand(bool next_statement) {
   }
   if (!help.empty()) fail(message, "a value", std::move(help), std::move(fixes));
   switch (here().kind) {
-    case TokenKind::left_bracket: help = "write vectors as `vector(a, b)`"; break;
+    case TokenKind::left_bracket:
+      help = at_ > 0 && kind(at_ - 1) == TokenKind::word_in ? "a range is written `in 1 mm .. 5 mm`"
+                                                            : "write vectors as `vector(a, b)`";
+      break;
+    case TokenKind::left_brace: help = "write vectors as `vector(a, b)`"; break;
     case TokenKind::word_not: help = "put `not` and its condition in parentheses"; break;
     case TokenKind::star:
     case TokenKind::slash: help = "an operator needs a value on both sides; the one before it is missing"; break;
@@ -207,6 +211,9 @@ bool Parser::is_suffix_name(std::size_t index) const {
   if (kind(index) != TokenKind::name) return false;
   if (token(index).starts_line && begins_statement(index)) return false;
   if (in_force_ && is_word(index, "limit")) return false;
+  if (in_range_ && (is_word(index, "soft") || is_word(index, "cell") || is_word(index, "to")) &&
+      begins_number(index + 1))
+    return false;
   if (is_like(index)) return false;
   const TokenKind next = kind(index + 1);
   if (!ends_statement(index + 1) && (next == TokenKind::left_parenthesis || next == TokenKind::colon)) return false;
@@ -273,6 +280,7 @@ ExprId Parser::call() {
       at_ = argument_begin - 1;  // the comma, for it may have been meant as a decimal point
       std::string help = mend_here();
       std::vector<Fix> fixes = fixes_here();
+      if (help.empty()) help = "put it before those with a name, or give it a name too";
       at_ = after;
       complain_at(Code::unexpected_token, tree_.span(last.value),
                   "arguments without a name must come before those with one", "`name: value`",
@@ -331,8 +339,12 @@ void Parser::close_parenthesis(std::string_view expected) {
     std::string help = mend_here();
     if (here().starts_line && closed_later) help = "separate arguments by commas";
     if (help.empty()) help = unclosed_parenthesis();
-    if (here().kind == TokenKind::name && expected.starts_with("`,`")) help += ", and commas between arguments";
-    fail(message, std::string(expected), std::move(help), fixes_here(),
+    const bool is_argument = here().kind == TokenKind::name && expected.starts_with("`,`");
+    if (is_argument && kind(at_ + 1) != TokenKind::colon) help += ", and commas between arguments";
+    const bool parts = here().kind == TokenKind::semicolon && closed_later && expected.starts_with("`,`");
+    if (parts) help = "arguments are parted by commas";
+    fail(message, std::string(expected), std::move(help),
+         parts ? std::vector{replace(span_of(here()), ",")} : fixes_here(),
          {{span_of(token(open_parentheses_.back())), "opened here"}});
   }
   advance();
@@ -350,8 +362,12 @@ ExprId Parser::conditional() {
   const ExprId condition = operation(0);
   if (!at(TokenKind::word_then)) {
     std::string help = mend_here();
+    const bool is_value = at(TokenKind::name) || at(TokenKind::number);
+    const bool lacks_then = is_value && kind(at_ - 1) == TokenKind::right_parenthesis;
+    if (lacks_then) help = fmt::format("write `then` before `{}`", spelling(here()));
     if (help.empty()) help = "a conditional is written `if … then … else …`";
-    fail("expected `then`" + after_previous(), "`then`", std::move(help), fixes_here());
+    fail("expected `then`" + after_previous(), "`then`", std::move(help),
+         lacks_then ? std::vector{insert_before(span_of(here()), "then ")} : fixes_here());
   }
   advance();
   const ExprId yes = operation(0);

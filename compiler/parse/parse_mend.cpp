@@ -122,6 +122,8 @@ std::vector<Fix> Parser::fixes_here() const {
   const Token& after = token(at_ + 1);
   const bool number_before = previous.kind == TokenKind::number;
   const bool call = next.kind == TokenKind::name && after.kind == TokenKind::left_parenthesis;
+  if (next.kind == TokenKind::name && after.kind == TokenKind::colon && !open_parentheses_.empty())
+    return {insert_after(span_of(previous), ",", "part the arguments with a comma", false)};
   switch (next.kind) {
     case TokenKind::name:
     case TokenKind::left_parenthesis:
@@ -131,6 +133,7 @@ std::vector<Fix> Parser::fixes_here() const {
                            number_before && (call || next.kind == TokenKind::left_parenthesis))};
     case TokenKind::comma:
       if (mend_here().empty()) return {};
+      if (previous.kind != TokenKind::number) return {replace(span_of(next), " +", "add the forces", false)};
       // Among arguments the comma may really be meant as a comma.
       return {replace(span_of(next), ".", "write a decimal point", open_parentheses_.empty())};
     case TokenKind::word_in: return is_inch_here() ? std::vector{replace(span_of(next), "inch")} : std::vector<Fix>{};

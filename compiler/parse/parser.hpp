@@ -28,6 +28,9 @@ constexpr std::size_t most_statements = 12000;
 /// The beginning of a physical statement: its keyword, the prime of `x' = …`, or a `=` if the keyword is missing.
 enum class PhysicalKeyword { param, let, height, force, patch, active, state, memory, next, show, prime, equals };
 
+/// The kind of statement that begins with a word; empty if none does.
+std::optional<PhysicalKeyword> physical_keyword_named(std::string_view word);
+
 /// Recursive descent over the tokens of one file, by the grammar in schema/wale.grammar. Call it through `parse.hpp`.
 ///
 /// At most one error is reported for a statement, since after the first one the rest is guesswork.
@@ -62,6 +65,8 @@ class Parser {
   void record(bool exported);
   void material();
 
+  bool borrowed_origin();
+
   // parse_block.cpp: blocks in braces
   Setting setting();
   [[noreturn]] void next_setting();
@@ -72,6 +77,7 @@ class Parser {
   [[gnu::cold]] void stray_statement(MaterialDecl& material, bool& misplaced);
   PerceptStatement percept_statement();
   [[gnu::cold]] void second_percept();
+  // parse_physical.cpp: statements of a physical block
   PhysicalStatement physical_statement();
   PhysicalKeyword physical_keyword();
   std::pair<Word, ExprId> definition(PhysicalKeyword keyword);
@@ -85,6 +91,7 @@ class Parser {
   ActiveStatement active();
   std::optional<Range> optional_range();
   Range range();
+  // parse_block.cpp again
   void open_block();
   [[gnu::cold]] void missing_brace(std::size_t open);
   bool ends_block_by_mistake(bool in_section) const;
@@ -114,6 +121,10 @@ class Parser {
   ExprId conditional();
   bool suffix_factor();
   bool is_suffix_name(std::size_t index) const;
+  bool begins_number(std::size_t index) const {
+    return kind(index) == TokenKind::number ||
+           (kind(index) == TokenKind::minus && kind(index + 1) == TokenKind::number);
+  }
   void close_parenthesis(std::string_view expected);
   std::string unclosed_parenthesis() const;
   template <class Node>
@@ -139,6 +150,11 @@ class Parser {
   std::vector<Fix> unquote(bool is_module) const;
   std::vector<Fix> state_version(bool is_wale, bool has_number, bool is_declaration) const;
   std::vector<Fix> respell_here(const std::vector<std::string>& candidates) const;
+
+  // parse_borrowed.cpp: words of other languages
+  [[gnu::cold]] std::optional<PhysicalKeyword> borrowed_keyword();
+  [[gnu::cold]] std::string mend_borrowed(std::string_view word) const;
+  [[gnu::cold]] void missing_comma(std::string_view word);
 
   // parse_cursor.cpp: the current place, messages, recovery
   const Token& here() const { return tokens_[at_]; }
@@ -227,10 +243,12 @@ class Parser {
   bool reported_ = false;                  ///< an error in this statement has been reported
   bool brace_missing_ = false;             ///< a wrong brace in this declaration has been reported
   std::size_t statements_ = 0;
-  bool lost_ = false;        ///< outside all declarations, which has been reported
-  bool in_setting_ = false;  ///< words of evidence end a unit: `0.3 kg assumed`
-  bool in_force_ = false;    ///< `limit` ends a unit: `k * 5 mm limit 2 N`
-  bool in_origin_ = false;   ///< of a material: `= 0.5 corduroy(wale: 1 mm) + 0.5 denim`
+  std::vector<std::string_view> remembered_;  ///< states and memories of the material that is being read
+  bool lost_ = false;                         ///< outside all declarations, which has been reported
+  bool in_setting_ = false;                   ///< words of evidence end a unit: `0.3 kg assumed`
+  bool in_force_ = false;                     ///< `limit` ends a unit: `k * 5 mm limit 2 N`
+  bool in_range_ = false;   ///< `soft`, `cell` and `to` end a unit: `in 1 mm .. 5 mm soft 2 mm .. 3 mm`
+  bool in_origin_ = false;  ///< of a material: `= 0.5 corduroy(wale: 1 mm) + 0.5 denim`
 };
 
 template <class Node>
@@ -248,7 +266,7 @@ template <class Body>
 void Parser::statement(Body body) {
   const std::size_t begin = at_;
   statement_begin_ = begin;
-  reported_ = in_setting_ = in_force_ = in_origin_ = false;
+  reported_ = in_setting_ = in_force_ = in_range_ = in_origin_ = false;
   last_expression_.reset();
   open_parentheses_.clear();
   open_arguments_.clear();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/text/readable.hpp"
+
 namespace wale {
 namespace {
 
@@ -62,7 +64,7 @@ std::vector<Tick> round_ticks(double low, double high, int count) {
 std::string shown_number(double value) {
   if (!std::isfinite(value)) return "—";
   const double size = std::abs(value);
-  if (size >= 999.5) return with_minus(fmt::format("{:.0f}", value));
+  if (size >= 999.5) return with_minus(readable("{:.0f}", value));
   if (size != 0 && size < 1e-4) return with_minus(fmt::format("{:.2e}", value));
   return with_minus(fmt::format("{:.3g}", value));
 }

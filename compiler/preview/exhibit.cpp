@@ -57,17 +57,44 @@ Look look_at(const Bank& bank, const Memory* memory, const std::vector<glm::vec2
   return look;
 }
 
-/// The force along the axis; for a pad, the amplitude of its shaking.
-int component_of(const Bank& bank, const Exhibit& exhibit) {
-  return bank.program().description().vibrates() ? 0 : exhibit.axis;
+/// The force along the section; for a pad, the amplitude of its shaking.
+double along_section(const Bank& bank, const Exhibit& exhibit, Force force) {
+  return bank.program().description().vibrates() ? force.x : force.x * exhibit.way.x + force.y * exhibit.way.y;
+}
+
+/// The place on the section at a distance from its middle, m.
+glm::vec2 on_section(const Exhibit& exhibit, double distance) {
+  return glm::vec2(exhibit.through + exhibit.way * distance);
+}
+
+/// Whether the patch outside a square around its centre has more to feel or to see than the square: a wall at the side,
+/// a hill, a deeper relief. The rim, where textures fade, does not count.
+bool is_more_outside(const Bank& bank, const Memory* memory, double side) {
+  const PatchSize size = bank.size();
+  const double rim = std::min({size.rim, 0.25f * size.width, 0.25f * size.height});
+  std::vector<glm::vec2> inside, outside;
+  constexpr int lattice = 96;
+  for (int row = 0; row < lattice; ++row) {
+    for (int column = 0; column < lattice; ++column) {
+      const double wander = 0.37 * row + 0.61 * column;
+      const double u = (column + wander - std::floor(wander)) / lattice - 0.5, v = (row + 0.5) / lattice - 0.5;
+      inside.emplace_back(u * side, v * side);
+      const glm::dvec2 place(u * (size.width - 2 * rim), v * (size.height - 2 * rim));
+      if (std::max(std::abs(place.x), std::abs(place.y)) > side / 2) outside.emplace_back(place);
+    }
+  }
+  if (outside.empty()) return false;
+  const Look here = look_at(bank, memory, inside), there = look_at(bank, memory, outside);
+  constexpr double more = 1.15;
+  return there.force > more * here.force + no_force || there.relief > more * here.relief;
 }
 
 }  // namespace
 
-Exhibit exhibit_of(const Bank& bank, const Memory* memory) {
+Exhibit exhibit_of(const Bank& bank, const Memory* memory, const SectionChoice& section) {
   const PatchSize size = bank.size();
   Exhibit exhibit;
-  exhibit.side = std::min(size.width, size.height);
+  exhibit.side = exhibit.patch_side = std::min(size.width, size.height);
   const double limit = bank.program().description().device.speed_limit;
   exhibit.speed = limit > 0 ? std::min(limit, brisk) : brisk;
 
@@ -104,56 +131,68 @@ Exhibit exhibit_of(const Bank& bank, const Memory* memory) {
     // The period is read from samples, so its last digits are random: 19.9973 mm is shown as 20.
     // With marks the whole patch is shown: they may be anywhere on it.
     const bool marked = !bank.program().description().picture.marks.empty();
-    if (exhibit.period && !marked)
-      exhibit.side = std::min(exhibit.side, in_three_digits(periods_shown * *exhibit.period));
+    if (exhibit.period && !marked) {
+      const double cropped = std::min(exhibit.side, in_three_digits(periods_shown * *exhibit.period));
+      if (!is_more_outside(bank, memory, cropped)) {
+        exhibit.side = cropped;
+        if (cropped < exhibit.patch_side) exhibit.centre = section.at.value_or(glm::dvec2(0));
+      }
+    }
   }
+  if (section.along || section.at) {
+    exhibit.through = section.at.value_or(glm::dvec2(0));
+    if (section.along) {
+      exhibit.way = {std::cos(*section.along), std::sin(*section.along)};
+      exhibit.way_name = section.name;
+    }
+  }
+  if (section.along) return exhibit;
 
   // The section runs along x through the centre, unless nothing changes there: then along y, or between rows of bumps.
   constexpr int points = 997;
-  const auto along = [&](int axis, double aside) {
-    std::vector<glm::vec2> line(points, glm::vec2(static_cast<float>(aside)));
-    for (int i = 0; i < points; ++i) {
-      line[static_cast<std::size_t>(i)][axis] = static_cast<float>(((i + 0.5) / points - 0.5) * exhibit.side);
-    }
+  const auto varies = [&](const Exhibit& tried) {
+    std::vector<glm::vec2> line;
+    for (int i = 0; i < points; ++i) line.push_back(on_section(tried, ((i + 0.5) / points - 0.5) * tried.side));
     const Look look = look_at(bank, memory, line);
-    return exhibit.has_relief ? look.relief : look.force;
+    return (tried.has_relief ? look.relief : look.force) > 0.1 * (tried.has_relief ? whole.relief : whole.force);
   };
-  const double enough = 0.1 * (exhibit.has_relief ? whole.relief : whole.force);
-  const double off_centre = exhibit.period.value_or(exhibit.side / 8) / 4;
-  for (double aside : {0.0, off_centre}) {
-    for (int axis : {0, 1}) {
-      if (along(axis, aside) <= enough) continue;
-      exhibit.axis = axis;
-      exhibit.aside = aside;
-      return exhibit;
+  const double off_centre = section.at ? 0 : exhibit.period.value_or(exhibit.side / 8) / 4;
+  for (const double aside : {0.0, off_centre}) {
+    for (const bool along_y : {false, true}) {
+      Exhibit tried = exhibit;
+      tried.way = along_y ? glm::dvec2(0, 1) : glm::dvec2(1, 0);
+      tried.way_name = along_y ? "y" : "x";
+      tried.through += along_y ? glm::dvec2(aside, 0) : glm::dvec2(0, aside);
+      if (varies(tried)) return tried;
     }
   }
   return exhibit;
 }
 
 Profile height_along(const Bank& bank, const Memory* memory, const Exhibit& exhibit, int count) {
-  std::vector<glm::vec2> line(static_cast<std::size_t>(count), glm::vec2(static_cast<float>(exhibit.aside)));
+  std::vector<glm::vec2> line;
   Profile profile;
   for (int i = 0; i < count; ++i) {
     profile.at.push_back((i / (count - 1.0) - 0.5) * exhibit.side);
-    line[static_cast<std::size_t>(i)][exhibit.axis] = static_cast<float>(profile.at.back());
+    line.push_back(on_section(exhibit, profile.at.back()));
   }
   const auto heights = reliefs(bank, memory, line);
   profile.values.assign(heights.begin(), heights.end());
   return profile;
 }
 
-Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int count) {
+Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int count, bool across) {
   std::vector<Hand> hands(static_cast<std::size_t>(count));
   Profile profile;
   for (int i = 0; i < count; ++i) {
     profile.at.push_back((i / (count - 1.0) - 0.5) * exhibit.side);
     Hand& hand = hands[static_cast<std::size_t>(i)];
-    hand.position = glm::vec2(static_cast<float>(exhibit.aside));
-    hand.position[exhibit.axis] = static_cast<float>(profile.at.back());
-    hand.velocity[exhibit.axis] = static_cast<float>(speed);
+    hand.position = on_section(exhibit, profile.at.back());
+    hand.velocity = glm::vec2(exhibit.way * speed);
   }
-  for (Force force : forces_on(bank, hands)) profile.values.push_back(force[component_of(bank, exhibit)]);
+  for (Force force : forces_on(bank, hands))
+    profile.values.push_back(across ? force.y * exhibit.way.x - force.x * exhibit.way.y
+                                    : along_section(bank, exhibit, force));
   return profile;
 }
 
@@ -162,15 +201,16 @@ Profile force_against_speed(const Bank& bank, const Exhibit& exhibit, int count)
   Profile profile;
   for (int i = 0; i < count; ++i) {
     profile.at.push_back((i / (count - 1.0) - 0.5) * 2 * exhibit.speed);
-    hands[static_cast<std::size_t>(i)].velocity[exhibit.axis] = static_cast<float>(profile.at.back());
+    hands[static_cast<std::size_t>(i)].velocity = glm::vec2(exhibit.way * profile.at.back());
+    hands[static_cast<std::size_t>(i)].position = glm::vec2(exhibit.through);
   }
-  for (Force force : forces_on(bank, hands)) profile.values.push_back(force[component_of(bank, exhibit)]);
+  for (Force force : forces_on(bank, hands)) profile.values.push_back(along_section(bank, exhibit, force));
   return profile;
 }
 
 glm::vec2 pixel_position(const Exhibit& exhibit, int column, int row, int count) {
   const auto place = [&](int i) { return ((i + 0.5) / count - 0.5) * exhibit.side; };
-  return {static_cast<float>(place(column)), static_cast<float>(-place(row))};
+  return glm::vec2(exhibit.centre + glm::dvec2(place(column), -place(row)));
 }
 
 }  // namespace wale

@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "wale/memory.hpp"
@@ -14,16 +15,29 @@ struct Exhibit {
   bool has_relief = false;       ///< the surface's height varies
   bool pushes_at_rest = false;   ///< a hand at rest somewhere on the patch feels a force
   bool resists_motion = false;   ///< the force depends on velocity
-  double side = 0;               ///< m; side of the square that is shown, around the patch's centre
-  int axis = 0;                  ///< of the section: 0 is x, 1 is y
-  double aside = 0;              ///< m; distance of the section from the centre
+  double side = 0;               ///< m; side of the square that is shown
+  double patch_side = 0;         ///< m; the shorter side of the patch: more than `side` if only the middle is shown
+  glm::dvec2 centre{0};          ///< m; of the square that is shown, from the patch's centre
+  glm::dvec2 through{0};         ///< m; a place on the section, in its middle
+  glm::dvec2 way{1, 0};          ///< direction of the section, of length 1
+  std::string way_name = "x";    ///< "x", "y", "30°"
   std::optional<double> period;  ///< m; of the force's relief as it is read, or else of the picture's
-  double speed = 0;              ///< m/s; forces against velocity are shown up to this speed
+  /// The level of the texture, by the strongest percept that a force down the slopes carries; empty if there is none.
+  std::optional<double> felt;
+  double speed = 0;  ///< m/s; forces against velocity are shown up to this speed
 };
 
-/// Chooses what to show of a program: eight periods of its texture, or the whole patch if it has none or shows marks.
-/// Heights here and below are those of the given memory; without one, those for a hand that enters at the centre.
-Exhibit exhibit_of(const Bank& bank, const Memory* memory = nullptr);
+/// What a person chooses of a preview.
+struct SectionChoice {
+  std::optional<double> along;   ///< rad to the left of x: the direction of the section
+  std::optional<glm::dvec2> at;  ///< m from the patch's centre: a place on it
+  std::string name;              ///< of the direction, for titles
+};
+
+/// Chooses what to show of a program: eight periods of its texture, or the whole patch if it has none, if it shows
+/// marks, or if there is more to feel or to see outside. Heights here and below are those of the given memory; without
+/// one, those for a hand that enters at the centre.
+Exhibit exhibit_of(const Bank& bank, const Memory* memory = nullptr, const SectionChoice& section = {});
 
 /// A quantity along a line: `at` in m or m/s, ascending.
 struct Profile {
@@ -32,8 +46,8 @@ struct Profile {
 
 /// The height of the surface along the section, at `count` positions.
 Profile height_along(const Bank& bank, const Memory* memory, const Exhibit& exhibit, int count);
-/// The force along the section's axis on a hand that moves along it at `speed` (m/s).
-Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int count);
+/// The force along the section on a hand that moves along it at `speed` (m/s); with `across`, that to its left.
+Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int count, bool across = false);
 /// The same force on a hand at the patch's centre, against its velocity.
 Profile force_against_speed(const Bank& bank, const Exhibit& exhibit, int count);
 

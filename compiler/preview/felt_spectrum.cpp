@@ -6,21 +6,20 @@
 #include <complex>
 #include <numeric>
 
-#include "compiler/read/window_spectrum.hpp"
-#include "compiler/read/fourier.hpp"
 #include "compiler/measure/strokes.hpp"
+#include "compiler/read/fourier.hpp"
+#include "compiler/read/window_spectrum.hpp"
 
 namespace wale {
 namespace {
 
-constexpr double felt_seconds = 2;
 constexpr double window_seconds = 1.0 / 7;
 constexpr std::size_t steps_a_window = 8;
 constexpr double turn = 6.283185307179586;
 
 }  // namespace
 
-FeltStroke felt_along(Bank bank, const Exhibit& exhibit, const HandDeclaration* hand) {
+FeltStroke felt_along(Bank bank, const Exhibit& exhibit, const HandDeclaration* hand, double seconds) {
   const DeviceProfile& device = bank.program().description().device;
   FeltStroke felt{.rate = device.rate > 0 ? device.rate : 1000, .forces = {}};
   double reach = room_to_stroke(bank.size()), frequency = 1;
@@ -29,16 +28,16 @@ FeltStroke felt_along(Bank bank, const Exhibit& exhibit, const HandDeclaration* 
     frequency = hand->lateral_frequency;
   }
   const auto place = [&](double time) {
-    glm::dvec2 at(exhibit.aside);
-    at[exhibit.axis] = -reach * std::cos(turn * frequency * time);  // starts at rest at a turning point
-    return at;
+    // It starts at rest at a turning point.
+    return exhibit.through - exhibit.way * (reach * std::cos(turn * frequency * time));
   };
   Memory memory(bank.program());
   memory.enter(bank, hand_along(place, 0, 1 / felt.rate));
-  const long ticks = std::lround(felt_seconds * felt.rate);
+  const long ticks = std::lround(seconds * felt.rate);
   for (long i = 0; i < ticks; ++i) {
     const Force force = tick(bank, memory, hand_along(place, static_cast<double>(i) / felt.rate, 1 / felt.rate));
-    felt.forces.push_back(std::isfinite(force[exhibit.axis]) ? force[exhibit.axis] : 0);
+    const double along = force.x * exhibit.way.x + force.y * exhibit.way.y;
+    felt.forces.push_back(std::isfinite(along) ? static_cast<float>(along) : 0);
   }
   return felt;
 }

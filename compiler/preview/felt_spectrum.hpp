@@ -15,10 +15,10 @@ struct FeltStroke {
   std::vector<float> forces;  ///< N, along the section
 };
 
-/// Moves the hand called `showing` (calibration/hands/hands.wale) to and fro along the section for two seconds and runs
-/// the program's ticks, without guards. The path does not depend on the force. A force that is not a number counts as
-/// 0.
-FeltStroke felt_along(Bank bank, const Exhibit& exhibit, const HandDeclaration* hand);
+/// Moves the hand called `showing` (calibration/hands/hands.wale) to and fro along the section for some seconds and
+/// runs the program's ticks, without guards. The path does not depend on the force. A force that is not a number counts
+/// as 0.
+FeltStroke felt_along(Bank bank, const Exhibit& exhibit, const HandDeclaration* hand, double seconds = 2);
 
 /// The amplitude of a signal over frequency and time.
 struct FeltSpectrum {

@@ -13,6 +13,7 @@ constexpr double stroke_width = 3;        // pixels; of lines, rings and springs
 constexpr double wire_width = 2;          // pixels; of springs, whose coils may be close together
 constexpr double halo = 3.5;              // pixels; the light edge behind a line is wider by this
 constexpr double least_diameter = 6;      // pixels; of a point, so that it can be seen
+constexpr double largest_dot = 24;        // pixels; larger points are rings
 constexpr int coils = 8;                  // a spring keeps its number of coils when it is stretched
 constexpr double lead = 0.1;              // of a spring's length: the straight part at either end
 constexpr double farthest = 1000;         // sides of the picture; farther marks are left out
@@ -28,10 +29,11 @@ Colour colour_of(std::uint32_t code) {
 class MarkPainter {
  public:
   MarkPainter(Canvas& canvas, const PageBox& box, const Exhibit& exhibit)
-      : canvas_(canvas), box_(box), pixels_per_metre_(box.width() / exhibit.side) {}
+      : canvas_(canvas), box_(box), centre_(exhibit.centre), pixels_per_metre_(box.width() / exhibit.side) {}
 
   PagePoint page(double x, double y) const {
-    return {(box_.left + box_.right) / 2 + x * pixels_per_metre_, (box_.top + box_.bottom) / 2 - y * pixels_per_metre_};
+    return {(box_.left + box_.right) / 2 + (x - centre_.x) * pixels_per_metre_,
+            (box_.top + box_.bottom) / 2 - (y - centre_.y) * pixels_per_metre_};
   }
 
   bool is_somewhere(double x, double y) const {
@@ -93,25 +95,23 @@ class MarkPainter {
     canvas_.line(at, at, {diameter, colour, opacity});
   }
 
+  /// A dot; a large one is a ring with a dot in its middle, so that it covers nothing.
   void disc(PagePoint at, double diameter, Colour colour) {
     if (diameter > farthest * box_.width()) return;
     diameter = std::max(diameter, least_diameter);
+    if (diameter > largest_dot) return ring(at, diameter / 2, colour), dot(at, least_diameter, colour, 1);
     dot(at + shadow, diameter, style::ink, shadow_opacity);
     dot(at, diameter + 2.5, style::paper, 0.75f);
     dot(at, diameter, colour, 1);
   }
 
+  /// An outline: what the box marks stays visible inside.
   void rectangle(PagePoint at, double width, double height, double angle, Colour colour) {
     // Counterclockwise on the patch: its y points up, and that of the page down.
     const PagePoint along = PagePoint(std::cos(angle), -std::sin(angle)) * (width / 2),
                     across = PagePoint(std::sin(angle), std::cos(angle)) * (height / 2);
-    std::array corners = {at - along - across, at + along - across, at + along + across, at - along + across};
-    std::array cast = corners;
-    for (PagePoint& corner : cast) corner += shadow;
-    canvas_.area(cast, style::ink, shadow_opacity);
-    canvas_.area(corners, colour, 1);
-    const std::array edge = {corners[0], corners[1], corners[2], corners[3], corners[0]};
-    canvas_.stroke(edge, {1.5, mixed(colour, style::ink, 0.5f)});
+    const std::array corners = {at - along - across, at + along - across, at + along + across, at - along + across};
+    edged(std::array{corners[0], corners[1], corners[2], corners[3], corners[0]}, colour);
   }
 
   void edged(std::span<const PagePoint> points, Colour colour, double width = stroke_width) {
@@ -155,6 +155,7 @@ class MarkPainter {
 
   Canvas& canvas_;
   const PageBox& box_;
+  glm::dvec2 centre_;
   double pixels_per_metre_;
 };
 

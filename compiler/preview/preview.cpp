@@ -38,7 +38,11 @@ constexpr double least_force = 1e-4;  // N; weaker forces count as none
 constexpr int curve_points = 1801;
 constexpr double stroking_speed = 0.1;  // m/s; of the second force curve, drawn if the program resists motion
 
-const char* axis_name(const Exhibit& exhibit) { return exhibit.axis == 0 ? "x" : "y"; }
+const std::string& axis_name(const Exhibit& exhibit) { return exhibit.way_name; }
+
+std::string position_name(const Exhibit& exhibit) {
+  return fmt::format("position {}{}", exhibit.way_name.ends_with("°") ? "along " : "", exhibit.way_name);
+}
 
 /// A bar of a round length at the lower left of the picture.
 void draw_scale_bar(Canvas& canvas, double across, const Notation& notation) {
@@ -55,19 +59,22 @@ void write_caption(Canvas& canvas, const std::string& text) {
   canvas.write({picture.right, picture.bottom + 24.5}, text, style::label, Align::right);
 }
 
-/// Marks the line on the relief along which the curves beside it were taken.
+/// Marks the line on the relief along which the curves beside it were taken, and its ends outside the picture.
 void mark_section(Canvas& canvas, const Exhibit& exhibit) {
-  const double aside = exhibit.aside / exhibit.side * picture.width();
-  const double x = (picture.left + picture.right) / 2 + aside, y = (picture.top + picture.bottom) / 2 - aside;
-  const Pen thin = {1.3, style::ink, 0.55f, 6}, thick = {2, style::ink};
-  if (exhibit.axis == 0) {
-    canvas.line({picture.left, y}, {picture.right, y}, thin);
-    canvas.line({picture.left - 12, y}, {picture.left - 3, y}, thick);
-    canvas.line({picture.right + 3, y}, {picture.right + 12, y}, thick);
-  } else {
-    canvas.line({x, picture.top}, {x, picture.bottom}, thin);
-    canvas.line({x, picture.top - 12}, {x, picture.top - 3}, thick);
-    canvas.line({x, picture.bottom + 3}, {x, picture.bottom + 12}, thick);
+  const PagePoint middle((picture.left + picture.right) / 2, (picture.top + picture.bottom) / 2);
+  const double per_metre = picture.width() / exhibit.side;
+  const PagePoint way(exhibit.way.x, -exhibit.way.y);
+  const glm::dvec2 from_centre = exhibit.through - exhibit.centre;
+  const PagePoint through = middle + PagePoint(from_centre.x, -from_centre.y) * per_metre;
+  const PagePoint half = way * (exhibit.side / 2 * per_metre);
+  canvas.clip(picture);
+  canvas.line(through - half, through + half, {1.3, style::ink, 0.55f, 6});
+  canvas.unclip();
+  if (std::abs(way.x * way.y) > 1e-9) return;
+  const double aside = glm::dot(from_centre, exhibit.way) * per_metre;
+  for (const double side : {-1.0, 1.0}) {
+    const PagePoint end = through + half * side - way * aside;
+    canvas.line(end + way * (3 * side), end + way * (12 * side), {2, style::ink});
   }
 }
 
@@ -94,13 +101,17 @@ Plot height_plot(const Bank& bank, const Memory& memory, const Exhibit& exhibit)
 Plot force_plot(const Bank& bank, const Exhibit& exhibit) {
   Plot plot;
   plot.title = fmt::format("Force along {}", axis_name(exhibit));
-  plot.x_name = fmt::format("position {}", axis_name(exhibit));
+  plot.x_name = position_name(exhibit);
   plot.x_notation = length_notation(exhibit.side);
   plot.curves = {{force_along(bank, exhibit, 0, curve_points), style::force, "on a hand at rest"}};
   if (exhibit.resists_motion) {
     plot.curves.push_back({force_along(bank, exhibit, stroking_speed, curve_points), style::moving,
                            fmt::format("moving at {} m/s", shown_number(stroking_speed))});
   }
+  // A force across the way, as of an oblique rib, is shown if it is a tenth of the one along it.
+  Curve across = {force_along(bank, exhibit, 0, curve_points, true), style::height, "across it"};
+  const double largest = largest_of(plot.curves), largest_across = largest_of({across});
+  if (largest_across > std::max(0.1 * largest, least_force)) plot.curves.push_back(std::move(across));
   plot.y_notation = force_notation(largest_of(plot.curves));
   plot.balanced = true;
   return plot;
@@ -108,7 +119,8 @@ Plot force_plot(const Bank& bank, const Exhibit& exhibit) {
 
 Plot speed_plot(const Bank& bank, const Exhibit& exhibit) {
   Plot plot;
-  plot.title = fmt::format("Force along {} against velocity, at the centre", axis_name(exhibit));
+  plot.title = fmt::format("Force along {} against velocity, {}", axis_name(exhibit),
+                           exhibit.through == glm::dvec2(0) ? "at the centre" : "in the section's middle");
   plot.x_name = fmt::format("velocity along {}", axis_name(exhibit));
   plot.x_notation = speed_notation(exhibit.speed);
   plot.curves = {{force_against_speed(bank, exhibit, curve_points), style::moving, ""}};
@@ -171,6 +183,13 @@ bool shows_surface(const Bank& bank, const Exhibit& exhibit) {
          program.vibrates();
 }
 
+/// Whether marks stand on the field of the force: there is no surface to show, and the force is the same at all times.
+bool marks_on_field(const Bank& bank, const Exhibit& exhibit) {
+  const PatchProgram& program = bank.program().description();
+  return !exhibit.has_relief && !program.picture.colour && !program.picture.marks.empty() && exhibit.pushes_at_rest &&
+         !remembers(program) && !program.vibrates();
+}
+
 /// Whether the force is shown against velocity: the program only resists motion.
 bool is_of_velocity(const Exhibit& exhibit) { return !exhibit.pushes_at_rest && exhibit.resists_motion; }
 
@@ -182,8 +201,11 @@ void draw_surface(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, cons
   draw_marks(canvas, picture, exhibit, rehearsal);
   const Notation length = length_notation(exhibit.side);
   draw_scale_bar(canvas, exhibit.side, length);
-  std::string caption =
-      exhibit.has_relief ? (exhibit.period ? "lit from the upper left" : "relief, lit from the upper left") : "";
+  std::string caption;
+  if (exhibit.has_relief && exhibit.felt)
+    caption = fmt::format("relief by level {:.2f}", *exhibit.felt);
+  else if (exhibit.has_relief)
+    caption = exhibit.period ? "lit from the upper left" : "relief, lit from the upper left";
   if (in_time) caption = fmt::format("after {} s under the hand (ring)", shown_number(rehearsal.seconds));
   if (exhibit.period) {
     caption =
@@ -212,17 +234,23 @@ void draw_force_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, 
   if (of_velocity) return draw_plot(canvas, tall_plot, speed_plot(bank, exhibit));
   Plot at_rest = force_plot(bank, exhibit);
   if (!exhibit.resists_motion) return draw_plot(canvas, tall_plot, at_rest);
-  at_rest.curves.resize(1);
+  std::erase_if(at_rest.curves, [](const Curve& curve) { return curve.name.starts_with("moving"); });
   draw_plot(canvas, upper_of_two, at_rest);
   draw_plot(canvas, lower_of_two, speed_plot(bank, exhibit));
 }
 
-void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text) {
+void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text, const Exhibit& exhibit) {
   const double width = page_width - 2 * margin;
   const std::string& device = bank.program().description().device.name;
   const PatchSize size = bank.size();
-  const std::string place = fmt::format("patch {} × {} mm{}", shown_number(size.width * 1e3),
-                                        shown_number(size.height * 1e3), device.empty() ? "" : " on " + device);
+  const std::string whole = fmt::format("{} × {} mm", shown_number(size.width * 1e3), shown_number(size.height * 1e3));
+  const std::string place =
+      fmt::format("{}{}",
+                  exhibit.side < exhibit.patch_side
+                      ? fmt::format("{} {} mm of {}", exhibit.centre == glm::dvec2(0) ? "middle" : "a part,",
+                                    shown_number(exhibit.side * 1e3), whole)
+                      : "patch " + whole,
+                  device.empty() ? "" : " on " + device);
   canvas.write_within({margin, 104}, width, text.title, style::title);
   canvas.write_within({margin, 146}, width - 420, text.names, style::names);
   canvas.write_within({page_width - margin, 146}, 400, place, style::label, Align::right);
@@ -240,9 +268,10 @@ void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text) {
 }
 
 /// The spectrum of the force under a stroking hand; empty for a pad, and for a force that does not change on the way.
-std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhibit, const HandDeclaration* hand) {
+std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhibit, const HandDeclaration* hand,
+                                          double seconds) {
   if (bank.program().description().vibrates()) return std::nullopt;
-  const FeltStroke felt = felt_along(bank, exhibit, hand);
+  const FeltStroke felt = felt_along(bank, exhibit, hand, seconds);
   FeltSpectrum spectrum = spectrum_of(felt.forces, felt.rate);
   const auto& amplitudes = spectrum.amplitudes;
   if (amplitudes.empty() || !(*std::max_element(amplitudes.begin(), amplitudes.end()) > least_force))
@@ -253,7 +282,10 @@ std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhib
 /// The left half of the page: the surface, or the field of a force without one.
 void draw_picture(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal,
                   const ImageLibrary& images) {
-  if (shows_surface(bank, exhibit))
+  if (marks_on_field(bank, exhibit)) {
+    draw_field_and_scale(canvas, bank, exhibit, false);
+    draw_marks(canvas, picture, exhibit, rehearsal);
+  } else if (shows_surface(bank, exhibit))
     draw_surface(canvas, bank, exhibit, rehearsal, images);
   else
     draw_field_and_scale(canvas, bank, exhibit, is_of_velocity(exhibit));
@@ -275,7 +307,7 @@ void draw_rehearsed_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhib
     return draw_plot(canvas, lower_plot, felt_plot(rehearsal));
   }
   Plot heights = height_plot(bank, rehearsal.memory, exhibit);
-  heights.x_name = fmt::format("position {}", axis_name(exhibit));
+  heights.x_name = position_name(exhibit);
   draw_plot(canvas, upper_of_two, heights);
   draw_plot(canvas, lower_of_two, felt_plot(rehearsal));
 }
@@ -292,15 +324,17 @@ void draw_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const 
 
 }  // namespace
 
-Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations) {
+Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations,
+                             const PreviewChoice& choice) {
   const auto images = image_library();
   if (!images) return images.error();
   const HandDeclaration* hand = declarations.hands.find("showing");
-  const Rehearsal rehearsal = rehearse(bank, hand);
-  const Exhibit exhibit = exhibit_of(bank, &rehearsal.memory);
-  const std::optional<FeltSpectrum> spectrum = felt_spectrum(bank, exhibit, hand);
+  const Rehearsal rehearsal = rehearse(bank, hand, choice.seconds);
+  Exhibit exhibit = exhibit_of(bank, &rehearsal.memory, choice.section);
+  exhibit.felt = text.felt;
+  const std::optional<FeltSpectrum> spectrum = felt_spectrum(bank, exhibit, hand, choice.seconds.value_or(2));
   Canvas canvas(page_width, spectrum ? page_height_with_spectrum : page_height, style::paper);
-  write_words(canvas, bank, text);
+  write_words(canvas, bank, text, exhibit);
   draw_picture(canvas, bank, exhibit, rehearsal, **images);
   draw_plots(canvas, bank, exhibit, rehearsal);
   canvas.outline(picture, {1, style::rule});

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compiler/image/drawing.hpp"
+#include "compiler/preview/exhibit.hpp"
 #include "schema/result.hpp"
 #include "wale/program.hpp"
 
@@ -20,23 +22,33 @@ struct PreviewText {
   std::string names;            ///< one line below the title, "corduroy · deep wale corduroy · ribbed cotton"
   std::vector<Figure> figures;  ///< up to six are shown
   std::string evidence;         ///< one line at the very foot: the evidence and the source of each percept
+  /// The level of the strongest percept that a force down the slopes of a relief carries; empty if there is none.
+  std::optional<double> felt;
+};
+
+/// What a person chooses of a picture.
+struct PreviewChoice {
+  SectionChoice section;
+  std::optional<double> seconds;  ///< of the hand's rubbing and of the spectrum; by default one to five, and two
 };
 
 /// The words that the program itself gives: title and names of its representative layer, the level of each percept, the
-/// maximum force and the parameters at the bank's values, and the evidence of its maps.
+/// maximum force, its wall if it has one, and the parameters at the bank's values, and the evidence of its maps. The
+/// maximum force is always among the first six figures, and a last one says how many are left out.
 PreviewText preview_text(const Bank& bank, const Declarations& declarations);
 
-/// A picture of a material, 1600 x 1330 pixels: shaded relief with a scale bar; height and force along a line through
-/// the centre; the words; and the spectrum and the spectrogram of the force on a hand that strokes to and fro along
-/// that line. A pad has no spectrum, nor has a program that does not push such a hand; their page is 1600 x 1000
-/// pixels.
+/// A picture of a material, 1600 x 1330 pixels: shaded relief with a scale bar; height and force along a line; the
+/// words; and the spectrum and the spectrogram of the force on a hand that strokes to and fro along that line. A pad
+/// has no spectrum, nor has a program that does not push such a hand; their page is 1600 x 1000 pixels.
 ///
 /// A program with a constant relief shows its force field as arrows instead; one that only resists motion shows the
 /// force against velocity. A program with colours, marks or memory always shows its surface. With marks or memory, a
 /// simulated hand has rubbed it for a short time before; with memory, the page also shows the hand and its force over
-/// that time. Forces are the commanded ones, in N or mN. The same bank and text give the same pixels.
+/// that time. Forces are the commanded ones, in N or mN. A relief is drawn the steeper the stronger it is
+/// felt. The same bank, text and choice give the same pixels.
 ///
 /// Error: `Code::missing_library`.
-Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations);
+Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations,
+                             const PreviewChoice& choice = {});
 
 }  // namespace wale

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/preview/axis.hpp"
 #include "compiler/preview/preview.hpp"
+#include "compiler/read/read.hpp"
 
 namespace wale {
 namespace {
@@ -29,14 +31,38 @@ std::vector<std::string> said(const Layers& layers, std::string_view word) {
 /// "roughness: measured (Minsky 1995, figure 19) on sandpaper, 95 % of observers' means within 0.48 .. 0.75": the worst
 /// of the three grades, its source and its interval.
 std::string evidence_of(const DescribedPercept& percept) {
-  std::string text = fmt::format("{}: {}", percept.name, evidence_word(percept.worst));
+  std::string text = fmt::format("{}: {}", percept.name, evidence_word(percept.evidence()));
   if (!percept.source.empty()) text += fmt::format(" ({})", percept.source);
   if (!percept.device.empty()) text += " on " + percept.device;
-  if (percept.low < percept.high)
-    text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.low, percept.high);
+  if (percept.intervals.means.low < percept.intervals.means.high)
+    text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.intervals.means.low,
+                        percept.intervals.means.high);
   if (percept.saturated) text += ", limited by the device";
-  if (percept.outside_validity) text += ", outside the measured range";
+  for (const OutsideRange& each : percept.outside)
+    text += fmt::format(", outside what was measured ({})", in_words(each));
   return text;
+}
+
+/// Forces in N or mN, other sizes in the unit of their carrier.
+Notation notation_of(const DescribedPercept& percept) {
+  if (percept.unit == "N") return force_notation(percept.amplitude);
+  return {percept.unit == "m/s^2" ? "m/s²" : percept.unit, 1};
+}
+
+/// Leaves as many figures as there is room for, the maximum among them, and says how many are left out.
+void keep_what_fits(std::vector<PreviewText::Figure>& figures) {
+  constexpr std::size_t room = 6;
+  if (figures.size() <= room) return;
+  const auto maximum =
+      std::ranges::find_if(figures, [](const auto& each) { return each.word.starts_with("maximum "); });
+  if (maximum != figures.end() && maximum - figures.begin() >= static_cast<std::ptrdiff_t>(room) - 1) {
+    const PreviewText::Figure kept = *maximum;
+    figures.erase(maximum);
+    figures.insert(figures.begin() + room - 2, kept);
+  }
+  const std::size_t left_out = figures.size() - room + 1;
+  figures.resize(room - 1);
+  figures.push_back({"in `wale describe`", fmt::format("{} more", left_out)});
 }
 
 }  // namespace
@@ -53,11 +79,16 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
 
   const Description description = describe(bank, declarations, Texture::left_out);
   std::vector<std::string> evidence;
+  std::vector<PreviewText::Figure> others;
   for (const DescribedPercept& percept : description.percepts) {
-    text.figures.push_back({percept.name, fmt::format("{:.2f}", percept.level)});
-    const Notation notation = percept.unit == "m/s^2" ? Notation{"m/s²", 1} : force_notation(percept.amplitude);
-    text.figures.push_back({percept.carrier, shown_quantity(percept.amplitude, notation)});
+    const bool otherwise = percept.asked && std::abs(*percept.asked - percept.level) >= 0.005;
+    text.figures.push_back({percept.name, otherwise ? fmt::format("{:.2f}, asked {:.2f}", percept.level, *percept.asked)
+                                                    : fmt::format("{:.2f}", percept.level)});
+    others.push_back({percept.carrier, shown_quantity(percept.amplitude, notation_of(percept))});
     evidence.push_back(evidence_of(percept));
+    const Percept* declared = declarations.percepts.find(percept.name);
+    if (declared && declared->extractor == Extractor::lateral_force)
+      text.felt = std::max(text.felt.value_or(0), percept.level);
   }
   text.evidence = evidence.empty() ? "physics only, without a percept" : joined(evidence, " · ");
   if (description.shaking)
@@ -65,6 +96,11 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
   else
     text.figures.push_back(
         {"maximum force", shown_quantity(description.force.max_newton, force_notation(description.force.max_newton))});
+  if (const auto wall = description.shaking ? std::nullopt : read(bank, declarations).wall) {
+    const WallDepth depth = deepest(bank, *wall);
+    text.figures.push_back({"wall " + wall_place(*wall), fmt::format("to {}", shown_quantity(depth.newton, {"N", 1}))});
+  }
+  text.figures.insert(text.figures.end(), others.begin(), others.end());
 
   std::vector<bool> is_level(program.parameters.size(), false);
   for (const PerceptRecord& percept : program.percepts) {
@@ -76,6 +112,7 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
     text.figures.push_back(
         {parameter.name, shown_quantity(parameter.value, {parameter.unit, 1 / parameter.unit_in_si})});
   }
+  keep_what_fits(text.figures);
   return text;
 }
 

@@ -76,8 +76,10 @@ void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Mem
   }
   const auto steep = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() * 98 / 100);
   std::nth_element(slopes.begin(), steep, slopes.end());
-  // A flank at the 98th percentile of steepness is drawn at 50 degrees.
-  const float exaggeration = 1.2f / std::max(*steep, 1e-9f);
+  // A flank at the 98th percentile of steepness is drawn at 50 degrees if it is felt at level 1, and less steeply the
+  // weaker it is felt; a surface without a texture's force is drawn as one of level 1.
+  const float strength = static_cast<float>(std::clamp(std::sqrt(exhibit.felt.value_or(1)), 0.15, 1.2));
+  const float exaggeration = 1.2f * strength / std::max(*steep, 1e-9f);
 
   const double texture = exhibit.period.value_or(exhibit.side / 8) / exhibit.side * shown;
   const std::vector<float> hollow = hollowness(heights, texture, images);

@@ -43,8 +43,8 @@ std::optional<double> cue_of(CueKind kind, const ForceReading& found) {
   return std::nullopt;
 }
 
-/// The band of a percept's periods. What lies on the border of two percepts' bands belongs to the finer one, as well as
-/// a period is read.
+}  // namespace
+
 PeriodBand band_of(const Percept& percept, const Declarations& declarations) {
   constexpr double border = 1 + reading;
   PeriodBand band{percept.period.low / border, percept.period.high * border};
@@ -54,8 +54,6 @@ PeriodBand band_of(const Percept& percept, const Declarations& declarations) {
   });
   return band;
 }
-
-}  // namespace
 
 const std::array<CueFacts, cue_count>& cue_table() {
   static constexpr std::array<CueFacts, cue_count> table{{
@@ -92,6 +90,28 @@ Cues cues_of(const Bank& bank, const ForceReading& reading) {
   if (cues[CueKind::amplitude]) return cues;
   for (const CueKind kind : {CueKind::period, CueKind::orientation, CueKind::regularity}) cues[kind] = std::nullopt;
   return cues;
+}
+
+std::string condition_name(const CueFacts& facts) {
+  if (facts.kind == CueKind::vibration_frequency) return "rate";
+  std::string name = facts.name;
+  std::ranges::replace(name, ' ', '_');
+  return name;
+}
+
+Sizes sizes_of(const Cues& cues, const std::optional<double>& speed) {
+  Sizes sizes;
+  for (const CueFacts& facts : cue_table())
+    if (cues[facts.kind]) sizes[condition_name(facts)] = *cues[facts.kind];
+  if (speed) sizes["speed"] = *speed;
+  return sizes;
+}
+
+std::optional<double> speed_of_strokes(const Declarations& declarations) {
+  const HandDeclaration* hand = declarations.hands.find("normal");
+  if (!hand || !(hand->lateral_frequency > 0)) return std::nullopt;
+  // A stroke goes from one end to the other and back: four amplitudes.
+  return 4 * hand->lateral_amplitude * hand->lateral_frequency;
 }
 
 Cues cues_of(const Bank& bank, const Declarations& declarations) { return cues_of(bank, read(bank, declarations)); }

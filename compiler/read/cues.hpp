@@ -44,6 +44,14 @@ struct Cues {
   const std::optional<double>& operator[](CueKind kind) const { return values[static_cast<std::size_t>(kind)]; }
 };
 
+/// The name that a condition of a map or a threshold has for a cue: "wall_stiffness", and "rate" for a vibration's
+/// frequency.
+std::string condition_name(const CueFacts& facts);
+/// What such conditions may ask of a material: its cues, and the speed of the hand on it, m/s.
+Sizes sizes_of(const Cues& cues, const std::optional<double>& speed);
+/// The mean speed of the hand `normal` as it strokes, m/s; nothing if it is not declared.
+std::optional<double> speed_of_strokes(const Declarations& declarations);
+
 /// The cues of a reading, without those that are below the least that counts.
 Cues cues_of(const Bank& bank, const ForceReading& reading);
 Cues cues_of(const Bank& bank, const Declarations& declarations);

@@ -84,6 +84,8 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
     for (int turn = 0; turn < 3; ++turn) finer = better_fitting(thin.places, thin.forces, finer, parts_of_a_wave);
     return fundamental_of(thin, finer, false);
   }
+  // A coarse wave beside the peak's, not its fundamental.
+  if (fine_wave(powers) == found.multiple) return {peak, 1, all.front(), {1}};
   // Harmonics of one wave, or waves of their own whose common multiple this is: those whose multiples the others are.
   std::vector<std::size_t> strong, own;
   double in_strong = 0;

@@ -20,6 +20,10 @@ std::size_t most_bins(std::size_t wanted, std::size_t places);
 /// The mean squares of a profile's harmonics, from the first on, as shares of all.
 std::vector<double> harmonics_of(const FoldedWave& wave, std::size_t most);
 
+/// The number of a fine wave among the harmonics of a coarse one, by their powers (shares of all, from the first on):
+/// nothing lies between it and the harmonics that the coarse wave has. 0 if there is none.
+std::size_t fine_wave(const std::vector<double>& powers);
+
 /// A wave in a window: what `multiple` times the period of a peak explains.
 struct Fundamental {
   glm::dvec2 waves{0};

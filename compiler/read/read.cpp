@@ -49,7 +49,7 @@ double even_stiffness(const StaticForce& still, PatchSize patch) {
 
 }  // namespace
 
-ForceReading read(const Bank& bank, const Declarations&) {
+ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   if (bank.program().description().vibrates()) return {};  // such a program has no force
   ForceReading found;
   const bool remembers = remembers_anything(bank.program().description());
@@ -61,14 +61,18 @@ ForceReading read(const Bank& bank, const Declarations&) {
     tell_swings(bank, found.sway, found.vibration);
   };
   const auto part = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) i == 0 ? read_still() : read_moving();
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i == 0 && wanted.still) read_still();
+      if (i == 1 && wanted.moving) read_moving();
+    }
   };
   // Strokes that run tick by tick take as long as all static measurements together.
   const std::size_t parts = leaves_out_motion(bank.program().description()) ? 1 : 2;
-  if (remembers)
+  if (remembers && wanted.still && wanted.moving)
     in_parallel(parts, part);
   else
     part(0, parts);
+  if (!wanted.still) return found;
   // A face bends the force, unless the program has memory and yielded to the hands that were placed behind the face.
   if (remembers) found.wall = wall_face(bank);
   if (!found.wall && !found.still.features.empty()) found.wall = wall_face(bank, found.still.features);

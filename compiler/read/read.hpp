@@ -26,12 +26,23 @@ struct ForceReading {
   const Relief& relief() const { return still.relief; }
 };
 
+/// What is read of a program.
+struct ReadParts {
+  bool still = true;   ///< hands at rest: trends, walls, the relief
+  bool moving = true;  ///< resistance to motion, and what goes by time
+};
+
 /// Reads a program at this bank's parameters. The only place where a figure of feel is computed; `declarations` has the
-/// bands of periods of the percepts. Deterministic.
-ForceReading read(const Bank& bank, const Declarations& declarations);
+/// bands of periods of the percepts. Deterministic. Parts that are not wanted are as those of a program without a
+/// force.
+ForceReading read(const Bank& bank, const Declarations& declarations, ReadParts wanted = {});
 
 /// The size of a percept's carrier by the percept's extractor, in SI units; nothing if the program has no such carrier,
 /// or less of it than the least that counts (read/cue.def).
 std::optional<double> carrier_of(const ForceReading& reading, const Percept& percept, const Declarations& declarations);
+
+/// The band of a percept's periods. What lies on the border of two percepts' bands belongs to the finer one, as well as
+/// a period is read.
+PeriodBand band_of(const Percept& percept, const Declarations& declarations);
 
 }  // namespace wale

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/fundamental.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
 #include "wale/picture.hpp"
@@ -267,9 +268,14 @@ class ReliefReader {
     const double scale = of_waves > 0 ? (all - rest) / of_waves : 0;
     for (const FoundWave& each : waves_.waves) {
       const double share = each.power * scale / all;
-      relief.parts.push_back({each.wave.period(), share});
+      const std::vector<WavePart> parts = parts_of(each);
+      // Waves with a small common multiple have that as their fundamental.
+      if (each.parts.size() > 1) relief.parts.push_back({each.wave.period(), share});
+      for (const WavePart& part : parts)
+        if (each.parts.size() == 1)
+          relief.parts.push_back({each.wave.period() / static_cast<double>(part.number), share * part.share});
       regular.add(each.wave.waves, share);
-      tell_wave(each, share);
+      tell_wave(each, share, parts);
     }
     if (waves_.lattice && waves_.waves.empty()) {
       relief.parts.push_back({waves_.lattice->period(), waves_.share});
@@ -300,13 +306,13 @@ class ReliefReader {
     }
   }
 
-  void tell_wave(const FoundWave& each, double share) {
+  void tell_wave(const FoundWave& each, double share, const std::vector<WavePart>& parts) {
     Relief& relief = found_.relief;
     const double orientation = half_turned(std::atan2(each.wave.waves.y, each.wave.waves.x));
     if (share >= weak)
-      for (const std::size_t part : each.parts)
-        relief.waves.push_back({each.wave.period() / static_cast<double>(part), orientation,
-                                share / static_cast<double>(each.parts.size())});
+      for (const WavePart& part : parts)
+        relief.waves.push_back(
+            {each.wave.period() / static_cast<double>(part.number), orientation, share * part.share});
     if (relief.crest > 0) return;
     // The strongest wave's own waveform, along the direction in which it pushes most.
     glm::dvec2 way{0};

@@ -1,9 +1,13 @@
 #include "compiler/read/wall.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "compiler/measure/coarseness.hpp"
@@ -96,8 +100,14 @@ std::array<Force, 3> forces_at(const Bank& bank, const Scan& scan, double steps,
   return forces;
 }
 
+/// A face, and the force on its flat side over the largest push behind it.
+struct FaceFound {
+  WallFace face;
+  double outside = 0;
+};
+
 /// The face of a feature whose profile is flat at its low or its high end.
-std::optional<WallFace> face_of(const Feature& feature, bool from_low) {
+std::optional<FaceFound> face_of(const Feature& feature, bool from_low) {
   const std::size_t count = feature.profile.size();
   const auto place = [&](std::size_t i) { return from_low ? i : count - 1 - i; };
   const glm::dvec2 inward = from_low ? feature.direction : -feature.direction;
@@ -134,7 +144,7 @@ std::optional<WallFace> face_of(const Feature& feature, bool from_low) {
     if (std::abs(against[i]) > 0.1 * most) return std::nullopt;
   const double along =
       from_low ? feature.low + onset : feature.low + feature.step * static_cast<double>(count - 1) - onset;
-  return WallFace{along * feature.direction, inward, slope, 0, 0};
+  return FaceFound{{along * feature.direction, inward, slope, 0, 0}, glm::length(flat) / most};
 }
 
 }  // namespace
@@ -187,10 +197,11 @@ std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& 
   std::optional<WallFace> stiffest;
   for (const Feature& each : features) {
     if (each.radial || !each.monotone) continue;
-    for (const bool from_low : {true, false}) {
-      const auto face = face_of(each, from_low);
-      if (face && (!stiffest || face->stiffness > stiffest->stiffness)) stiffest = face;
-    }
+    // A wall that saturates is flat at both ends. The hand is outside where there is less force.
+    auto found = face_of(each, true);
+    const auto other = face_of(each, false);
+    if (!found || (other && other->outside < found->outside)) found = other;
+    if (found && (!stiffest || found->face.stiffness > stiffest->stiffness)) stiffest = found->face;
   }
   if (!stiffest) return stiffest;
   // Both hands are at one place, so that only the speed makes a difference.
@@ -206,6 +217,45 @@ std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& 
   stiffest->damping = (against(1) - against(0)) / slow;
   stiffest->release = (against(0) - against(2)) / slow;
   return stiffest;
+}
+
+WallDepth deepest(const Bank& bank, const WallFace& face) {
+  const PatchSize size = bank.size();
+  WallDepth reached{std::numeric_limits<double>::infinity(), 0};
+  const double half[] = {size.width / 2, size.height / 2};
+  for (const int axis : {0, 1})
+    if (std::abs(face.inward[axis]) > 1e-6)
+      reached.depth = std::min(reached.depth,
+                               (std::copysign(half[axis], face.inward[axis]) - face.place[axis]) / face.inward[axis]);
+  reached.depth = std::max(reached.depth, 0.0);
+  constexpr std::size_t steps = 64;
+  std::array<Hand, steps> hands{};
+  std::array<Force, steps> forces{};
+  // Not quite to the edge, beyond which there is no force.
+  for (std::size_t i = 0; i < steps; ++i)
+    hands[i].position = hands[i].workspace =
+        glm::vec2(face.place + face.inward * (reached.depth * 0.999 * static_cast<double>(i + 1) / steps));
+  tick_coarsely(bank, hands, forces);
+  const PatchProgram& program = bank.program().description();
+  if (!program.states.empty() || !program.grids.empty()) {
+    // A hand that is put inside the wall has not come in through its face, and the program may not resist it.
+    reached.newton = std::min(face.stiffness * reached.depth, program.device.most());
+    return reached;
+  }
+  for (const Force& force : forces)
+    reached.newton = std::max(reached.newton, -glm::dot(glm::dvec2(force), face.inward));
+  return reached;
+}
+
+std::string wall_place(const WallFace& face) {
+  constexpr double straight = 0.9999;  // cosine of less than a degree
+  const auto in_mm = [](double metres) { return std::round(1e4 * metres) / 10 + 0.0; };
+  if (std::abs(face.inward.x) > straight)
+    return fmt::format("{} of x = {:g} mm", face.inward.x > 0 ? "right" : "left", in_mm(face.place.x));
+  if (std::abs(face.inward.y) > straight)
+    return fmt::format("{} y = {:g} mm", face.inward.y > 0 ? "above" : "below", in_mm(face.place.y));
+  return fmt::format("beyond ({:g}, {:g}) mm, towards {:.0f} degrees", in_mm(face.place.x), in_mm(face.place.y),
+                     std::atan2(face.inward.y, face.inward.x) * 180 / std::numbers::pi);
 }
 
 }  // namespace wale

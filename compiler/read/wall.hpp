@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "compiler/read/features.hpp"
@@ -17,6 +18,16 @@ struct WallFace {
   double damping = 0;    ///< N s/m: added against a hand that moves in
   double release = 0;    ///< N s/m: taken away from a hand that moves out
 };
+
+/// How far into a wall a hand can go before it leaves the patch, m, and the largest force that pushes it back on the
+/// way, N.
+struct WallDepth {
+  double depth = 0, newton = 0;
+};
+WallDepth deepest(const Bank& bank, const WallFace& face);
+
+/// Where a wall stands, in words: "right of x = 20 mm", "beyond (3, 4) mm towards 53 degrees".
+std::string wall_place(const WallFace& face);
 
 /// The stiffest face of the patch, if it has one: no force over some millimetres, then a force against the motion that
 /// grows in proportion to depth over some more. Textures, springs and hills are not walls.

@@ -18,6 +18,16 @@ struct FoundWave {
   std::vector<std::size_t> parts;
 };
 
+/// A wave of which another one is the sum.
+struct WavePart {
+  std::size_t number = 1;  ///< of its periods in one of the sum's
+  double share = 1;        ///< 0 .. 1: of the sum's mean square
+};
+
+/// The waves of which a wave is the sum, each with its harmonics; itself if it is no sum. A fine wave on a coarse one,
+/// of which a whole number fits, looks like a harmonic: but nothing lies between it and what the coarse one has.
+std::vector<WavePart> parts_of(const FoundWave& wave);
+
 /// Two directions in which a force repeats that is no sum of waves.
 struct Lattice {
   glm::dvec2 one{0}, other{0};  ///< periods over a metre

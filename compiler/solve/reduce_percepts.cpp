@@ -6,9 +6,11 @@
 
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/solve/solve_percepts.hpp"
+#include "compiler/text/readable.hpp"
 
-// Divides the device's force among the percepts. Sizes that the author fixed come first, then the percepts in the order
-// of their priority. If a law depends on the size of another percept's carrier, it uses the reduced size.
+// Divides the device's force among the percepts, or gives it all to a single one that needs more. Sizes that the author
+// fixed come first, then the percepts in the order of their priority. If a law depends on the size of another percept's
+// carrier, it uses the reduced size.
 //
 // A percept whose law depends on a percept of lower priority can be solved neither before nor after it. Therefore one
 // number describes how far the percepts are served in the order of priority: 2.3 means that two are rendered fully, the
@@ -79,16 +81,14 @@ double PerceptSolver::serve(const std::vector<std::size_t>& order, double served
 
 void PerceptSolver::reduce() {
   const double limit = device_.profile.most();
-  if (std::ranges::count_if(told_, [](const Told& told) { return exertion(told) > 0; }) < 2) return;
   const std::vector<std::size_t> order = by_priority();
   double low = 0, high = static_cast<double>(order.size());
-  if (serve(order, high) > limit) {
-    for (int step = 0; step < steps_as_number; ++step) {
-      const double middle = 0.5 * (low + high);
-      (serve(order, middle) > limit ? high : low) = middle;
-    }
-    serve(order, low);
+  if (!(serve(order, high) > limit)) return;
+  for (int step = 0; step < steps_as_number; ++step) {
+    const double middle = 0.5 * (low + high);
+    (serve(order, middle) > limit ? high : low) = middle;
   }
+  serve(order, low);
   double used = 0;
   for (const Told& told : told_)
     if (!told.solved && std::isfinite(told.size)) used += exertion(told) * told.size;
@@ -111,10 +111,10 @@ void PerceptSolver::report_reduced(const Told& told, double used, const std::vec
   if (!(told.size < asked * (1 - rounding)) || exerts * asked > limit) return;
   const double level = told.law->level_of(told.size, coupled_sizes(told));
   report(Code::reduced_percept, told.asked->span,
-         fmt::format("{} {:.3g} is reduced to {:.2g}: the forces together would be {:.3g} {}, and `{}` gives "
-                     "{:.3g} {}",
-                     told.asked->name, told.asked->level, level, used + exerts * asked, limited, device_.profile.name,
-                     limit, limited),
+         readable("{} {:.3g} is reduced to {:.2g}: the forces together would be {:.3g} {}, and `{}` gives "
+                  "{:.3g} {}",
+                  told.asked->name, told.asked->level, level, used + exerts * asked, limited, device_.profile.name,
+                  limit, limited),
          Advice(before.empty() ? std::string("the forces that are fixed come first; weaken them")
                                : fmt::format("what stands above it comes first: {}; put it higher, mark it "
                                              "`essential`, or ask for less of the others",

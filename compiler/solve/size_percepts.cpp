@@ -5,8 +5,10 @@
 
 #include "compiler/declarations/discrimination.hpp"
 #include "compiler/expression/check_expression.hpp"
+#include "compiler/solve/basis.hpp"
 #include "compiler/solve/saturation.hpp"
 #include "compiler/solve/solve_percepts.hpp"
+#include "compiler/text/readable.hpp"
 
 // Sizes of carriers: as numbers at the parameters' defaults, and as expressions of the program.
 
@@ -94,44 +96,46 @@ void PerceptSolver::warn_of_range(const Told& told) {
   const double size = told.size;
   constexpr double rounding = 1e-6;  // a reference stimulus exactly at the end of the range is inside it
   if (size > most)
-    report(Code::saturates, asked.place(),
-           fmt::format("{} {:.3g} needs {:.3g} {}, and `{}` {} {:.3g} {} at most", asked.name, asked.level, size,
-                       of_carrier, device_.profile.name, device_.profile.shaker ? "shakes with" : "pushes", most,
-                       of_carrier),
-           Advice(fmt::format("the most it can render is {:.2g}", law.level_of(most)))
-               .fact("most_level", law.level_of(most))
-               .fact("needed", size, of_carrier)
-               .fact("most", most, of_carrier));
+    report(
+        Code::saturates, asked.place(),
+        readable("{} {:.3g} needs {:.3g} {}, and `{}` {} {:.3g} {} at most", asked.name, asked.level, size, of_carrier,
+                 device_.profile.name, device_.profile.shaker ? "shakes with" : "pushes", most, of_carrier),
+        Advice(readable("the most it can render is {:.2g}", law.level_of(most)))
+            .fact("most_level", law.level_of(most))
+            .fact("needed", size, of_carrier)
+            .fact("most", most, of_carrier));
   if (asked.level < percept.near_threshold || size < map.valid_low * (1 - rounding) ||
       size > map.valid_high * (1 + rounding))
     report(Code::beyond_validity, asked.place(),
            asked.level < percept.near_threshold
-               ? fmt::format("expected {} {:.2g} or more, found {:.3g}, which few people can feel", asked.name,
-                             percept.near_threshold, asked.level)
-               : fmt::format("expected {} from {:.2g} to {:.2g}, the measured range, found {:.3g} ({})", asked.name,
-                             law.level_of(map.valid_low), law.level_of(map.valid_high), asked.level, map.source),
-           fmt::format("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
-                       law.level_of(map.valid_high), map.valid_low, map.valid_high, of_carrier));
+               ? readable("expected {} {:.2g} or more, found {:.3g}, which few people can feel", asked.name,
+                          percept.near_threshold, asked.level)
+               : readable("expected {} from {:.2g} to {:.2g}, the measured range, found {:.3g} ({})", asked.name,
+                          law.level_of(map.valid_low), law.level_of(map.valid_high), asked.level, map.source),
+           readable("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
+                    law.level_of(map.valid_high), map.valid_low, map.valid_high, of_carrier));
   if (map.recalled())
     report(Code::unverified_basis, asked.place(),
-           fmt::format("{} rests on a figure that was recalled and not looked up ({})", asked.name, map.source),
+           readable("{} rests on a figure that was recalled and not looked up ({})", asked.name, map.source),
            Advice("take it as a guess until somebody has seen the source").see(map.span, "the map"));
 }
 
 double PerceptSolver::most_size(const Told& told) const { return std::max(told.size, told.law->carrier_of(1)); }
 
-/// Whether the forces of all percepts could together exceed the device's for any setting of the sliders.
+/// Whether the forces of all percepts could together exceed the device's for any setting of the sliders, and one of
+/// them is solved. One percept alone counts too: its size is reduced to what the device gives, so that its force keeps
+/// its shape; cut at the device's limit, it would have another shape than the one that its map was measured with.
 bool PerceptSolver::may_exceed() const {
   double sum = 0;
-  int count = 0;
+  bool solved = false;
   for (const Told& told : told_) {
     if (exertion(told) == 0) continue;
-    ++count;
+    solved = solved || told.solved;
     const bool live =
         told.solved ? !told.map->couples.empty() : !constant_value(*terms_, (*carriers_)[told.carrier].size);
     sum += live ? HUGE_VAL : told.percept->exerts * (told.solved ? most_size(told) : told.size);
   }
-  return count > 1 && !(sum <= device_.profile.most());
+  return solved && !(sum <= device_.profile.most());
 }
 
 // ---- expressions ----------------------------------------------------------------------------------------------------
@@ -156,42 +160,30 @@ std::map<std::uint32_t, TermId> PerceptSolver::sizes(SolvedMaterial& solved, Ter
   if (may_exceed()) reduce(solved, copy);
   terms.attribute({});
   std::map<std::uint32_t, TermId> sizes;
-  for (const Told& told : told_)
-    if (told.solved) sizes[(*terms_)[(*carriers_)[told.carrier].size].index] = *told.term;
+  for (const Told& told : told_) {
+    if (!told.solved) continue;
+    // Where a part of the relief counts for another percept, the whole is larger.
+    const double share = band_share(told);
+    const TermId whole =
+        share == 1 ? *told.term : terms.apply(Operation::multiply, terms.literal(1 / share), *told.term);
+    sizes[(*terms_)[(*carriers_)[told.carrier].size].index] = whole;
+  }
   return sizes;
 }
 
-PerceptRecord PerceptSolver::record(const Told& told) const {
+PerceptRecord PerceptSolver::record(const Told& told) {
   const Percept& percept = *told.percept;
-  const Map& map = *told.map;
   const Carrier& carrier = (*carriers_)[told.carrier];
-  PerceptRecord record;
-  record.name = percept.name;
-  record.carrier = percept.carrier;
+  PerceptRecord record = record_by(*told.map, percept, device_, declarations_);
   const Told& setting = told.shares == none ? told : told_[told.shares];
   record.blended = setting.solved && setting.asked->blended;
   if (setting.solved && !record.blended) record.parameter = static_cast<std::uint16_t>(setting.parameter);
   record.alone = force_[0] == carrier.force_x && force_[1] == carrier.force_y;
-  record.valid_low = static_cast<float>(map.valid_low);
-  record.valid_high = static_cast<float>(map.valid_high);
-  record.scatter = static_cast<float>(map.scatter);
-  record.slope = map.slope;
-  record.anchor = map.anchor;
-  record.handle = is_of(map, device_) ? map.handle : Evidence::transferred;
-  record.map = map.percept + " from " + map.from;
-  record.device = map.device;
-  record.source = map.source;
-  record.unit = unit(percept);
-  record.extractor = percept.extractor;
-  if (std::isfinite(percept.period.high)) {
-    record.period_low = static_cast<float>(percept.period.low);
-    record.period_high = static_cast<float>(percept.period.high);
-  }
-  record.one = static_cast<float>(map.one.value_or(percept.one));
-  record.near_threshold = static_cast<float>(percept.near_threshold);
-  record.spread = static_cast<float>(map.spread);
-  record.observers = static_cast<std::uint16_t>(std::clamp(map.observers, 0, 65535));
-  const Discrimination people(declarations_, percept.cue, device_.profile.name, percept.exerts);
+  record.basis.summand = is_whole(carrier);
+  const double share = band_share(setting);
+  record.basis.share = static_cast<float>(share);
+  if (told.asked) record.basis.tolerance = static_cast<float>(told.asked->tolerance);
+  const Discrimination people(declarations_, percept.cue, device_.profile.name, share * percept.exerts);
   if (const Threshold* threshold = people.threshold(told.size, told.size)) {
     record.weber = static_cast<float>(threshold->weber);
     record.floor = static_cast<float>(people.floor(*threshold));
@@ -221,9 +213,11 @@ FateRecord PerceptSolver::fate(const AskedPercept& asked) const {
   record.given = std::isfinite(given) ? static_cast<float>(std::clamp(given, 0.0, 1.0)) : record.asked;
   constexpr double rounding = 1e-4;
   const bool foreign = !is_of(map, device_);
-  if (found->solved && given < asked.level * (1 - rounding)) {
+  // A size that the author fixed gives its own level, which may differ from the one asked for by the tolerance.
+  const double aimed = found->solved ? asked.level : found->law->level_of(found->size, coupled_sizes(*found));
+  if (given < aimed * (1 - rounding)) {
     record.fate = Fate::saturated;
-    record.reason = saturation_reason(device_.profile.name, found->size <= most);
+    record.reason = saturation_reason(device_.profile.name, found->size < most * (1 - rounding));
   } else if (rule != realised_.end() || foreign) {
     record.fate = Fate::approximated;
   }
@@ -256,6 +250,8 @@ void PerceptSolver::describe(SolvedMaterial& solved) {
     each.magnitude = *magnitude;
     each.level = *level;
     if (told.asked) each.asked = told.asked->level;
+    const Carrier& carrier = (*carriers_)[told.carrier];
+    each.force = {solved.solutions_end + carrier.force_x, solved.solutions_end + carrier.force_y};
     each.record = record(told);
     solved.percepts.push_back(std::move(each));
   }

@@ -11,6 +11,7 @@
 #include "compiler/solve/copy_terms.hpp"
 #include "compiler/solve/solve_percepts.hpp"
 #include "compiler/solve/vibration.hpp"
+#include "compiler/text/readable.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale {
@@ -21,12 +22,13 @@ class Solver {
  public:
   /// `physics` are the fates of the material's physics, if they are known already.
   Solver(const CheckedMaterial& material, const CheckedModule& module, const SourceSet& sources, Resolver& resolver,
-         Diagnostics& diagnostics, std::vector<FateRecord> physics = {})
+         Diagnostics& diagnostics, const BandShares& shares, std::vector<FateRecord> physics = {})
       : material_(material),
         declarations_(module.declarations()),
         sources_(sources),
         resolver_(resolver),
         diagnostics_(diagnostics),
+        shares_(shares),
         physics_(std::move(physics)) {}
 
   SolvedMaterial solve(const std::string& device_name) {
@@ -58,7 +60,7 @@ class Solver {
     states_ = material_.states;
     if (!force_ && !realise_percepts()) return std::move(solved_);
 
-    PerceptSolver percepts(material_, declarations_, *device_, diagnostics_);
+    PerceptSolver percepts(material_, declarations_, *device_, shares_, diagnostics_);
     percepts.plan(*open_terms_, carriers_, *force_, realised_, lost_, solved_.parameters);
     for (std::size_t i = 0; i < open_spans_.size(); ++i)
       if (const auto open = static_cast<std::uint32_t>(i);
@@ -253,7 +255,8 @@ class Solver {
                                  .reason = lost->second});
     }
     if (material_.force)
-      solved_.fates.push_back({.name = "force", .fate = Fate::kept, .reason = "as its author wrote it"});
+      solved_.fates.push_back(
+          {.name = "force", .fate = Fate::kept, .reason = "by the material's formulas, not found from a level"});
     if (!cut_.empty()) solved_.fates.push_back({.name = "place", .fate = Fate::approximated, .reason = cut_});
     std::string lost;
     for (const FateRecord& each : physics_)
@@ -294,8 +297,8 @@ class Solver {
       if (std::max(columns, rows) > most_cells_a_side || all > most_cells) {
         report(
             Code::unbounded_memory, memory.span,
-            fmt::format("`{}` has {:.0f} x {:.0f} cells on this patch", memory.name, columns, rows),
-            Advice(fmt::format(
+            readable("`{}` has {:.0f} x {:.0f} cells on this patch", memory.name, columns, rows),
+            Advice(readable(
                        "at most {:.0f} per side and {:.0f} in total are possible; make the cells wider than {:.3g} mm",
                        most_cells_a_side, most_cells,
                        1e3 * std::max(solved_.patch_width, solved_.patch_height) / most_cells_a_side))
@@ -321,6 +324,15 @@ class Solver {
     std::set<std::pair<std::uint32_t, std::uint32_t>> said;
     for (const auto& period : material_.periods) {
       const auto length = constant_value(*open_terms_, period.length, &material_.parameters);
+      const double widest = std::max(solved_.patch_width, solved_.patch_height);
+      constexpr double patches = 4;  // even half a period of it is not felt any more
+      if (length && *length > patches * widest && said.emplace(period.span.source, period.span.begin).second)
+        report(Code::beyond_soft_range, period.span,
+               fmt::format("a period of {:.4g} m is {:.0f} times as long as the patch ({:.0f} mm), so nothing repeats",
+                           *length, *length / widest, 1e3 * widest),
+               Advice(fmt::format("for millimetres write `{:.4g} mm`", *length))
+                   .fact("period", 1e3 * *length, "mm")
+                   .fact("most", 1e3 * patches * widest, "mm"));
       if (!length || *length >= 2 * step || !said.emplace(period.span.source, period.span.begin).second) continue;
       report(Code::under_resolution, period.span,
              fmt::format("a period of {:.3g} mm is less than two counts of the encoder of `{}` ({:.3g} mm each)",
@@ -378,6 +390,7 @@ class Solver {
   const SourceSet& sources_;
   Resolver& resolver_;
   Diagnostics& diagnostics_;
+  const BandShares& shares_;
   const DeviceDeclaration* device_ = nullptr;
   SolvedMaterial solved_;
   Terms terms_;  ///< the material's, and those of a realisation if there is one
@@ -398,13 +411,13 @@ class Solver {
 }  // namespace
 
 SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
-                     const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
+                     const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics, const BandShares& shares) {
   const DeviceDeclaration* found = module.declarations().devices.find(device);
   if (!found || !found->profile.shaker || !material.force)
-    return Solver(material, module, sources, resolver, diagnostics).solve(device);
+    return Solver(material, module, sources, resolver, diagnostics, shares).solve(device);
   std::vector<FateRecord> physics;
   const CheckedMaterial rest = without_force(material, *found, module.declarations(), physics);
-  return Solver(rest, module, sources, resolver, diagnostics, std::move(physics)).solve(device);
+  return Solver(rest, module, sources, resolver, diagnostics, shares, std::move(physics)).solve(device);
 }
 
 }  // namespace wale

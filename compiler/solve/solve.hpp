@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,12 @@ struct SolvedPercept {
   std::optional<double> asked;      ///< the level that the author wrote
   TermId amplitude = 0;             ///< the carrier's size
   TermId magnitude = 0, level = 0;  ///< for a carrier of the size in the `probe` input
+  std::array<TermId, 2> force{};    ///< of the carrier alone, along x and y
 };
+
+/// By percept: the size of a solved carrier over the amplitude of its force, above 0. It is 1 for those that are not
+/// here; less where a part of a relief has periods that count for another percept, more where several reliefs add up.
+using BandShares = std::map<std::string, double>;
 
 /// The new value of the memory cell nearest to (u, v), which are in cells from the centre of the first one.
 struct SolvedWrite {
@@ -56,8 +62,9 @@ struct SolvedMaterial {
 /// level, which stays a parameter. A material without a force gets the device's own realisations of its percepts; so
 /// does one with a force on a device that only vibrates. The solution is symbolic; only warnings use the numbers of the
 /// levels. Errors and warnings are reported to `diagnostics`; the result may be passed to `lower` only if there was no
-/// error.
+/// error. `shares` are read from the finished program (evidence/confirm.hpp).
 SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
-                     const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics);
+                     const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics,
+                     const BandShares& shares = {});
 
 }  // namespace wale

@@ -10,6 +10,7 @@
 #include "compiler/declarations/discrimination.hpp"
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/expression/check_expression.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -48,6 +49,25 @@ void PerceptSolver::find_summands() {
   }
 }
 
+/// Whether the carrier's force is whole in the total force, whatever is added to it or taken from it.
+bool PerceptSolver::is_whole(const Carrier& carrier) {
+  std::vector<std::array<TermId, 2>> waiting{force_};
+  std::unordered_set<std::uint64_t> seen;
+  while (!waiting.empty() && diagnostics_.charge(1, material_.span, Work::solving)) {
+    const auto [x, y] = waiting.back();
+    waiting.pop_back();
+    if (x == carrier.force_x && y == carrier.force_y) return true;
+    if (!seen.insert(std::uint64_t{x} << 32 | y).second) continue;
+    const Term &of_x = (*terms_)[x], &of_y = (*terms_)[y];
+    if (of_x.kind != TermKind::operation || of_y.kind != TermKind::operation || of_x.operation != of_y.operation)
+      continue;
+    if (of_x.operation != Operation::add && of_x.operation != Operation::subtract) continue;
+    waiting.push_back({of_x.a, of_y.a});
+    if (of_x.operation == Operation::add) waiting.push_back({of_x.b, of_y.b});
+  }
+  return false;
+}
+
 /// Whether the carrier's force is a term of the total force, unchanged: neither scaled nor limited nor switched.
 bool PerceptSolver::is_summand(const Carrier& carrier) {
   if (summands_.empty()) find_summands();
@@ -55,10 +75,13 @@ bool PerceptSolver::is_summand(const Carrier& carrier) {
 }
 
 const Percept& PerceptSolver::percept(const std::string& name) {
-  if (!device_.profile.shaker) return *declarations_.percepts.find(name);
+  const auto share = shares_.find(name);
+  if (!device_.profile.shaker && share == shares_.end()) return *declarations_.percepts.find(name);
   const auto found = percepts_.find(name);
   if (found != percepts_.end()) return found->second;
-  return percepts_.emplace(name, carried_on(device_, *declarations_.percepts.find(name), declarations_)).first->second;
+  Percept carried = carried_on(device_, *declarations_.percepts.find(name), declarations_);
+  if (share != shares_.end()) carried.exerts /= share->second;
+  return percepts_.emplace(name, std::move(carried)).first->second;
 }
 
 void PerceptSolver::find_told_carriers() {
@@ -256,7 +279,7 @@ void PerceptSolver::check_conflict(const Told& told) {
   if (!size || !map.couples.empty()) return;
   const Law& law = *told.law;
   const double level = law.level_of(*size), asked_size = law.carrier_of(asked.level);
-  if (std::abs(std::log10(level) - std::log10(asked.level)) <= map.scatter) return;
+  if (std::abs(std::log10(level) - std::log10(asked.level)) <= map.uncertainty.scatter) return;
   if (std::abs(level - asked.level) <= asked.tolerance) return;
   const Discrimination people(declarations_, told.percept->cue, device_.profile.name, told.percept->exerts);
   if (const Threshold* threshold = people.threshold(*size, asked_size); threshold && threshold->recalled())
@@ -270,14 +293,13 @@ void PerceptSolver::check_conflict(const Told& told) {
   diagnostics_.report(
       {.code = Code::percept_conflict,
        .span = asked.place(),
-       .message = fmt::format("{} {:.3g} is asked for, but the given {} makes it {:.2g}", asked.name, asked.level,
-                              argument, level),
-       .expected = fmt::format("{} {} of {:.3g} {}", std::string("aeiou").find(argument[0]) < 5 ? "an" : "a", argument,
-                               asked_size, unit),
-       .found = fmt::format("{:.3g} {}", *size, unit),
-       .help =
-           fmt::format("leave out the {}, so that it is solved from the percept; or leave out the percept", argument),
-       .secondary = {{carrier.size_span, fmt::format("gives {} {:.2g}", asked.name, level)}},
+       .message = readable("{} {:.3g} is asked for, but the given {} makes it {:.2g}", asked.name, asked.level,
+                           argument, level),
+       .expected = readable("{} {} of {:.3g} {}", std::string("aeiou").find(argument[0]) < 5 ? "an" : "a", argument,
+                            asked_size, unit),
+       .found = readable("{:.3g} {}", *size, unit),
+       .help = readable("leave out the {}, so that it is solved from the percept; or leave out the percept", argument),
+       .secondary = {{carrier.size_span, readable("gives {} {:.2g}", asked.name, level)}},
        .facts = {{"asked", NumberWithUnit{asked.level, ""}}, {"given", NumberWithUnit{level, ""}}}});
 }
 

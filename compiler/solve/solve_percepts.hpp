@@ -22,8 +22,8 @@ namespace wale {
 class PerceptSolver {
  public:
   PerceptSolver(const CheckedMaterial& material, const Declarations& declarations, const DeviceDeclaration& device,
-                Diagnostics& diagnostics)
-      : material_(material), declarations_(declarations), device_(device), diagnostics_(diagnostics) {}
+                const BandShares& shares, Diagnostics& diagnostics)
+      : material_(material), declarations_(declarations), device_(device), shares_(shares), diagnostics_(diagnostics) {}
 
   /// Matches the percepts asked for, except lost ones, with carriers and maps; errors are reported. Adds a parameter
   /// for each solved percept. `realised` are those that the device renders by its own rule, each with the rule's force
@@ -64,11 +64,12 @@ class PerceptSolver {
     std::optional<TermId> term;        ///< its size in the solved terms, once it is built
   };
 
-  /// The percept as this device carries it.
+  /// The percept as this device carries it. If only a share of its force counts, that exerts more.
   const Percept& percept(const std::string& name);
   void find_told_carriers();
   void find_summands();
   bool is_summand(const Carrier& carrier);
+  bool is_whole(const Carrier& carrier);
   void match(const AskedPercept& asked);
   std::string chosen_by(const std::string& percept) const;  ///< the map that the device's rule names; may be empty
   const Map* map_for(const Percept& percept, const AskedPercept& asked);
@@ -104,7 +105,12 @@ class PerceptSolver {
   double most_size(const Told& told) const;
   std::vector<double> coupled_sizes(const Told& told) const;
   Law::Sizes coupled_terms(const Told& told, SolvedMaterial& solved) const;
-  PerceptRecord record(const Told& told) const;
+  PerceptRecord record(const Told& told);
+  /// The carrier's size over the amplitude of its force.
+  double band_share(const Told& told) const {
+    const auto found = shares_.find(told.percept->name);
+    return told.solved && found != shares_.end() ? found->second : 1;
+  }
   std::string unit(const Percept& percept) const {
     return percept.extractor == Extractor::acceleration ? "m/s^2"
                                                         : declarations_.names().unit(percept.carrier_dimension);
@@ -119,12 +125,13 @@ class PerceptSolver {
   const CheckedMaterial& material_;
   const Declarations& declarations_;
   const DeviceDeclaration& device_;
+  const BandShares& shares_;
   Diagnostics& diagnostics_;
   const Terms* terms_ = nullptr;
   const std::vector<Carrier>* carriers_ = nullptr;
   std::array<TermId, 2> force_{};
   std::map<std::string, std::string> realised_;
-  std::map<std::string, Percept> percepts_;  ///< as this device carries them: see `percept`
+  std::map<std::string, Percept> percepts_;  ///< as this device and this force carry them: see `percept`
   std::vector<std::size_t> candidates_;      ///< carriers that tell of a percept
   std::vector<Told> told_;
   std::vector<std::size_t> order_;  ///< indices into `told_`: coupled percepts before those that couple them

@@ -11,6 +11,7 @@
 #include "compiler/modules/find_materials.hpp"
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/text/json_text.hpp"
+#include "compiler/text/readable.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 
@@ -42,9 +43,8 @@ Error why_nothing_is_found(const LibraryIndex& index, const std::vector<std::str
     if (!find_materials(index, {text}, kind).empty()) continue;
     const std::string among = kind.empty() ? "" : fmt::format(" of kind `{}`", kind);
     const auto near = nearest_spelling(text, findable_words(index));
-    return because(
-        fmt::format("none of {} materials{} has \"{}\"", find_materials(index, {}, kind).size(), among, text),
-        near ? fmt::format("did you mean \"{}\"?", *near) : "`wale find` alone lists them all");
+    return because(readable("none of {} materials{} has \"{}\"", find_materials(index, {}, kind).size(), among, text),
+                   near ? fmt::format("did you mean \"{}\"?", *near) : "`wale find` alone lists them all");
   }
   return because("no material has all of these texts, although each alone is found");
 }

@@ -158,8 +158,9 @@ Keeper::~Keeper() {
 void Keeper::beat() noexcept {
   const std::int64_t now = nanoseconds_of(CLOCK_MONOTONIC), before = board_->beat.load(std::memory_order_relaxed);
   // A keeper that is stopped and continued with its owner may look again only after this beat, and find nothing wrong.
+  // In less time a busy machine may have held up both.
   const bool pushed = board_->pushes.load(std::memory_order_relaxed) != 0;
-  if (pushed && now - before > most_nanoseconds_without_beat) stalled_.store(true, std::memory_order_relaxed);
+  if (pushed && now - before > most_nanoseconds_without_look) stalled_.store(true, std::memory_order_relaxed);
   board_->beat.store(now, std::memory_order_release);
 }
 
@@ -184,7 +185,7 @@ Keeper::Verdict Keeper::look() const noexcept {
 
 std::string_view Keeper::why(Verdict verdict) const noexcept {
   switch (verdict) {
-    case Verdict::stalled: return "the loop did not tick for 100 ms";
+    case Verdict::stalled: return "the loop did not tick for a second";
     case Verdict::slept: return "the computer was asleep";
     case Verdict::gone: return "its keeper has ended, and nothing may push without one";
     case Verdict::latched:

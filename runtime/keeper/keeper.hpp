@@ -41,7 +41,7 @@ class Keeper {
   enum class Verdict : std::uint8_t {
     good,     ///< packets may go
     late,     ///< the loop has not ticked for 100 ms: only packets that do not push may go
-    stalled,  ///< the loop ticks again after 100 ms in which the device pushed and nobody took it, because the keeper
+    stalled,  ///< the loop ticks again after a second in which the device pushed and nobody took it, since the keeper
               ///< was stopped too: as `late`, and the device has to be set up again
     slept,    ///< the computer was asleep since the start: as `stalled`
     gone,     ///< the keeper has died or does not look: as `stalled`

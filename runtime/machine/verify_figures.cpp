@@ -207,7 +207,7 @@ void verify_device(const DeviceProfile& device) {
 
 void verify_percepts(const PatchProgram& program) {
   const auto graded = [](Evidence evidence) {
-    return evidence >= Evidence::measured && evidence <= Evidence::transferred;
+    return evidence >= Evidence::measured && evidence <= Evidence::extrapolated;
   };
   for (std::size_t i = 0; i < program.percepts.size(); ++i) {
     const PerceptRecord& percept = program.percepts[i];
@@ -220,16 +220,31 @@ void verify_percepts(const PatchProgram& program) {
       refuse(name, "'s map is valid in ", percept.valid_low, " .. ", percept.valid_high,
              ", expected a finite range from 0 on");
     }
-    require_within(percept.scatter, 0, 100, name, "'s scatter");
+    const LawUncertainty& law = percept.uncertainty;
+    for (const auto& [figure, words] : {std::pair{law.scatter, "'s scatter"},
+                                        {law.slope_error, "'s error of the slope"},
+                                        {law.spread, "'s spread"},
+                                        {law.noise, "'s noise"}})
+      require_within(figure, 0, 100, name, words);
     if (!(percept.period_low >= 0 && percept.period_low <= percept.period_high)) {
       refuse(name, " is read at periods of ", percept.period_low, " .. ", percept.period_high,
              " m, expected a range from 0 on");
     }
     require_within(percept.one, 0, 1e9, name, "'s level 1");
     require_within(percept.near_threshold, 0, 1, name, "'s near threshold");
-    require_within(percept.spread, 0, 100, name, "'s spread");
     require_within(percept.weber, 0, 100, name, "'s Weber fraction");
     require_within(percept.floor, 0, 1e9, name, "'s least difference");
+    require_within(percept.basis.share, 1e-6, 1e6, name, "'s share of its force");
+    require_within(percept.basis.domain.crest_low, 0, 1e6, name, "'s least crest");
+    require_within(percept.basis.domain.crest_high, 0, 1e6, name, "'s greatest crest");
+    require_within(percept.basis.tolerance, 0, 1, name, "'s tolerance");
+    for (const MeasuredRange& range : percept.basis.ranges) {
+      if (!std::isfinite(range.low) || !std::isfinite(range.high) || !(range.low <= range.high)) {
+        refuse(name, "'s map is valid for ", range.quantity, " in ", range.low, " .. ", range.high,
+               ", expected a finite range");
+      }
+      require_within(range.unit_in_si, 1e-30, 1e30, name, "'s unit of a range");
+    }
     if (!graded(percept.slope) || !graded(percept.anchor) || !graded(percept.handle) ||
         !graded(percept.weber_evidence)) {
       refuse(name, " has a grade of evidence that this Wale does not know");

@@ -120,7 +120,7 @@ Result<float> size_from_rubbing(const PerceptRecord& percept, const Felt& felt, 
   if (felt.crossings < least_crossings)
     return not_measured(percept, "the hand crossed the texture " + std::to_string(felt.crossings) +
                                      " times, expected at least " + std::to_string(least_crossings));
-  return felt.force_rubbing.p99;
+  return felt.force_rubbing.p99 * percept.basis.share;
 }
 
 }  // namespace
@@ -186,7 +186,7 @@ float predicted_amplitude(const Bank& bank) {
   const auto& percepts = bank.program().description().percepts;
   for (std::size_t i = 0; i < percepts.size(); ++i)
     if (percepts[i].extractor == Extractor::lateral_force || percepts[i].extractor == Extractor::acceleration)
-      return amplitude(bank, i);
+      return amplitude(bank, i) / percepts[i].basis.share;
   return 0;
 }
 

@@ -113,8 +113,8 @@ std::vector<double> figures_of(std::string_view item) {
 
 /// The settings of each kind of record that hold figures from its source.
 const std::map<std::string, std::set<std::string>> settings_with_figures = {
-    {"map", {"law", "table", "valid", "scatter", "spread", "observers"}},
-    {"threshold", {"weber", "criterion", "floor", "valid", "observers"}},
+    {"map", {"law", "table", "valid", "scatter", "slope_error", "spread", "noise", "observers", "stimuli"}},
+    {"threshold", {"weber", "criterion", "floor", "valid", "observers", "recognised"}},
     {"rule", {"case"}}};
 
 /// What is wrong with the quotation of a record; empty if every figure stands in it.

@@ -92,14 +92,28 @@ double force_of(const std::string& percept, double level, const Hand& hand, cons
   return tick(bank, hand).x;
 }
 
+/// The same for a hand that has moved along x at that speed for 20 mm.
+double force_after(const std::string& percept, double level, double speed, const std::string& device) {
+  Declared declared("material m { perceptual { " + percept + " " + std::to_string(level) + " } }\n");
+  const Program program = declared.program("", device);
+  Bank bank(program);
+  Memory memory(program);
+  memory.enter(bank, moving(0, 0));
+  double force = 0;
+  const double step = speed / program.description().device.rate;
+  for (double x = 0; std::abs(x) < 0.02; x += step) force = tick(bank, memory, moving(x, speed)).x;
+  return force;
+}
+
 TEST(DeviceRules, GiveTheForcesOfTextbookFormulas) {
   for (const std::string device : {"sandpaper", "falcon"}) {
     const double b = size_of("viscosity", 0.5), k = size_of("springiness", 0.3), drag = size_of("stickiness", 0.6);
     EXPECT_NEAR(force_of("viscosity", 0.5, moving(0, 0.2), device), -b * 0.2, 1e-5);
     EXPECT_NEAR(force_of("springiness", 0.3, moving(0.02, 0.2), device), -k * 0.02, 1e-5);
-    // Friction is the same at every speed and opposes the motion.
-    for (const double v : {0.1, 0.3, 0.9}) EXPECT_NEAR(force_of("stickiness", 0.6, moving(0, v), device), -drag, 1e-5);
-    EXPECT_NEAR(force_of("stickiness", 0.6, moving(0, -0.2), device), drag, 1e-5);
+    // Friction is the same at every speed, opposes the motion, and pushes no hand that has just come.
+    for (const double v : {0.02, 0.3, -0.9})
+      EXPECT_NEAR(force_after("stickiness", 0.6, v, device), std::copysign(drag, -v), 1e-5);
+    EXPECT_EQ(force_of("stickiness", 0.6, moving(0, 0.2), device), 0);
     EXPECT_NEAR(force_of("heaviness", 0.4, moving(0, 0, 3), device), -3 * size_of("heaviness", 0.4), 1e-5);
     // The wall is right of 20 mm.
     EXPECT_NEAR(force_of("hardness", 0.4, moving(0.022, 0), device), -0.002 * size_of("hardness", 0.4), 1e-5);
@@ -380,7 +394,8 @@ TEST(Records, HoldTheFiguresForDescriptions) {
   EXPECT_FLOAT_EQ(roughness.period_low, 0.0007f);
   EXPECT_FLOAT_EQ(roughness.period_high, 0.01f);
   EXPECT_FLOAT_EQ(roughness.one, 194 * 10.0f / 512);
-  EXPECT_EQ(roughness.observers, 15);
+  EXPECT_EQ(roughness.uncertainty.observers, 15);
+  EXPECT_EQ(roughness.uncertainty.stimuli, 30);
   // The smallest fraction is that of Pang, Tan and Durlach 1991; the floor is that of Tan 1992.
   EXPECT_NEAR(roughness.weber, 0.07, 1e-5);
   EXPECT_FLOAT_EQ(roughness.floor, 0.1f);

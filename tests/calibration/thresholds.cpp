@@ -59,6 +59,7 @@ TEST(ShippedThresholds, AreNormalisedToOne) {
   const Declared declared("");
   std::size_t found = 0;
   for (const Threshold* threshold : declared.declarations().thresholds()) {
+    if (threshold->recognised > 0) continue;
     bool known = false;
     const auto [first, last] = expected.equal_range(threshold->source);
     for (auto each = first; each != last; ++each)
@@ -70,6 +71,23 @@ TEST(ShippedThresholds, AreNormalisedToOne) {
     ++found;
   }
   EXPECT_EQ(found, expected.size());
+}
+
+/// Cholewiak, Tan and Ebert 2008: 1.46 and 1.54 bits are 2^1.46 and 2^1.54 levels.
+TEST(ShippedThresholds, NumbersOfRecognisedLevelsTellNothingApart) {
+  const Declared declared("");
+  const Threshold* stiffness = recognition(declared.declarations(), "stiffness", "sandpaper");
+  const Threshold* force = recognition(declared.declarations(), "amplitude", "sandpaper");
+  ASSERT_TRUE(stiffness && force);
+  EXPECT_NEAR(stiffness->recognised, std::exp2(1.46), 0.05);
+  EXPECT_NEAR(force->recognised, std::exp2(1.54), 0.05);
+  EXPECT_EQ(recognition(declared.declarations(), "mass", "sandpaper"), nullptr);
+  for (const double size : {100.0, 1000.0})
+    EXPECT_EQ(chosen(declared, "stiffness", "sandpaper", size)->recognised, 0) << "it has no fraction";
+  const Declared own(
+      "threshold mass {\n  quantity mass\n  task identification\n  recognised 4\n"
+      "  evidence slope estimated, handle measured\n  on sandpaper\n  source \"a test\"\n}\n");
+  EXPECT_EQ(recognition(own.declarations(), "mass", "sandpaper")->recognised, 4);
 }
 
 TEST(ShippedThresholds, OneSensitivityAtTwoCriteria) {
@@ -190,17 +208,19 @@ TEST(SizeClass, HasItsBoundaryAtTwoAndAHalfMillimetres) {
 TEST(TextureConfidence, OfTheThesisNonTextures) {
   const Declared declared("");
   const Rule& rules = rule(declared, "texture_confidence");
-  const auto kind = [&](const std::string& name) { return rules.first({}, name); };
+  const auto kind = [&](const std::string& name, double units = 0) {
+    return rules.first({{"amplitude", units * 10 / 512}, {"period", name == "noise" ? 0.0006 : 0.03}}, name);
+  };
   EXPECT_DOUBLE_EQ(kind("slick")->confidence.value(), 0.11);
   EXPECT_DOUBLE_EQ(kind("slick")->spread.value(), 0.18);
   EXPECT_DOUBLE_EQ(kind("viscous")->confidence.value(), 0.23);
   // Section 4.5: the mean over the non-textures is 26, and with the noises 38.
   double without = 0, with = 0;
-  for (const std::string name :
-       {"slick", "spring", "nothing", "bump", "viscous", "two_weak_stripes", "two_strong_stripes"})
+  for (const std::string name : {"slick", "spring", "nothing", "bump", "viscous"})
     without += kind(name)->confidence.value() / 7;
+  for (const double units : {30, 90}) without += kind("stripes", units)->confidence.value() / 7;
   with = 0.7 * without;
-  for (const std::string name : {"noise20", "noise35", "noise50"}) with += kind(name)->confidence.value() / 10;
+  for (const double units : {20, 35, 50}) with += kind("noise", units)->confidence.value() / 10;
   EXPECT_NEAR(without, 0.26, 0.005);
   EXPECT_NEAR(with, 0.38, 0.005);
   const auto grating = [&](double units, double period) {
@@ -209,6 +229,8 @@ TEST(TextureConfidence, OfTheThesisNonTextures) {
   EXPECT_EQ(grating(20, 0.012), "low");
   EXPECT_EQ(grating(40, 0.012), "high");
   EXPECT_EQ(grating(20, 0.005), "high");
+  EXPECT_EQ(rules.first({{"amplitude", 1}, {"period", 0.01}}, "irregular"), nullptr)
+      << "nobody was asked of photographs";
 }
 
 }  // namespace

@@ -212,8 +212,8 @@ TEST(Devices, StandInOneColumn) {
 
 TEST(Devices, HaveTheirStepsInWholeNumbers) {
   const std::string text = wale({"devices"}).out;
-  EXPECT_TRUE(contains(text, "openffboard   2 axes, 20 N in 32767 steps")) << text;
-  EXPECT_TRUE(contains(text, "arduino_ffb   2 axes, 20 N in 10000 steps")) << text;
+  EXPECT_TRUE(contains(text, "openffboard   2 axes, 20 N in 32 767 steps")) << text;
+  EXPECT_TRUE(contains(text, "arduino_ffb   2 axes, 20 N in 10 000 steps")) << text;
   EXPECT_FALSE(contains(text, "e+0")) << text;
 }
 

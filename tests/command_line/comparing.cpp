@@ -121,6 +121,13 @@ TEST(Levels, AreProposedAsADeclaration) {
 
 TEST(Levels, ThatCannotBeProposedAreExplained) {
   EXPECT_EQ(wale({"levels", "vibration"}).status, 1);
+  // Cholewiak, Tan and Ebert 2008: 2.9 forces are recognised alone; side by side many more are told apart.
+  const auto alone = wale({"levels", "roughness", "--json"}).json();
+  const auto beside = wale({"levels", "roughness", "--side-by-side", "--json"}).json();
+  EXPECT_EQ(alone["levels"].size(), 3u);
+  EXPECT_EQ(alone["recognised_alone"]["levels"], 2.9);
+  EXPECT_EQ(beside["levels"].size(), alone["most"]);
+  EXPECT_GT(beside["levels"].size(), 20u);
   EXPECT_TRUE(contains(wale({"levels", "vibration"}).err, "unknown: no published threshold"));
   EXPECT_TRUE(contains(wale({"levels", "rougness"}).err, "did you mean `roughness`?"));
   const Outcome many = wale({"levels", "smoothness", "--steps", "500"});

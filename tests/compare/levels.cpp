@@ -93,8 +93,31 @@ TEST(Levels, OfAnAntonymAreTheScaleFromItsOtherEnd) {
   EXPECT_EQ(smooth.percept, "roughness");
   ASSERT_EQ(rough.levels.size(), smooth.levels.size());
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(rough.levels[i].level, smooth.levels[i].level);
-  EXPECT_EQ(levels_line(rough), levels_line(smooth));
+  // The names rise with what was asked for: the first level of smoothness is the roughest.
+  EXPECT_TRUE(levels_line(smooth).starts_with("levels roughness { level_1 1; level_2 ")) << levels_line(smooth);
+  EXPECT_TRUE(contains(levels_line(smooth), "level_5 0.1 }")) << levels_line(smooth);
   EXPECT_TRUE(levels_line(rough).starts_with("levels roughness { level_1 0.1; level_2 ")) << levels_line(rough);
+}
+
+/// Absolute identification (Cholewiak, Tan and Ebert 2008): 2.9 forces and 2.8 stiffnesses. Nothing is published for
+/// viscosity, and on a scale with two differences no three levels fit.
+TEST(Levels, ThatAreRecognisedAloneAreFewerThanThoseToldApart) {
+  static const auto common = common_modules();
+  const auto recognised = [](const std::string& percept, double apart = 1) {
+    return *propose_recognised_levels(percept, "sandpaper", apart, common->declarations);
+  };
+  for (const char* percept : {"roughness", "smoothness", "springiness", "hardness", "softness"}) {
+    const LevelProposal found = recognised(percept);
+    EXPECT_EQ(found.levels.size(), 3u) << percept;
+    EXPECT_GT(found.most, 3u) << percept;
+    EXPECT_TRUE(contains(proposal_text(found), "recognised alone: about 3")) << proposal_text(found);
+  }
+  EXPECT_EQ(recognised("springiness", 8).levels.size(), 2u) << "11.1 differences of springiness";
+  const LevelProposal unknown = recognised("viscosity");
+  EXPECT_EQ(unknown.levels.size(), unknown.most);
+  EXPECT_TRUE(contains(proposal_text(unknown), "recognised alone: unknown"));
+  const LevelProposal all = proposal("roughness", std::nullopt);
+  EXPECT_TRUE(contains(proposal_text(all), "for comparing, not for naming"));
 }
 
 TEST(Levels, ThatCannotBeProposedAreExplained) {

@@ -30,7 +30,7 @@ class Solved {
     const CheckedModule module = check_source(sources_, source, resolver, diagnostics);
     for (const auto& material : module.materials) {
       if (diagnostics.has_errors()) break;
-      SolvedMaterial solved = solve(material, module, default_device, sources_, resolver, diagnostics);
+      SolvedMaterial solved = solve_as_read(material, module, default_device, sources_, resolver, diagnostics);
       auto program = compile_material(module, material.name, default_device, sources_, source, resolver, diagnostics);
       if (program) materials.push_back({std::move(solved), *program});
     }

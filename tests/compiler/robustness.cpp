@@ -113,7 +113,7 @@ TEST(VastMaterial, IsRefusedForItsRegisters) {
     compiled(physical);
     FAIL() << "a program of " << lets * terms << " constants";
   } catch (const std::runtime_error& refused) {
-    EXPECT_NE(std::string(refused.what()).find("registers, and a patch program has 16384"), std::string::npos);
+    EXPECT_NE(std::string(refused.what()).find("registers, and a patch program has 16 384"), std::string::npos);
   }
 }
 

@@ -174,9 +174,9 @@ TEST(ParserFixes, CloseBlocksInLinesOfTheirOwn) {
 
 TEST(ParserFixes, LeaveDoubtfulThingsAlone) {
   for (const char* statement :
-       {"let a = k hand", "let a = (3", "let a = 3)", "q = 3", "let a = b && c", "let a = b == c", "let a = [1, 2]",
-        "let a = (1, 2)", "let a b = 3", "let größe = 3", "let a = f(x, p: 2,5 mm)", "let a = x.5",
-        "let a = “b \"c\" d”", "let a = if b = c then 1 else 2", "let a = 1e999"}) {
+       {"let a = k hand", "let a = (3", "let a = 3)", "q = 3", "let a = b == c", "let a = [1, 2]", "let a = (1, 2)",
+        "let a b = 3", "let größe = 3", "let a = f(x, p: 2,5 mm)", "let a = x.5", "let a = “b \"c\" d”",
+        "let a = if b = c then 1 else 2", "let a = 1e999"}) {
     const std::string text = "wale 1\nmaterial m {\nphysical {\n" + std::string(statement) + "\n} }\n";
     EXPECT_EQ(mended(text), text);
     EXPECT_TRUE(Reading(text).diagnostics.has_errors()) << statement;

@@ -147,7 +147,9 @@ TEST(Reference, EveryBlockIsOfAKindThatIsTested) {
 
 TEST(Reference, NamesEveryDeclarationOfTheSchema) {
   const std::string page = content("schema/LANGUAGE.md");
-  const std::string units = content("schema/units.wale"), functions = content("schema/functions.wale");
+  const std::string units = content("schema/units.wale");
+  // The page says of a plain number in words that it is one.
+  const std::string functions = std::regex_replace(content("schema/functions.wale"), std::regex(": number"), "");
   const auto expect_all = [&](const std::vector<std::string>& names, std::size_t at_least) {
     EXPECT_GE(names.size(), at_least);
     for (const auto& name : names) EXPECT_NE(page.find("`" + name + "`"), std::string::npos) << name;

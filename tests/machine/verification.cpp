@@ -314,8 +314,8 @@ TEST(Verification, Percepts) {
   EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].valid_low = 5; }), "");
   EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].valid_low = -1; }), "");
   EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].valid_high = inf; }), "");
-  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].scatter = -1; }), "");
-  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].scatter = nan; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].uncertainty.scatter = -1; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].uncertainty.noise = nan; }), "");
   EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].handle = Evidence{0}; }), "");
 }
 

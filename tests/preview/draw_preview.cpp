@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include "compiler/preview/exhibit.hpp"
 #include "compiler/preview/preview.hpp"
 #include "tests/preview/hand_made.hpp"
+#include "tests/standard/standard.hpp"
 
 namespace wale::draw_preview_test {
 namespace {
@@ -136,7 +138,9 @@ TEST(Exhibit, GratingShowsEightPeriods) {
   ASSERT_TRUE(exhibit.period);
   EXPECT_NEAR(*exhibit.period, 0.0025, 1e-6);
   EXPECT_NEAR(exhibit.side, 0.020, 1e-5);
-  EXPECT_EQ(exhibit.axis, 0);
+  EXPECT_EQ(exhibit.way, glm::dvec2(1, 0));
+  EXPECT_EQ(exhibit.way_name, "x");
+  EXPECT_NEAR(exhibit.patch_side, 0.08, 1e-6);
 }
 
 TEST(Exhibit, LongPeriodShowsTheWholePatch) {
@@ -164,6 +168,59 @@ TEST(Exhibit, ProfilesAreTheForcesOfTheProgram) {
     EXPECT_NEAR(force.values[i], -2 * std::cos(2 * pi * force.at[i] / 0.004), 1e-4);
     EXPECT_NEAR(height.values[i], 0.5 + 0.5 * std::sin(2 * pi * height.at[i] / 0.004), 1e-4);
   }
+}
+
+/// The force of a sine grating along a section at an angle a has the period divided by cos a, and its size times cos a,
+/// since the force points along x.
+TEST(Exhibit, ASectionMayGoAnywhere) {
+  const Bank grating = sine_grating(0.004f, 2);
+  const double angle = pi / 3;
+  const Exhibit exhibit = exhibit_of(grating, nullptr, {.along = angle, .at = glm::dvec2(0.003, 0.001), .name = "60°"});
+  EXPECT_EQ(exhibit.way_name, "60°");
+  const Profile force = force_along(grating, exhibit, 0, 101);
+  for (std::size_t i = 0; i < 101; ++i) {
+    const double x = 0.003 + std::cos(angle) * force.at[i];
+    EXPECT_NEAR(force.values[i], -2 * std::cos(2 * pi * x / 0.004) * std::cos(angle), 1e-4);
+  }
+  const Exhibit far = exhibit_of(grating, nullptr, {.along = {}, .at = glm::dvec2(0.03, 0), .name = {}});
+  EXPECT_EQ(far.centre, glm::dvec2(0.03, 0)) << "the picture is around the place";
+  EXPECT_EQ(far.way_name, "x");
+}
+
+/// Ribs of 1 N and, 25 mm to the right, a wall: the picture shows both.
+TEST(Exhibit, AWallOutsideTheMiddlePeriodsIsShown) {
+  static const auto common = common_modules();
+  const auto made = [](const std::string& force) {
+    return Bank(standard::material("material m { physical {\n" + force + "\n} }", "m"));
+  };
+  const std::string ribs = "force ribs = lateral(grating(y, period: 2.5 mm), amplitude: 1 N)\n";
+  const Bank alone = made(ribs), with_wall = made(ribs + "force wall = firm(600 N/m, face: 25 mm)");
+  EXPECT_NEAR(exhibit_of(alone).side, 0.02, 1e-4);
+  EXPECT_NEAR(exhibit_of(with_wall).side, 0.16, 1e-4);
+  const PreviewText text = preview_text(with_wall, common->declarations);
+  const auto value = [&](const std::string& word) {
+    const auto found = std::ranges::find(text.figures, word, &PreviewText::Figure::word);
+    return found == text.figures.end() ? "none" : found->value;
+  };
+  EXPECT_EQ(value("wall right of x = 25 mm"), "to 10 N");
+  EXPECT_NE(value("maximum force"), "none");
+  EXPECT_EQ(value("lateral amplitude"), "1 N");
+  EXPECT_EQ(value("firm stiffness"), "600 N/m");
+}
+
+/// Six figures fit. The maximum force is one of them, however many percepts and parameters there are.
+TEST(Preview, TheMaximumIsAlwaysAmongTheFigures) {
+  std::string parameters, sum = "0";
+  for (const char name : {'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'}) {
+    parameters += std::string("param ") + name + "1 = 1 in 0 .. 2\n";
+    sum += std::string(" + ") + name + "1";
+  }
+  const Bank bank(standard::material(
+      "material m { physical {\n" + parameters + "force = vector(-10 N/m * x * (" + sum + "), 0 N)\n} }", "m"));
+  const PreviewText text = preview_text(bank, common_modules()->declarations);
+  ASSERT_EQ(text.figures.size(), 6u);
+  EXPECT_EQ(std::ranges::count(text.figures, "maximum force", &PreviewText::Figure::word), 1);
+  EXPECT_EQ(text.figures.back().value, "4 more");
 }
 
 TEST(Axis, TicksAreRoundNumbers) {

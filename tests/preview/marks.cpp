@@ -87,8 +87,11 @@ Bank moving(float each_tick, MarkKind kind, std::vector<float> values, std::size
 TEST(Marks, AreWhereTheirPlacesAre) {
   const Drawing point = draw(still(MarkKind::point, {0.02f, 0.01f, 0.006f}));
   EXPECT_TRUE(is_red(at(point, 0.02, 0.01)));
-  EXPECT_TRUE(is_red(at(point, 0.0225, 0.01)));  // its radius is 3 mm
+  EXPECT_TRUE(is_red(at(point, 0.023, 0.01)));    // its radius is 3 mm
+  EXPECT_FALSE(is_red(at(point, 0.0215, 0.01)));  // so large a point is a ring, which covers nothing
   EXPECT_FALSE(is_red(at(point, 0.0237, 0.01)));
+  const Drawing dot = draw(still(MarkKind::point, {0.02f, 0.01f, 0.003f}));
+  EXPECT_TRUE(is_red(at(dot, 0.0212, 0.01)));    // a small one is a dot
   EXPECT_FALSE(is_red(at(point, 0.02, -0.01)));  // y goes up
 
   const Drawing circle = marks_of(still(MarkKind::circle, {0, 0, 0.02f}));
@@ -105,16 +108,19 @@ TEST(Marks, ABoxTurnsCounterclockwise) {
   const float eighth = static_cast<float>(pi / 4);
   const Drawing level = marks_of(still(MarkKind::box, {0, 0, 0.04f, 0.008f, 0})),
                 turned = marks_of(still(MarkKind::box, {0, 0, 0.04f, 0.008f, eighth}));
-  EXPECT_TRUE(is_red(at(level, 0.018, 0)));
-  EXPECT_FALSE(is_red(at(level, 0.012, 0.012)));
-  EXPECT_TRUE(is_red(at(turned, 0.012, 0.012)));
-  EXPECT_FALSE(is_red(at(turned, 0.012, -0.012)));
-  EXPECT_FALSE(is_red(at(turned, 0.018, 0)));
-  // 40 mm by 8 mm at 580 pixels for 80 mm, less an edge in a darker colour.
-  const double area = 0.04 * 0.008 * std::pow(picture_side / side, 2);
-  EXPECT_LT(count_red(level), area);
-  EXPECT_GT(count_red(level), 0.85 * area);
-  EXPECT_NEAR(count_red(turned), count_red(level), 0.03 * area);
+  EXPECT_TRUE(is_red(at(level, 0.02, 0)));
+  EXPECT_TRUE(is_red(at(level, 0.01, 0.004)));
+  EXPECT_FALSE(is_red(at(level, 0.01, 0))) << "what it marks stays visible";
+  const double end = 0.02 * std::sqrt(0.5);
+  EXPECT_TRUE(is_red(at(turned, end, end)));
+  EXPECT_FALSE(is_red(at(turned, end, -end)));
+  EXPECT_FALSE(is_red(at(turned, 0.02, 0)));
+  // An edge of 3 pixels around 40 mm by 8 mm, at 580 pixels for 80 mm.
+  const double edge = 3 * 2 * (0.04 + 0.008) * picture_side / side;
+  for (const Drawing* drawing : {&level, &turned}) {
+    EXPECT_LT(count_red(*drawing), 1.1 * edge);
+    EXPECT_GT(count_red(*drawing), 0.55 * edge) << "the pixels of its sides are mixed with the light beside it";
+  }
 }
 
 TEST(Marks, ASpringIsAZigzagWithinItsWidth) {

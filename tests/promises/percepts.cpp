@@ -52,7 +52,7 @@ TEST(Springiness, ComesOutOfTheHandle) {
 
 TEST(Stickiness, ComesOutOfTheHandle) {
   for (const double level : {0.5, 0.8}) {
-    // The median of the opposing force at speeds above those of the friction's rise.
+    // The median of the opposing force away from the turning points, where the bristle bends over.
     std::vector<double> drags;
     for (const TickRecord& tick : settled("stickiness " + std::to_string(level)))
       if (std::abs(tick.velocity.x) > 0.15) drags.push_back(-tick.force.x * (tick.velocity.x > 0 ? 1 : -1));

@@ -159,6 +159,8 @@ Death die_once(const Way& way, const std::string& by, const UsbDeviceInfo& info,
   Death death{last_push(force, frames, first_frame)};
   if (way.go_on) {
     const bool pushed = force() > 0;
+    constexpr double sleep = 2000;  // ms
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(sleep - death.lasted.milliseconds));
     way.go_on(owner.process());
     const Lasted after = last_push(force, frames, frames);
     // What only its process or its keeper can end had ended before both were stopped: the emulated processor had kept

@@ -221,6 +221,23 @@ TEST(Motion, IsSineAndCircle) {
   }
 }
 
+TEST(Motion, StrokesAlongAnyDirectionAndPresses) {
+  const Motion across = Lateral{0.04, 1.5, {0.01, 0.02}, heading(0.25)},
+               oblique = Lateral{0.04, 1.5, {}, heading(1.0 / 12)};
+  const Motion press = Press{0.03, 0.5, {0.01, 0.02}, {0, 1}};
+  for (double t = 0; t < 100; t += 0.0173) {
+    const double a = 2 * pi * std::fmod(1.5 * t, 1), b = 2 * pi * std::fmod(0.5 * t, 1);
+    ASSERT_NEAR(at(across, t).position.x, 0.01, 1e-13);
+    ASSERT_NEAR(at(across, t).position.y, 0.02 + 0.04 * std::sin(a), 1e-13);
+    ASSERT_NEAR(at(across, t).velocity.y, 0.04 * 2 * pi * 1.5 * std::cos(a), 1e-12);
+    ASSERT_NEAR(at(oblique, t).position.x, 0.04 * std::sin(a) * std::sqrt(0.75), 1e-13);  // 30 degrees
+    ASSERT_NEAR(at(oblique, t).position.y, 0.04 * std::sin(a) / 2, 1e-13);
+    ASSERT_EQ(at(press, t).position.x, 0.01);
+    ASSERT_NEAR(at(press, t).position.y, 0.02 + 0.03 * (1 - std::cos(b)) / 2, 1e-13);
+    ASSERT_NEAR(at(press, t).velocity.y, 0.03 * pi * 0.5 * std::sin(b), 1e-12);
+  }
+}
+
 TEST(Motion, HandFollowsATrace) {
   Trace trace;
   for (int i = 0; i <= 300; ++i) {

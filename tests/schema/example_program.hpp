@@ -53,7 +53,6 @@ inline PerceptRecord roughness() {
   percept.level = 44;
   percept.valid_low = 0.1f;
   percept.valid_high = 4.0f;
-  percept.scatter = 0.05f;
   percept.slope = Evidence::measured;
   percept.anchor = Evidence::published;
   percept.handle = Evidence::transferred;
@@ -66,13 +65,29 @@ inline PerceptRecord roughness() {
   percept.period_high = 0.01f;
   percept.one = 3.8f;
   percept.near_threshold = 0.1f;
-  percept.spread = 0.4f;
-  percept.observers = 15;
+  percept.uncertainty = {.scatter = 0.05f,
+                         .slope_error = 0.03f,
+                         .spread = 0.4f,
+                         .noise = 0.2f,
+                         .observers = 15,
+                         .stimuli = 30,
+                         .spread_assumed = true};
   percept.weber = 0.1f;
   percept.floor = 0.05f;
   percept.weber_evidence = Evidence::recalled;
   percept.weber_source = "Tan 1992";
   percept.realisation = "lateral(sin(x))";
+  percept.basis = {.share = 0.75f,
+                   .tolerance = 0.1f,
+                   .summand = true,
+                   .ranges = {{"period", 0.0007f, 0.01f, "mm", 1e-3, true}, {"rate", -1e30f, 350, "Hz", 1, false}},
+                   .domain = {.stated = true,
+                              .profiles = 5,
+                              .dimensions = 1,
+                              .alone = true,
+                              .crest_low = 1.2f,
+                              .crest_high = 2.2f,
+                              .crest_assumed = true}};
   return percept;
 }
 

@@ -66,7 +66,7 @@ TEST(Refusals, DamageByATransferAsText) {
 
 TEST(Refusals, NewerMajorVersionSaysWhatToDo) {
   EXPECT_EQ(refusal_with(8, 2, 2),
-            "this patch program has format version 2.0, but this Wale reads only up to 1; update Wale, or build the "
+            "this patch program has format version 2.1, but this Wale reads only up to 1; update Wale, or build the "
             "material again with this one");
   EXPECT_EQ(refusal_with(8, 0, 2), "this patch program claims format version 0, which never existed");
 }
@@ -139,7 +139,7 @@ TEST(Refusals, SectionKindsAndFlags) {
   EXPECT_EQ(refusal_of_sections([](auto& s) { s.clear(); }), "section NAME is missing");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 0; }),
             "section TICK is marked as skippable, expected required");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { s[17].flags = 1; }),
+  EXPECT_EQ(refusal_of_sections([](auto& s) { s[18].flags = 1; }),
             "section LAYR is marked as required, expected skippable");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 3; }),
             "section TICK has flags that this Wale does not know");
@@ -211,8 +211,14 @@ TEST(Refusals, ChoicesThatThisWaleDoesNotKnow) {
   EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[live] = std::byte{0}; }),
             "section PERC names parameter 1 for a percept without a parameter");
   const std::size_t slope = live + 1 + 2 + 2 + 1 + (4 + 2 * 8) + 2 + 2 + 3 * 4;
-  EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[slope] = std::byte{6}; }),
-            "section PERC has evidence grade 6 for a slope, which this Wale does not know");
+  EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[slope] = std::byte{7}; }),
+            "section PERC has evidence grade 7 for a slope, which this Wale does not know");
+  const std::size_t profiles =
+      4 + 2 * 4 + (2 * 4 + 2) + 5 + 1;  // after the count, the figures, what is assumed, and whether it is stated
+  EXPECT_EQ(refusal_of_content("EVID", [&](Bytes& b) { b[profiles] = std::byte{16}; }),
+            "section EVID has stimuli that this Wale does not know");
+  EXPECT_EQ(refusal_of_content("EVID", [&](Bytes& b) { b[0] = std::byte{0}; }),
+            "section EVID has not as many entries as there are percepts");
   const std::size_t fate = 4 + (4 + 9) + 1;  // after the count, "roughness" and whether it is a percept
   EXPECT_EQ(refusal_of_content("FATE", [&](Bytes& b) { b[fate] = std::byte{5}; }),
             "section FATE has fate 5, which this Wale does not know");

@@ -32,8 +32,14 @@ struct Where {
 
   TracePoint operator()(const Lateral& lateral) const noexcept {
     const double turns = lateral.frequency * time, speed = 2 * pi * lateral.frequency * lateral.amplitude;
-    return {time, lateral.centre + glm::dvec2(lateral.amplitude * sine_of_turns(turns), 0),
-            glm::dvec2(speed * cosine_of_turns(turns), 0)};
+    return {time, lateral.centre + lateral.amplitude * sine_of_turns(turns) * lateral.direction,
+            speed * cosine_of_turns(turns) * lateral.direction};
+  }
+
+  TracePoint operator()(const Press& press) const noexcept {
+    const double turns = press.frequency * time, speed = pi * press.frequency * press.depth;
+    return {time, press.centre + press.depth * 0.5 * (1 - cosine_of_turns(turns)) * press.direction,
+            speed * sine_of_turns(turns) * press.direction};
   }
 
   TracePoint operator()(const Circular& circle) const noexcept {
@@ -65,6 +71,8 @@ double after_friction(double velocity, double speed) noexcept {
 }
 
 }  // namespace
+
+glm::dvec2 heading(double turns) noexcept { return {cosine_of_turns(turns), sine_of_turns(turns)}; }
 
 TracePoint at(const Motion& motion, double time) noexcept { return std::visit(Where{time}, motion); }
 

@@ -23,11 +23,12 @@ struct Rest {
   glm::dvec2 position{0};
 };
 
-/// A sine along x that begins at the centre, towards +x.
+/// A sine along `direction` that begins at the centre, towards it.
 struct Lateral {
   double amplitude = 0;  ///< m to each side
   double frequency = 0;  ///< Hz
   glm::dvec2 centre{0};
+  glm::dvec2 direction{1, 0};  ///< of length 1
 };
 
 /// Counter-clockwise, beginning at the circle's rightmost point.
@@ -37,7 +38,18 @@ struct Circular {
   glm::dvec2 centre{0};
 };
 
-using Motion = std::variant<Rest, Lateral, Circular, Trace>;
+/// A push that begins at rest at the centre, goes `depth` along `direction` and comes back, again and again.
+struct Press {
+  double depth = 0;      ///< m
+  double frequency = 0;  ///< pushes per second
+  glm::dvec2 centre{0};
+  glm::dvec2 direction{1, 0};  ///< of length 1
+};
+
+using Motion = std::variant<Rest, Lateral, Circular, Trace, Press>;
+
+/// The direction so many turns to the left of x, a vector of length 1. The same bits on every machine.
+glm::dvec2 heading(double turns) noexcept;
 
 /// The position and velocity of a motion at `time` (s). The same bits on every machine.
 TracePoint at(const Motion& motion, double time) noexcept;

@@ -1,0 +1,144 @@
+#include "compiler/evidence/confirm.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/diagnostics/advice.hpp"
+#include "compiler/emit/emit.hpp"
+#include "compiler/emit/lower.hpp"
+#include "compiler/read/tolerances.hpp"
+#include "compiler/text/readable.hpp"
+
+namespace wale {
+namespace {
+
+/// The relief of these carriers' forces together and without any other, as far as no device limits it.
+Relief relief_of(const SolvedMaterial& solved, const std::vector<std::array<TermId, 2>>& forces) {
+  SolvedMaterial alone = solved;
+  alone.force = forces.front();
+  for (std::size_t i = 1; i < forces.size(); ++i)
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      alone.force[axis] = alone.terms.apply(Operation::add, alone.force[axis], forces[i][axis]);
+  alone.device.force_newton *= 16;  // its shape counts, and not how much the device gives
+  alone.percepts.clear(), alone.fates.clear(), alone.marks.clear();
+  Diagnostics diagnostics;
+  const LoweredMaterial lowered = lower(alone, diagnostics);
+  if (diagnostics.has_errors()) return {};
+  auto program = emit(lowered, alone, diagnostics);
+  if (!program) return {};
+  const auto loaded = Program::load(std::move(*program));
+  return loaded ? static_force(Bank(*loaded)).relief : Relief{};
+}
+
+/// With three digits, so that a program does not depend on the last bits of a spectrum.
+double rounded_to(double value, double digits) { return std::round(value * digits) / digits; }
+
+void report_outside(const PerceptRecord& record, const OutsideRange& outside, Span place, Diagnostics& diagnostics) {
+  const auto shown = [&](double value) {
+    return readable("{:.3g}{}{}", value / outside.unit_in_si, outside.unit.empty() ? "" : " ", outside.unit);
+  };
+  const bool from = std::isfinite(outside.low) && outside.low > 0, to = std::isfinite(outside.high);
+  const std::string range = from && to ? fmt::format("from {} to {}", shown(outside.low), shown(outside.high))
+                            : from     ? fmt::format("of {} or more", shown(outside.low))
+                                       : fmt::format("of {} or less", shown(outside.high));
+  diagnostics.report(
+      Advice(fmt::format("beyond it nobody knows how {} grows; choose a {} in this range, or describe the material by "
+                         "its physics alone",
+                         record.name, outside.quantity))
+          .fact("found", outside.value / outside.unit_in_si, outside.unit)
+          .about(Code::beyond_validity, place,
+                 fmt::format("expected a {} {}, the {} range, found {} ({})", outside.quantity, range,
+                             outside.assumed ? "assumed" : "measured", shown(outside.value), record.source)));
+}
+
+void report_difference(const PerceptRecord& record, const PerceptReading& told, double asked, const std::string& cause,
+                       Span place, Diagnostics& diagnostics) {
+  diagnostics.report(
+      Advice("change the other forces or the level until they agree; a level with a tolerance, as in "
+             "`" +
+             fmt::format("{} {:.2g} +- {:.2g}", record.name, asked, std::ceil(20 * std::abs(told.level - asked)) / 20) +
+             "`, says that you know")
+          .fact("asked", asked)
+          .fact("reads", told.level)
+          .about(Code::delivered_otherwise, place,
+                 fmt::format("{} {:.3g} is asked for, and the finished program reads {:.2g}: {}", record.name, asked,
+                             told.level, cause)));
+}
+
+}  // namespace
+
+BandShares band_shares(const Bank& bank, const ForceReading& found, const SolvedMaterial& solved,
+                       const Declarations& declarations) {
+  constexpr double digits = 1000;
+  struct Texture {
+    const PerceptRecord* record = nullptr;
+    double aimed = 0;
+  };
+  std::vector<Texture> textures;
+  std::vector<std::array<TermId, 2>> forces;
+  bool as_aimed = true;
+  for (std::size_t i = 0; i < solved.percepts.size(); ++i) {
+    const SolvedPercept& percept = solved.percepts[i];
+    const PerceptRecord& record = percept.record;
+    const bool is_solved = record.parameter || record.blended;
+    if (!percept.asked || !is_solved || record.extractor != Extractor::lateral_force) continue;
+    if (std::ranges::find(forces, percept.force) != forces.end()) continue;
+    const PerceptReading told = percept_reading(bank, i, found, declarations);
+    as_aimed = as_aimed && told.size == told.aimed;
+    textures.push_back({&record, told.aimed}), forces.push_back(percept.force);
+  }
+  BandShares shares;
+  if (as_aimed) return shares;
+  const Relief relief = relief_of(solved, forces);
+  if (!(relief.amplitude > 0)) return shares;
+  // The spectrum of an irregular relief has tails in every band, so its share is not sharp.
+  const double nearly_one = relief.regular() ? 0.03 : 0.1;
+  for (const auto& [record, aimed] : textures) {
+    const Percept banded{
+        .name = record->name, .extractor = record->extractor, .period = {record->period_low, record->period_high}};
+    const double inside = relief.within(band_of(banded, declarations));
+    // One force has its amplitude by definition. What several have together is read.
+    const double share = inside / (forces.size() == 1 ? relief.amplitude : aimed);
+    const bool counts = inside >= least_of_relief * relief.amplitude && aimed > 0;
+    if (counts && std::abs(share - 1) > nearly_one) shares[record->name] = rounded_to(share, digits);
+  }
+  return shares;
+}
+
+std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceReading& found,
+                                               const SolvedMaterial& solved, const CheckedMaterial& material,
+                                               const Declarations& declarations, Diagnostics& diagnostics) {
+  constexpr double digits = 1000;
+  std::vector<FateRecord> fates = solved.fates;
+  bool changed = false;
+  for (std::size_t i = 0; i < solved.percepts.size(); ++i) {
+    const SolvedPercept& percept = solved.percepts[i];
+    const PerceptRecord& record = percept.record;
+    const auto asked = std::ranges::find(material.percepts, record.name, &AskedPercept::name);
+    const auto fate =
+        std::ranges::find_if(fates, [&](const FateRecord& each) { return each.percept && each.name == record.name; });
+    if (!percept.asked || asked == material.percepts.end() || fate == fates.end()) continue;
+    const PerceptReading told = percept_reading(bank, i, found, declarations);
+    const std::string why = why_approximated(record, told, *percept.asked, found, declarations);
+    if (why.empty()) continue;
+    const std::vector<OutsideRange> outside = outside_ranges(record, told);
+    for (const OutsideRange& each : outside) report_outside(record, each, asked->place(), diagnostics);
+    if (outside.empty() && fate->fate == Fate::saturated) continue;
+    // A force that is switched or swells while it is felt reads as its author meant; a constant factor has its own
+    // warning.
+    const auto changes = [&](TermId force) { return material.terms.dependence(force).changing(); };
+    const bool as_meant = !record.basis.summand && (material.scales_a_texture || !material.force ||
+                                                    changes((*material.force)[0]) || changes((*material.force)[1]));
+    if (outside.empty() && !as_meant) report_difference(record, told, *percept.asked, why, asked->place(), diagnostics);
+    if (fate->fate == Fate::kept) fate->fate = Fate::approximated;
+    if (fate->fate != Fate::saturated)
+      fate->given = static_cast<float>(std::clamp(rounded_to(told.level, digits), 0.0, 1.0));
+    fate->reason = fate->reason.empty() ? why : fmt::format("{}; {}", why, fate->reason);
+    changed = true;
+  }
+  return changed ? std::optional(std::move(fates)) : std::nullopt;
+}
+
+}  // namespace wale

@@ -1,0 +1,138 @@
+// Motions of a simulated hand, as people type them, against the figures of the hand `normal` and plane geometry; and
+// runs with them.
+
+#include "calibration/feel/hand_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "calibration/feel/felt_report.hpp"
+#include "calibration/feel/rehearsal.hpp"
+#include "tests/calibration/declared.hpp"
+
+namespace wale::hand_motion_test {
+namespace {
+
+using calibrating::Declared;
+
+const Declared& known() {
+  static const Declared declared("");
+  return declared;
+}
+
+const HandDeclaration& person() { return *known().declarations().hands.find("normal"); }
+
+Motion motion(const std::string& typed) { return *motion_of(typed, person(), known().declarations()); }
+
+TEST(HandMotion, ShiftsTurnsAndPresses) {
+  const double quarter = 0.25 / person().lateral_frequency, reach = person().lateral_amplitude;
+  EXPECT_NEAR(at(motion("lateral"), quarter).position.x, reach, 1e-12);
+  EXPECT_NEAR(at(motion("lateral along y"), quarter).position.y, reach, 1e-12);
+  EXPECT_NEAR(at(motion("lateral along y"), quarter).position.x, 0, 1e-12);
+  const TracePoint oblique = at(motion("lateral along 30 deg at 20 mm, -5 mm"), quarter);
+  EXPECT_NEAR(oblique.position.x, 0.02 + reach * std::cos(std::numbers::pi / 6), 1e-9);
+  EXPECT_NEAR(oblique.position.y, -0.005 + reach / 2, 1e-9);
+  EXPECT_EQ(motion("lateral at 20 mm, -5 mm along 30deg").index(), motion("lateral").index());
+  const double deep = 0.5 / person().press_frequency;
+  EXPECT_NEAR(at(motion("press along 180 deg"), deep).position.x, -person().press_depth, 1e-12);
+  EXPECT_NEAR(at(motion("press"), 2 * deep).position.x, 0, 1e-12);
+  EXPECT_NEAR(at(motion("circular at 0 mm, 10 mm"), 0).position.x, person().circular_radius, 1e-12);
+  EXPECT_NEAR(at(motion("circular at 0 mm, 10 mm"), 0).position.y, 0.01, 1e-9);
+  EXPECT_NEAR(at(motion("rest at 3 mm, 4 mm"), 7).position.y, 0.004, 1e-9);
+}
+
+TEST(HandMotion, RefusesWhatNobodyCanMean) {
+  const auto error = [](const std::string& typed) {
+    const auto found = motion_of(typed, person(), known().declarations());
+    return found ? std::string("none") : in_words(found.error());
+  };
+  EXPECT_NE(error("lateral along z").find("expected `x`, `y` or an angle"), std::string::npos);
+  EXPECT_NE(error("lateral along 30").find("expected `x`, `y` or an angle"), std::string::npos);
+  EXPECT_NE(error("lateral along x along y").find("expected one `along`"), std::string::npos);
+  EXPECT_NE(error("circular along y").find("has no direction"), std::string::npos);
+  EXPECT_NE(error("pres along y").find("did you mean `press`"), std::string::npos);
+  EXPECT_NE(error("lateral at 20 mm"), "none");
+  EXPECT_NE(error("lateral at 20 N, 3 N"), "none");
+}
+
+/// The report of so many seconds of a hand on a simulated device.
+FeltReport felt(const Program& program, const std::string& hand, double seconds) {
+  SimulatedJoystick joystick(program.description().device, {person().mass, person().damping, person().stiffness},
+                             motion(hand));
+  Stage stage(joystick);
+  stage.place(program);
+  const auto run = stage.run({.seconds = seconds, .virtual_time = true});
+  return felt_report(*stage.bank(), *run, program.description().device, {"simulated", hand, true, std::nullopt});
+}
+
+TEST(HandMotion, AHandAlongYCrossesWhatLiesAcrossY) {
+  Declared declared(
+      "material m { perceptual { roughness 0.6 } physical { force = lateral(grating(y, period: 2.5 mm)) } }\n");
+  const Program program = declared.program();
+  EXPECT_EQ(felt(program, "lateral", 5).felt.crossings, 0);
+  EXPECT_TRUE(std::isinf(felt(program, "lateral", 5).needed_seconds.value()));
+  const FeltReport report = felt(program, "lateral along y", 5);
+  EXPECT_GT(report.felt.crossings, 50);
+  EXPECT_FALSE(report.needed_seconds);
+  EXPECT_NEAR(report.levels.at(0).back->level, 0.6, 0.01);
+  EXPECT_NE(felt_text(report).find("delivered    1.934 of 1.934 N (100 %)\n  roughness    0.60, as its map reads that "
+                                   "force (asked: 0.60)"),
+            std::string::npos)
+      << felt_text(report);
+  EXPECT_EQ(felt_text(report).find("read back"), std::string::npos);
+}
+
+// A wall of 500 N/m at 20 mm, and a hand of 135 N/m that aims for 40 mm: it stops where 500 d = 135 (20 mm - d).
+TEST(HandMotion, AHandPressesIntoAWall) {
+  Declared declared("material m { physical { force = firm(500 N/m) + crisp(4 N s/m) } }\n");
+  const FeltReport report = felt(declared.program(), "press", 6);
+  const double depth = 135 * 0.02 / (500 + 135), static_force = 500 * depth;
+  EXPECT_NEAR(report.felt.force.maximum, static_force, 0.15 * static_force) << "it presses slowly";
+  EXPECT_EQ(felt(declared.program(), "press along y", 6).felt.force.maximum, 0);
+}
+
+// Dry friction of 1 N holds a hand that leans on it with less: a hand of 135 N/m that aims 3 mm to the side bends the
+// bristle of 600 N/m by 135 / (135 + 600) of that and comes back, where a drag without memory would let it go all the
+// way.
+TEST(HandMotion, AHandLeansOnStickinessWithoutSliding) {
+  Declared declared("material m { perceptual { stickiness 1 } }\n");
+  const Program program = declared.program();
+  SimulatedJoystick joystick(program.description().device, {person().mass, person().damping, person().stiffness},
+                             Press{0.003, 0.25, {}, {1, 0}});
+  Stage stage(joystick);
+  stage.place(program);
+  const auto run = stage.run({.seconds = 20, .virtual_time = true});
+  double farthest = 0;
+  for (const TickRecord& tick : run->record.ticks) farthest = std::max<double>(farthest, tick.position.x);
+  EXPECT_NEAR(farthest, 0.003 * 135 / 735, 2e-4) << "less by the handle's own friction";
+  EXPECT_NEAR(run->record.ticks.back().position.x, 0, 3e-4);
+}
+
+TEST(HandMotion, ARunIsAsLongAsItsReadBackNeeds) {
+  Declared declared(
+      "material m { perceptual { bumpiness 0.5 } physical { force = bumps(grating(x, period: 25 mm, smooth: 0.25)) } "
+      "}\n"
+      "material ribs { perceptual { roughness 0.5 } physical { force = lateral(grating(x, period: 2.5 mm)) } }\n");
+  const Program program = declared.program("m");
+  const FeltReport usual = felt(program, "lateral", 2);
+  ASSERT_LT(usual.felt.crossings, least_crossings);
+  ASSERT_GT(usual.felt.crossings, 0);
+  const double needed = usual.needed_seconds.value();
+  EXPECT_FALSE(felt(program, "lateral", needed).needed_seconds);
+  EXPECT_NE(felt_text(usual).find("cross it 50 times: --seconds"), std::string::npos) << felt_text(usual);
+
+  const auto seconds = [](const Program& of) {
+    const FeltDevice device{
+        std::make_unique<SimulatedJoystick>(
+            of.description().device, HandModel{person().mass, person().damping, person().stiffness}, motion("lateral")),
+        nullptr, "simulated", "lateral", true};
+    return seconds_needed(device, {of, of.default_parameters()}, 2, HUGE_VAL, false);
+  };
+  EXPECT_EQ(seconds(program), needed);
+  EXPECT_EQ(seconds(declared.program("ribs")), 2);
+}
+
+}  // namespace
+}  // namespace wale::hand_motion_test
