@@ -208,13 +208,17 @@ UpdateStatement Parser::update() {
   return update;
 }
 
+/// Reports and leaves out the `=` in `patch = 95 mm`, if there is one after the keyword.
+void Parser::no_equals(const char* keyword, const char* what, const char* expected) {
+  if (!at(TokenKind::equals)) return;
+  complain(fmt::format("{} has no `=` before it", what), expected,
+           fmt::format("write `{} {}`", keyword, spelling(token(at_ + 1))), drop_here());
+  advance();
+}
+
 PatchStatement Parser::patch() {
   advance();
-  if (at(TokenKind::equals)) {
-    complain("the size of the patch has no `=` before it", "a length",
-             fmt::format("write `patch {}`", spelling(token(at_ + 1))), drop_here());
-    advance();
-  }
+  no_equals("patch", "the size of the patch", "a length");
   const bool in_parentheses = at(TokenKind::left_parenthesis);
   const std::size_t open = at_;
   if (in_parentheses && token(open).value > 0 && kind(token(open).value + 1) != TokenKind::comma) {
@@ -239,11 +243,7 @@ PatchStatement Parser::patch() {
 
 ActiveStatement Parser::active() {
   advance();
-  if (at(TokenKind::equals)) {
-    complain("the active power has no `=` before it", "a power",
-             fmt::format("write `active {}`", spelling(token(at_ + 1))), drop_here());
-    advance();
-  }
+  no_equals("active", "the active power", "a power");
   return {expression()};
 }
 

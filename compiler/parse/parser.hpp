@@ -87,6 +87,7 @@ class Parser {
   MemoryStatement memory();
   std::optional<Word> optional_dimension();
   UpdateStatement update();
+  void no_equals(const char* keyword, const char* what, const char* expected);
   PatchStatement patch();
   ActiveStatement active();
   std::optional<Range> optional_range();
