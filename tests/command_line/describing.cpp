@@ -121,15 +121,18 @@ TEST(Describe, HasUsualRangesWhereTheyAreNarrower) {
 
 TEST(Describe, SaysWhyThereIsNoPercept) {
   const TemporaryFolder folder;
-  const auto reason = [&](const std::string& force) {
+  const auto reason = [&](const std::string& force, const char* of) {
     const std::string file = folder.write("a.wale", "wale 1\nmaterial a { physical { force = " + force + " } }\n");
-    return wale({"describe", file, "--json"}).json().at("no_percept").get<std::string>();
+    return wale({"describe", file, "--json"}).json().at(of).get<std::string>();
   };
-  EXPECT_TRUE(contains(reason("-2 N s/m * velocity"), "the hand's velocity"));
-  EXPECT_TRUE(contains(reason("spring(20 N/m)"), "depends on the position"));
-  EXPECT_TRUE(contains(reason("spring(20 N/m) * sin(time * 6 / 1 s)"), "time"));
-  EXPECT_TRUE(contains(reason("0 N/m * hand"), "does not push"));
+  EXPECT_TRUE(contains(reason("-2 N s/m * velocity", "no_texture"), "the hand's velocity"));
+  EXPECT_TRUE(contains(reason("spring(20 N/m)", "no_texture"), "depends on the position"));
+  EXPECT_TRUE(contains(reason("spring(20 N/m) * sin(time * 6 / 1 s)", "no_texture"), "time"));
+  EXPECT_TRUE(contains(reason("vector(1 N, 0 N)", "no_percept"), "the same everywhere"));
+  EXPECT_TRUE(contains(reason("lateral(sin(2 pi * x / 0.3 mm), amplitude: 1 N)", "no_percept"), "0.3 mm"));
+  EXPECT_TRUE(contains(reason("0 N/m * hand", "no_percept"), "does not push"));
   EXPECT_FALSE(wale({"describe", corduroy, "--json"}).json().contains("no_percept"));
+  EXPECT_FALSE(wale({"describe", corduroy, "--json"}).json().contains("no_texture"));
 }
 
 TEST(Describe, ListsTheExportsOfAModule) {
