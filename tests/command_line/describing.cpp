@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "tests/command_line/running.hpp"
 
@@ -133,6 +134,20 @@ TEST(Describe, SaysWhyThereIsNoPercept) {
   EXPECT_TRUE(contains(reason("0 N/m * hand", "no_percept"), "does not push"));
   EXPECT_FALSE(wale({"describe", corduroy, "--json"}).json().contains("no_percept"));
   EXPECT_FALSE(wale({"describe", corduroy, "--json"}).json().contains("no_texture"));
+}
+
+/// The lines that LANGUAGE.md says `describe` prints of the corduroy.
+TEST(Describe, SaysOfTheCorduroyWhatItsPageSays) {
+  const std::string page = bytes_of(std::string(WALE_SOURCE_DIR) + "/schema/LANGUAGE.md");
+  const std::string from = "```text\nfeels\n";
+  const auto begin = page.find(from);
+  ASSERT_NE(begin, std::string::npos);
+  std::istringstream block(page.substr(begin + 8, page.find("```", begin + 8) - begin - 8));
+  const std::string said = wale({"describe", corduroy}).out;
+  int lines = 0;
+  for (std::string line; std::getline(block, line); ++lines)
+    EXPECT_TRUE(contains(said, line + "\n")) << line << "\n" << said;
+  EXPECT_GT(lines, 20);
 }
 
 TEST(Describe, ListsTheExportsOfAModule) {
