@@ -17,7 +17,6 @@ constexpr double hardly_less = 0.015;       // of the mean square: as well expla
 constexpr double out_of_place = 0.25;       // periods over the window
 constexpr double wholly = 0.985;            // explained: no longer period can be better
 constexpr std::size_t small_common_multiple = 5;
-constexpr double strong_part = 0.02;  // of a wave's mean square, in one of its harmonics
 
 }  // namespace
 
@@ -87,24 +86,24 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
   // A coarse wave beside the peak's, not its fundamental.
   if (fine_wave(powers) == found.multiple) return {peak, 1, all.front(), {1}};
   // Harmonics of one wave, or waves of their own whose common multiple this is: those whose multiples the others are.
-  std::vector<std::size_t> strong, own;
-  double in_strong = 0;
-  for (std::size_t i = 0; i < powers.size(); ++i) {
-    if (powers[i] < strong_part) continue;
-    in_strong += powers[i];
-    strong.push_back(i + 1);
-    if (std::ranges::none_of(own, [&](std::size_t other) { return (i + 1) % other == 0; })) own.push_back(i + 1);
-  }
-  if (own.size() >= 2 && own.size() <= most_waves_found && in_strong > 0.85) {
-    const bool sines = strong.size() == own.size();
+  std::vector<std::size_t> own;
+  double in_own = 0;
+  const auto is_own = [&](std::size_t number) {
+    return std::ranges::any_of(own, [&](std::size_t other) { return number % other == 0; });
+  };
+  for (std::size_t i = 0; i < powers.size(); ++i)
+    if (powers[i] >= strong_part && !is_own(i + 1)) own.push_back(i + 1);
+  for (std::size_t i = 0; i < powers.size(); ++i)
+    if (is_own(i + 1)) in_own += powers[i];
+  if (own.size() >= 2 && own.size() <= most_waves_found && in_own > 0.85) {
     // Waves that do not quite fit a common multiple are elsewhere when looked for by themselves.
-    const bool elsewhere = sines && std::ranges::any_of(own, [&](std::size_t part) {
-                             const glm::dvec2 waves = static_cast<double>(part) * found.waves;
-                             const glm::dvec2 there = in_phase(thin.places, thin.forces, thin.centre, thin.size, waves);
-                             return glm::length((there - waves) * thin.size) > out_of_place;
-                           });
+    const bool elsewhere = std::ranges::any_of(own, [&](std::size_t part) {
+      const glm::dvec2 waves = static_cast<double>(part) * found.waves;
+      const glm::dvec2 there = in_phase(thin.places, thin.forces, thin.centre, thin.size, waves);
+      return glm::length((there - waves) * thin.size) > out_of_place;
+    });
     if (own.back() > small_common_multiple || elsewhere) return {peak, 1, all.front(), {1}};
-    if (sines) found.parts = own;
+    found.parts = own;
   }
   return found;
 }

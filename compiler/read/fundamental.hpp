@@ -9,6 +9,7 @@ namespace wale {
 
 inline constexpr std::size_t most_waves_found = 3;
 inline constexpr std::size_t parts_of_a_wave = 32;  // of the shortest wave that a fold should show
+inline constexpr double strong_part = 0.02;         // of a wave's mean square, in one of its harmonics
 inline constexpr double weak_part = 0.004;
 
 /// The longest line in a direction across a window.

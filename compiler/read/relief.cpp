@@ -282,11 +282,9 @@ class ReliefReader {
     for (const FoundWave& each : waves_.waves) {
       const double share = each.power * scale / all;
       const std::vector<WavePart> parts = parts_of(each);
-      // Waves with a small common multiple have that as their fundamental.
-      if (each.parts.size() > 1) relief.parts.push_back({each.wave.period(), share});
+      // A sum of waves repeats after their common multiple, but is felt by its waves.
       for (const WavePart& part : parts)
-        if (each.parts.size() == 1)
-          relief.parts.push_back({each.wave.period() / static_cast<double>(part.number), share * part.share});
+        relief.parts.push_back({each.wave.period() / static_cast<double>(part.number), share * part.share});
       regular.add(each.wave.waves, share);
       tell_wave(each, share, parts);
     }

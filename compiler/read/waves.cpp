@@ -239,18 +239,34 @@ class WaveSearch {
     std::size_t step = 0;
     for (std::size_t i = 0; i < powers.size(); ++i)
       if (powers[i] >= weak_part) step = std::gcd(step, i + 1);
-    if (step > 1 && last.parts.size() == 1) {
-      add_to_rest(last.wave, 1);
-      last.wave = folded(whole_.places, found_.rest, static_cast<double>(step) * last.wave.waves,
-                         std::max<std::size_t>(last.wave.profile.size() / step, 64));
-      add_to_rest(last.wave, -1);
-    }
+    if (step > 1 && last.parts.size() == 1) shorten(last, step);
     StillForces some = every(3);
     some.forces = rest_at(some.places, std::move(some.forces));
     fit_trend(some);
     update_rest();
     for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
     return true;
+  }
+
+  /// Finds a wave anew whose harmonics are all multiples of one.
+  void shorten(FoundWave& found, std::size_t step) {
+    add_to_rest(found.wave, 1);
+    found.wave = folded(whole_.places, found_.rest, static_cast<double>(step) * found.wave.waves,
+                        std::max<std::size_t>(found.wave.profile.size() / step, 64));
+    add_to_rest(found.wave, -1);
+    found.power = mean_square(found.wave.profile);
+    found.parts = {1};
+  }
+
+  /// A wave that lay nearly where a part of a sum does looked like one until it was found itself.
+  void drop_parts_that_are_gone() {
+    for (FoundWave& each : found_.waves) {
+      if (each.parts.size() < 2) continue;
+      std::vector<std::size_t> left;
+      for (const WavePart& part : parts_of(each))
+        if (part.share >= strong_part) left.push_back(part.number);
+      if (left.size() == 1) shorten(each, left.front());
+    }
   }
 
   /// Fits the trend and all waves, the last of which is new, in turn: first at some places, then once at all.
@@ -364,6 +380,7 @@ class WaveSearch {
 
   FoundWaves finished() {
     if (found_.local) return std::move(found_);
+    drop_parts_that_are_gone();
     const double rest = mean_square(found_.rest);
     double waves = 0;
     for (const FoundWave& each : found_.waves) waves += each.power;

@@ -79,6 +79,7 @@ class Composition {
   struct Relief {
     ForceLaw law;
     WaveTruth wave;
+    WaveTruth sum;  ///< the wave of which it is a part, or itself
   };
 
   std::string turns_of(const Wave& wave);

@@ -188,8 +188,7 @@ std::vector<ReviewedCase> outside() {
 
 /// Those that do not hold today. Whoever mends one takes its name away.
 const std::set<std::string>& known_to_fail() {
-  static const std::set<std::string> names{
-  };
+  static const std::set<std::string> names{};
   return names;
 }
 
