@@ -311,7 +311,7 @@ class ReliefReader {
     tell_direction(regular, irregular);
     if (relief.regular()) {
       const bool lattice = waves_.lattice && (waves_.waves.empty() || waves_.share > 0.5);
-      relief.period = lattice ? waves_.lattice->period() : waves_.waves.front().wave.period();
+      relief.period = lattice ? waves_.lattice->period() : waves_.period(whole_.size);
     } else if (!hilly) {
       relief.period = irregular.middle();
     }

@@ -27,18 +27,18 @@ glm::dvec2 place(std::size_t i, glm::dvec2 half) {
   return (2.0 * unit - 1.0) * half;
 }
 
-std::optional<std::size_t> band_of(double period) {
-  for (const double edge : bands)
-    if (std::abs(period - edge) < near_edge * edge) return std::nullopt;
-  return static_cast<std::size_t>(std::ranges::count_if(bands, [&](double edge) { return period > edge; }));
-}
-
 /// What a class says of its programs comes before what follows from their laws.
 void settle(Expected& expected, Expected found) {
   if (expected.kind == Expected::Kind::none) expected = found;
 }
 
 }  // namespace
+
+std::optional<std::size_t> band_of(double period) {
+  for (const double edge : bands)
+    if (std::abs(period - edge) < near_edge * edge) return std::nullopt;
+  return static_cast<std::size_t>(std::ranges::count_if(bands, [&](double edge) { return period > edge; }));
+}
 
 double rounded(double value, int digits) {
   if (value == 0) return 0;

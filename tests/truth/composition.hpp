@@ -41,6 +41,8 @@ struct Wave {
   double turns(glm::dvec2 position) const { return glm::dot(direction(), position) / period + phase; }
 };
 
+std::optional<std::size_t> band_of(double period);
+
 /// Puts programs together from parts whose feel is known.
 class Composition {
  public:

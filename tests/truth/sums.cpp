@@ -39,6 +39,9 @@ Composition collinear(Chance& chance) {
   const double other = size * chance.between(0.6, 1.4);
   const auto form = [&] { return chance.happens(0.5) ? sine() : smooth_bumps(rounded(chance.between(0.06, 0.1), 3)); };
   const Waveform first = form(), second = form();
+  // Nothing tells which of two waves a harmonic belongs to that both may have.
+  if (first.name != sine().name || second.name != sine().name)
+    if (band_of(multiple / p) != band_of(multiple / q)) made.truth[Cue::roughness] = made.truth[Cue::bumpiness] = open;
   add_waves(made, chance,
             {wave_of(chance, first, multiple / p, orientation, size),
              wave_of(chance, second, multiple / q, orientation, other)});
