@@ -63,8 +63,7 @@ std::vector<std::string> reading_lines(const DescribedPercept& percept, const De
                            percept.amplitude, percept.unit, percept.magnitude));
   lines.push_back(people_line(percept));
   if (!percept.readable && !description.shaking)
-    lines.push_back(
-        readable("not read but aimed at: `{}` cuts the forces, which hides it", description.device.name));
+    lines.push_back(readable("not read but aimed at: `{}` cuts the forces, which hides it", description.device.name));
   if (percept.near_threshold) lines.emplace_back("near or below threshold");
   if (percept.saturated)
     lines.push_back(
@@ -198,10 +197,8 @@ void write_texture(std::string& text, const Description& description) {
           "  too fine for the encoder of `{}`, through which it is {}\n", description.device.name,
           std::isfinite(met->period) ? readable("a pattern of {:.3g} mm", 1e3 * met->period) : "the same everywhere");
     if (!texture.texture_class.empty()) text += readable("  people would call it {}\n", texture.texture_class);
-    if (!texture.size_class.empty() && texture.size_class != "texture")
-      text += readable("  period {:.3g} mm: felt as {}\n", 1e3 * force.period,
-                       texture.size_class == "transitional" ? "something between a texture and single features"
-                                                            : texture.size_class);
+    if (!texture.felt_as.empty())
+      text += readable("  period {:.3g} mm: felt as {}\n", 1e3 * force.period, texture.felt_as);
   } else {
     text += readable("  none{}\n", texture.kind.empty() ? "" : readable(": {}", texture.kind));
   }
