@@ -62,7 +62,7 @@ void report_flat_height(const SolvedMaterial& solved, const CheckedMaterial& mat
     doubt.message = "this height is flat inside the patch, and a flat height gives no force: " + doubt.message;
     return diagnostics.report(std::move(doubt));
   }
-  const auto jump = find_jump(material, solved.device);
+  const auto jump = find_level(material, solved.device) ? std::nullopt : find_jump(material, solved.device);
   diagnostics.report(
       {.code = Code::flat_height,
        .span = jump ? jump->span : solved.force_span,
