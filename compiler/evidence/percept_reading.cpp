@@ -183,11 +183,16 @@ std::string why_approximated(const PerceptRecord& record, const PerceptReading& 
              : "";
 }
 
+ReadParts parts_for(Extractor extractor) {
+  const bool none = extractor == Extractor::none || extractor == Extractor::acceleration;
+  return {.still = !none && is_still(extractor), .moving = !none && !is_still(extractor)};
+}
+
 ReadParts parts_for(const PatchProgram& program) {
   ReadParts parts{.still = false, .moving = false};
   for (const PerceptRecord& record : program.percepts) {
-    if (record.extractor == Extractor::none || record.extractor == Extractor::acceleration) continue;
-    (is_still(record.extractor) ? parts.still : parts.moving) = true;
+    const ReadParts of_it = parts_for(record.extractor);
+    parts.still |= of_it.still, parts.moving |= of_it.moving;
   }
   return parts;
 }

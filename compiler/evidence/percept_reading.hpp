@@ -61,7 +61,8 @@ std::vector<OutsideRange> outside_ranges(const PerceptRecord& record, const Perc
 std::string why_approximated(const PerceptRecord& record, const PerceptReading& told, double asked,
                              const ForceReading& found, const Declarations& declarations);
 
-/// Which parts of a reading the percepts of a program need.
+/// Which part of a reading a percept with this extractor needs, and which the percepts of a program need together.
+ReadParts parts_for(Extractor extractor);
 ReadParts parts_for(const PatchProgram& program);
 
 }  // namespace wale
