@@ -73,7 +73,9 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
                         most_bins(parts_of_a_wave * multiple, thin.places.size()));
   };
   Fundamental found{peak, 1, explained(1), {1}};
-  if (found.explained >= wholly) return found;
+  // What lay beside a peak may be the common multiple of several waves.
+  const bool is_peak = may_lie_beside;
+  if (is_peak && found.explained >= wholly) return found;
   const auto most = std::min<std::size_t>(most_multiples, static_cast<std::size_t>(length / 3 / period));
   std::vector<double> all{found.explained};
   for (std::size_t multiple = 2; multiple <= most; ++multiple) {
@@ -83,10 +85,10 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
   const double best = std::ranges::max(all);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (all[i] >= best - hardly_less) {
-      found = {peak / static_cast<double>(i + 1), i + 1, all[i], {1}};
+      found.waves = peak / static_cast<double>(i + 1), found.multiple = i + 1, found.explained = all[i];
       break;
     }
-  if (found.multiple == 1) return found;
+  if (is_peak && found.multiple == 1) return found;
   // A few waves whose common multiple is long repeat only by chance.
   const FoldedWave wave =
       folded(thin.places, thin.forces, found.waves, most_bins(parts_of_a_wave * found.multiple, thin.places.size()));
@@ -117,10 +119,12 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
     found.parts = own;
     return found;
   }
-  std::size_t multiple = 1;
-  for (const std::size_t part : own)
-    if (found.multiple % part == 0) multiple = std::max(multiple, found.multiple / part);
-  return {peak / static_cast<double>(multiple), multiple, all[multiple - 1], {1}};
+  for (const std::size_t part : own) {
+    if (found.multiple % part != 0) continue;
+    const std::size_t multiple = found.multiple / part;
+    return {peak / static_cast<double>(multiple), multiple, all[multiple - 1], {1}};
+  }
+  return {static_cast<double>(own.front()) * found.waves, 1, all.front(), {1}};
 }
 
 }  // namespace wale
