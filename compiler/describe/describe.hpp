@@ -35,10 +35,10 @@ struct DescribedPercept {
   double level = 0, magnitude = 0;  ///< of that size, by the map
   LawUncertainty uncertainty;       ///< of the map
   LevelIntervals intervals;         ///< of the level, by that uncertainty
-  bool near_threshold = false;  ///< near or below the threshold of feeling
-  bool extracted = false;       ///< the program has no record of it: only its force tells
-  bool saturated = false;       ///< the device pushes less than the percept needs
-  bool alone = true;            ///< no other force pushes; otherwise a run cannot read the level back
+  bool near_threshold = false;      ///< near or below the threshold of feeling
+  bool extracted = false;           ///< the program has no record of it: only its force tells
+  bool saturated = false;           ///< the device pushes less than the percept needs
+  bool alone = true;                ///< no other force pushes; otherwise a run cannot read the level back
   /// What it reads where its level is at the least, in the middle and at the most: of a level that is a parameter.
   struct Setting {
     double asked = 0, reads = 0;
@@ -84,7 +84,18 @@ struct Description {
     WallFace face;
     WallDepth depth;
   };
-  std::optional<Wall> wall;          ///< the stiffest, if a reading found one
+  std::optional<Wall> wall;  ///< the stiffest, if a reading found one
+  /// What resists differently along its axis and across it: "stiffness", N/m.
+  struct Directed {
+    const char* name;
+    const char* unit;
+    Principal size;
+  };
+  std::vector<Directed> directed;
+  glm::dvec2 constant_push{0};       ///< N: everywhere alike
+  OtherForce other;                  ///< what no cue explains
+  double aside = 0;                  ///< N: on a hand at 0.2 m/s, square to its way
+  double unread = 0;                 ///< N: on a hand at rest or on its way, with no other cause here
   std::string no_percept;            ///< why no percept is of a texture, in a line; empty if one is
   std::vector<DescribedFate> fates;  ///< fate of each percept and of the physics on the device
   std::optional<MeasuredShaking>

@@ -131,7 +131,9 @@ std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceRead
     const auto changes = [&](TermId force) { return material.terms.dependence(force).changing(); };
     const bool as_meant = !record.basis.summand && (material.scales_a_texture || !material.force ||
                                                     changes((*material.force)[0]) || changes((*material.force)[1]));
-    if (outside.empty() && !as_meant) report_difference(record, told, *percept.asked, why, asked->place(), diagnostics);
+    // That a program pushes nowhere has a warning of its own, with this cause.
+    if (outside.empty() && !as_meant && !stands_outside(record, found))
+      report_difference(record, told, *percept.asked, why, asked->place(), diagnostics);
     if (fate->fate == Fate::kept) fate->fate = Fate::approximated;
     if (fate->fate != Fate::saturated)
       fate->given = static_cast<float>(std::clamp(rounded_to(told.level, digits), 0.0, 1.0));
