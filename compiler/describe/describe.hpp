@@ -96,7 +96,8 @@ struct Description {
   OtherForce other;                  ///< what no cue explains
   double aside = 0;                  ///< N: on a hand at 0.2 m/s, square to its way
   double unread = 0;                 ///< N: on a hand at rest or on its way, with no other cause here
-  std::string no_percept;            ///< why no percept is of a texture, in a line; empty if one is
+  std::string no_percept;            ///< why there is no percept, in a line; empty if there is one
+  std::string no_texture;            ///< why there is no texture, in a line; empty if there is one
   std::vector<DescribedFate> fates;  ///< fate of each percept and of the physics on the device
   std::optional<MeasuredShaking>
       shaking;                        ///< of a program that vibrates; its force, bound, grade and texture are empty

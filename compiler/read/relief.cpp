@@ -44,7 +44,7 @@ class ReliefReader {
   StaticForce read() {
     std::vector<double> sizes;
     for (const glm::dvec2& force : whole_.forces) sizes.push_back(glm::length(force));
-    found_.largest = percentile(std::move(sizes), percentile_of_amplitude);
+    found_.largest = percentile(sizes, percentile_of_amplitude);
     const LinearForce line = linear_force(whole_.places, whole_.forces);
     std::vector<glm::dvec2> beyond = whole_.forces;
     double most = 0;
@@ -110,7 +110,7 @@ class ReliefReader {
       cut += !felt_at(i);
       sizes.push_back(glm::length(glm::clamp(whole_.forces[i], -limit_, limit_)));
     }
-    found_.largest = percentile(std::move(sizes), percentile_of_amplitude);
+    found_.largest = percentile(sizes, percentile_of_amplitude);
     found_.cut_off = static_cast<double>(cut) > least_cut * static_cast<double>(relief_.size()) && cut < relief_.size();
   }
 

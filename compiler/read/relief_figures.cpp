@@ -73,7 +73,7 @@ class ReliefFigures {
     }
     const auto count = static_cast<double>(sizes.size());
     relief_.mean = sum / count, relief_.rms = std::sqrt(squares / count);
-    relief_.amplitude = percentile(std::move(sizes), percentile_of_amplitude);
+    relief_.amplitude = percentile(sizes, percentile_of_amplitude);
     const bool waved = !from_.waves.waves.empty() || from_.waves.lattice;
     if (relief_.amplitude < least_amplitude || (!waved && relief_.amplitude < misfit)) return {};
     const bool hilly = std::ranges::any_of(from_.features, [](const Feature& each) { return !each.monotone; });
@@ -251,7 +251,7 @@ class ReliefFigures {
       const glm::dvec2 y = (forces[i + 2] - forces[i + 3]) / (2 * difference) - from_.trend.by_y;
       changes.push_back(std::sqrt(glm::dot(x, x) + glm::dot(y, y)));
     }
-    relief_.steepness = percentile(std::move(changes), percentile_of_amplitude) / relief_.amplitude;
+    relief_.steepness = percentile(changes, percentile_of_amplitude) / relief_.amplitude;
   }
 
   const SplitRelief& from_;
@@ -260,11 +260,23 @@ class ReliefFigures {
 
 }  // namespace
 
-double percentile(std::vector<double> values, double share) {
+double percentile(const std::vector<double>& values, double share) {
   if (values.empty()) return 0;
   const auto rank = std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(rank));
-  return values[rank];
+  // Only the values above what a sample puts well below it are put in order.
+  constexpr std::size_t every = 16;
+  std::vector<double> sample;
+  for (std::size_t i = 0; i < values.size(); i += every) sample.push_back(values[i]);
+  const auto below = static_cast<std::ptrdiff_t>((2 * share - 1) * static_cast<double>(sample.size()));
+  std::ranges::nth_element(sample, sample.begin() + below);
+  const double least = sample[static_cast<std::size_t>(below)];
+  std::vector<double> top;
+  for (const double value : values)
+    if (value >= least) top.push_back(value);
+  if (top.size() < values.size() - rank) top = values;
+  const auto from_the_top = static_cast<std::ptrdiff_t>(top.size() - (values.size() - rank));
+  std::ranges::nth_element(top, top.begin() + from_the_top);
+  return top[static_cast<std::size_t>(from_the_top)];
 }
 
 double Relief::within(const PeriodBand& band) const {

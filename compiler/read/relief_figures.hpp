@@ -19,8 +19,8 @@ struct SplitRelief {
 /// The percentile that is an amplitude.
 inline constexpr double percentile_of_amplitude = 0.99;
 
-/// The value that so large a share of all values lies below; 0 of none.
-double percentile(std::vector<double> values, double share);
+/// The value that so large a share of all values, at least a half, lies below; 0 of none.
+double percentile(const std::vector<double>& values, double share);
 
 /// Size, period, direction and kind of a relief. `felt` (N) are the forces where they are felt. Less than `misfit` (N)
 /// without a wave is what a trend leaves, and none.
