@@ -243,10 +243,12 @@ std::string other_forces(const Description& description) {
   std::string text;
   for (const Description::Directed& each : description.directed) {
     const double across = std::abs(each.size.across) < 0.01 * std::abs(each.size.greatest) ? 0 : each.size.across;
-    text +=
-        readable("  {} {:.3g} {} along the direction {} from x, {} across\n", each.name, each.size.greatest, each.unit,
-                 in_degrees(readable("{}", degrees(std::atan2(each.size.axis.y, each.size.axis.x) + std::numbers::pi))),
-                 across == 0 ? std::string("none") : readable("{:.3g} {}", across, each.unit));
+    const long angle = degrees(std::atan2(each.size.axis.y, each.size.axis.x) + std::numbers::pi);
+    const std::string way = angle == 0    ? "x"
+                            : angle == 90 ? "y"
+                                          : in_degrees(readable("the direction {}", angle)) + " from x";
+    text += readable("  {} {:.3g} {} along {}, {} across\n", each.name, each.size.greatest, each.unit, way,
+                     across == 0 ? std::string("none") : readable("{:.3g} {}", across, each.unit));
   }
   if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
     text +=

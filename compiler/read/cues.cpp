@@ -110,6 +110,7 @@ Cues cues_of(const Bank& bank, const ForceReading& reading) {
 std::optional<CueKind> whole_of(CueKind kind) {
   switch (kind) {
     case CueKind::period:
+    case CueKind::grain:
     case CueKind::orientation:
     case CueKind::push_axis:
     case CueKind::regularity: return CueKind::amplitude;

@@ -21,17 +21,18 @@ namespace {
 // m/s, speeds of an exploring hand; fewer for programs whose ticks must run one after another
 constexpr std::array<double, 8> speeds = {0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2, 0.4};
 constexpr std::array<double, 4> few_speeds = {0.05, 0.1, 0.2, 0.4};
-constexpr double stretch = 0.024;      // m, length of a stroke, which goes there and back
-constexpr double least_stretch = 0.5;  // of the patch's extent, if that is smaller
-constexpr double looked_at = 0.5;      // of the stretch, in its middle: there a program with memory has settled
-constexpr int lines = 4;               // parallel strokes
-constexpr int places = 64;             // of a stroke, for programs without memory
-constexpr double push = 1;             // m/s^2
-constexpr double nothing = 1e-5;       // N
-constexpr double unlike = 0.1;         // relative: two principal values that differ by more have an axis
-constexpr double least_below = 0.125;  // of the places of a stroke: below the device's limit
-constexpr double surely = 3;           // standard errors of a mean over lines
-constexpr double speed_aside = 0.2;    // m/s at which a push aside is told
+constexpr double stretch = 0.024;             // m, length of a stroke, which goes there and back
+constexpr double least_stretch = 0.5;         // of the patch's extent, if that is smaller
+constexpr double looked_at = 0.5;             // of the stretch, in its middle: there a program with memory has settled
+constexpr int lines = 4;                      // parallel strokes
+constexpr int places = 64;                    // of a stroke, for programs without memory
+constexpr double push = 1;                    // m/s^2
+constexpr double nothing = 1e-5;              // N
+constexpr double unlike = 0.1;                // relative: two principal values that differ by more have an axis
+constexpr double least_below = 0.125;         // of the places of a stroke: below the device's limit
+constexpr double least_below_strokes = 0.25;  // of the strokes: likewise
+constexpr double surely = 3;                  // standard errors of a mean over lines
+constexpr double speed_aside = 0.2;           // m/s at which a push aside is told
 
 /// A stroke goes over half of its stretch, back over the whole, and forward over the whole. The first half settles a
 /// program with memory. The middles of the other two are evaluated: they pass the same positions, so that forces that
@@ -275,15 +276,23 @@ OpposingForce fitted(const FrictionLaw& law, double whole, const std::vector<Str
   return found;
 }
 
-/// The simplest law that fits the strokes, or the one that fits best.
-OpposingForce law_of(const std::vector<Stroke>& strokes, const std::vector<double>& opposed) {
+/// The simplest law that fits the strokes, or the one that fits best. Speeds at which the device's limit `most` (N)
+/// cuts the force off say nothing about the law if some others do.
+OpposingForce law_of(std::vector<Stroke> strokes, std::vector<double> opposed, double most) {
+  std::vector<Stroke> below;
+  std::vector<double> opposed_below;
+  for (std::size_t i = 0; i < strokes.size(); ++i)
+    if (!at_limit({opposed[i], 0}, most)) below.push_back(strokes[i]), opposed_below.push_back(opposed[i]);
+  if (below.size() >= least_below_strokes * static_cast<double>(strokes.size()))
+    strokes = std::move(below), opposed = std::move(opposed_below);
   double largest = 0;
   for (const double force : opposed) largest = std::max(largest, std::abs(force));
   if (largest < nothing) return {};
   OpposingForce best{0, 0, 0, HUGE_VAL};
   for (const FrictionLaw& law : laws) {
     OpposingForce found{0, 0, 0, HUGE_VAL};
-    const double fastest = strokes.back().speed, slowest = strokes.front().speed;
+    const auto [slow, fast] = std::ranges::minmax_element(strokes, {}, &Stroke::speed);
+    const double slowest = slow->speed, fastest = fast->speed;
     for (int i = 0; i < (law.rises ? rises_tried : 1); ++i) {
       const double whole = law.rises ? slowest * std::pow(fastest / slowest, (i + 0.5) / rises_tried) : 0;
       const OpposingForce other = fitted(law, whole, strokes, opposed);
@@ -378,7 +387,7 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   const double chance = chance_of(strokes, along_strokes(strokes, opposed));
   const Principal whole = principal_of(mean.along, mean.across, std::max(least_force, chance));
   if (!whole.directed()) {
-    OpposingForce found = law_of(strokes, along_strokes(strokes, opposed));
+    OpposingForce found = law_of(strokes, along_strokes(strokes, opposed), program.device.most());
     found.friction_across = found.friction, found.damping_across = found.damping, found.aside = mean.aside;
     return found;
   }
@@ -404,7 +413,7 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
       return std::vector(all.begin() + static_cast<std::ptrdiff_t>(first),
                          all.begin() + static_cast<std::ptrdiff_t>(first + half));
     };
-    return law_of(part(strokes), part(along));
+    return law_of(part(strokes), part(along), program.device.most());
   };
   const bool second = !oblique && axis.y > 0.5;
   const OpposingForce one = law_along(second ? half : 0), other = law_along(second ? 0 : half);

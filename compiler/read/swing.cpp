@@ -22,6 +22,7 @@ constexpr std::size_t most_harmonic = 8;
 constexpr double of_the_strongest = 0.2;  // line's power, in a fundamental
 constexpr double stands_out = 0.25;       // of a peak's power, at most this is three lines before it
 constexpr double no_swing = 1e-5;         // N
+constexpr double beats_of_ticks = 0.05;  // of a vibration's power, below its band: the rate of the ticks is no multiple
 
 /// Forces as changes, without their mean and their drift: a parabola in time.
 std::vector<std::complex<float>> without_drift(const std::vector<Force>& forces) {
@@ -155,9 +156,11 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
   const Spectrum spectrum = fourier_of_line(busiest);
   // The transform of x + i y holds one of theirs in a coefficient and the other in its mirror image. Hann's window lets
   // three eighths of the power through.
-  std::vector<double> powers(spectrum.size() / 2, 0.0);
-  for (std::size_t i = 1; i < powers.size(); ++i)
-    powers[i] = (std::norm(spectrum[i]) + std::norm(spectrum[spectrum.size() - i])) / (0.375 * ticks * ticks);
+  std::vector<double> powers(spectrum.size() / 2 + 1, 0.0);
+  for (std::size_t i = 1; i < powers.size(); ++i) {
+    const std::size_t mirror = spectrum.size() - i;
+    powers[i] = (std::norm(spectrum[i]) + (mirror == i ? 0 : std::norm(spectrum[mirror]))) / (0.375 * ticks * ticks);
+  }
   // A swing at the border belongs to the faster ones with all of its lines, which are three under this window.
   auto first_fast = static_cast<std::size_t>(slowest_vibration * seconds);
   const auto foot = powers.begin() + static_cast<std::ptrdiff_t>(first_fast) - 2;
@@ -173,7 +176,11 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
     sway.amplitude =
         size_within(spectrum, fade, std::max<std::size_t>(3, static_cast<std::size_t>(sway.frequency * seconds)) - 2,
                     harmonic ? powers.size() : first_fast);
-  if (vibration.frequency > 0) vibration.amplitude = size_within(spectrum, fade, first_fast, powers.size());
+  if (!(vibration.frequency > 0)) return;
+  double slower = 0, faster = 0;
+  for (std::size_t i = 1; i < powers.size(); ++i) (i < first_fast ? slower : faster) += powers[i];
+  const bool alone = !(sway.frequency > 0) && slower < beats_of_ticks * faster;
+  vibration.amplitude = size_within(spectrum, fade, alone ? 1 : first_fast, powers.size());
 }
 
 }  // namespace wale

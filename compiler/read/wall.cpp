@@ -255,7 +255,7 @@ WallFace wall_face(const Bank& bank, const HalfPlane& face) {
   }
   if (best < 1) found.place = place;
   tell_damping(bank, found);
-  found.place = face.offset * face.inward;
+  found.place = face.offset * face.inward + 0.0;
   return found;
 }
 
