@@ -67,6 +67,7 @@ struct DescribedTexture {
   /// What the hand meets of the strongest wave, if that is too fine for the device's encoder.
   std::optional<ReliefWave> encoder_pattern;
   std::string texture_class, size_class;  ///< "flat texture", "moguls"; empty without a texture or a rule
+  std::string felt_as;                    ///< of the size class: "separate features"; empty for a texture like others
   /// how sure people are that it is a texture: "high", "low", or the stimulus that they rated
   std::string confidence;
   std::optional<double> confidence_mean, confidence_spread;  ///< of ratings 0 .. 1, if they were published

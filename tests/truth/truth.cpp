@@ -74,7 +74,7 @@ const std::map<std::string, Floor>& floors() {
       {"wall beside forces", {8, 185}},
       {"wall near the rim", {8, 192}},
       {"wall with a preload", {8, 192}},
-      {"crisp wall", {8, 187}},
+      {"crisp wall", {8, 192}},
       {"displaced spring", {8, 192}},
       {"push beside", {8, 191}},
   };
