@@ -151,6 +151,9 @@ void warn_of_jumps(const SolvedMaterial& solved, const CheckedMaterial& material
 /// Warns of a material whose force is zero for every hand, unless it says so itself.
 void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const SolvedMaterial& solved,
                       const Measured& measured, Diagnostics& diagnostics) {
+  const bool walled = std::ranges::any_of(solved.percepts, [](const SolvedPercept& each) {
+    return each.asked && each.record.extractor == Extractor::wall_stiffness;
+  });
   const auto is_zero = [&](TermId id) { return solved.terms[id].known(); };
   const bool says_so = is_zero(solved.force[0]) && is_zero(solved.force[1]);
   const auto& asked = material.percepts;
@@ -163,7 +166,9 @@ void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const S
                       .message = fmt::format("`{}` never pushes: its force is 0 at every place of its patch, {:.0f} mm "
                                              "by {:.0f} mm, and at every velocity",
                                              solved.name, 1e3 * solved.patch_width, 1e3 * solved.patch_height),
-                      .help = "look for a length in m instead of mm, or for a size of 0"});
+                      .help = walled ? "its wall stands outside of the patch: move the face inside, as `firm(face: "
+                                       "5 mm)` does, or take a larger patch"
+                                     : "look for a length in m instead of mm, or for a size of 0"});
 }
 
 /// "`a`, `b` and 3 more": at most eight names.

@@ -95,7 +95,9 @@ std::string why_no_percept(const Description& description, const PatchProgram& p
                ? readable("its texture has a period of {:.3g} mm ({})", 1e3 * description.texture->force.period,
                           bands_in_words(declarations))
                : "its texture has no period that a map covers";
-  if (description.limit_matters && depends_on_place(program))
+  constexpr double just_below = 1 - 1e-5;  // single precision rounds
+  if (description.limit_matters && description.force.max_newton >= just_below * program.device.most() &&
+      depends_on_place(program))
     return readable("`{}` cuts its force, and a force that is cut has no size that a map covers",
                     description.device.name);
   const std::string why = why_no_texture(program, description.force);

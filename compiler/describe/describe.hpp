@@ -85,7 +85,18 @@ struct Description {
     WallFace face;
     WallDepth depth;
   };
-  std::optional<Wall> wall;          ///< the stiffest, if a reading found one
+  std::optional<Wall> wall;  ///< the stiffest, if a reading found one
+  /// What resists differently along its axis and across it: "stiffness", N/m.
+  struct Directed {
+    const char* name;
+    const char* unit;
+    Principal size;
+  };
+  std::vector<Directed> directed;
+  glm::dvec2 constant_push{0};       ///< N: everywhere alike
+  OtherForce other;                  ///< what no cue explains
+  double aside = 0;                  ///< N: on a hand at 0.2 m/s, square to its way
+  double unread = 0;                 ///< N: on a hand at rest or on its way, with no other cause here
   std::string no_percept;            ///< why there is no percept, in a line; empty if there is one
   std::string no_texture;            ///< why there is no texture, in a line; empty if there is one
   std::vector<DescribedFate> fates;  ///< fate of each percept and of the physics on the device

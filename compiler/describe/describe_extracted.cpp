@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <iterator>
 
 #include "compiler/describe/describe_percept.hpp"
 #include "compiler/read/cues.hpp"
@@ -117,6 +119,23 @@ DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double 
   return texture;
 }
 
+/// What of a reading no percept tells.
+void tell_forces(Description& description, const ForceReading& found, const Cues& cues) {
+  const Description::Directed all[] = {{"stiffness", "N/m", found.stiffnesses()},
+                                       {"viscosity", "N s/m", found.opposing.dampings()},
+                                       {"friction", "N", found.opposing.frictions()},
+                                       {"mass", "kg", found.inertia}};
+  constexpr double leasts[] = {least_stiffness, least_damping, least_force, least_mass};
+  for (std::size_t i = 0; i < std::size(all); ++i)
+    if (all[i].size.directed() && std::abs(all[i].size.greatest) >= leasts[i]) description.directed.push_back(all[i]);
+  if (glm::length(found.constant) >= least_force) description.constant_push = found.constant;
+  const auto counting = [](double force) { return force >= least_force ? force : 0; };
+  description.other = {counting(found.other.button), counting(found.other.slowly), counting(found.other.remembered)};
+  description.aside = counting(found.opposing.aside);
+  const double unread = std::abs(cues[CueKind::other_force].value_or(0));
+  if (unread > std::max(description.other.largest(), description.aside)) description.unread = unread;
+}
+
 }  // namespace
 
 void describe_extracted(Description& description, const Bank& bank, const ForceReading& found,
@@ -124,6 +143,7 @@ void describe_extracted(Description& description, const Bank& bank, const ForceR
   const Cues cues = cues_of(bank, found);
   description.texture = texture_of(cues, found, description.force.max_newton, description.patch,
                                    description.device.position_step(), declarations);
+  tell_forces(description, found, cues);
   if (found.wall) description.wall = {*found.wall, deepest(bank, *found.wall)};
   // A patch program may be built for a device that nothing here declares.
   DeviceDeclaration undeclared;

@@ -195,6 +195,25 @@ void add_code(nlohmann::ordered_json& json, const Description& description) {
   json["bytes"] = description.bytes;
 }
 
+/// What resists along one axis, what pushes everywhere alike, and what no percept tells; only what there is.
+void add_other_forces(nlohmann::ordered_json& json, const Description& description) {
+  for (const Description::Directed& each : description.directed)
+    json["directed"][each.name] = {{"greatest", figure(each.size.greatest)},
+                                   {"across", figure(each.size.across)},
+                                   {"axis", {figure(each.size.axis.x), figure(each.size.axis.y)}},
+                                   {"unit", each.unit}};
+  if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
+    json["constant_push_newton"] = {figure(push.x), figure(push.y)};
+  const auto other = [&](const char* name, double force) {
+    if (force > 0) json["other_force_newton"][name] = figure(force);
+  };
+  other("button", description.other.button);
+  other("slowly", description.other.slowly);
+  other("remembered", description.other.remembered);
+  other("aside", description.aside);
+  other("unread", description.unread);
+}
+
 nlohmann::ordered_json to_json(const Description& description) {
   nlohmann::ordered_json json;
   json["material"] = description.material;
@@ -216,8 +235,10 @@ nlohmann::ordered_json to_json(const Description& description) {
     json["wall"] = {{"at", {figure(wall->face.place.x), figure(wall->face.place.y)}},
                     {"inward", {figure(wall->face.inward.x), figure(wall->face.inward.y)}},
                     {"stiffness", figure(wall->face.stiffness)},
+                    {"preload_newton", figure(wall->face.preload)},
                     {"depth_m", figure(wall->depth.depth)},
                     {"max_newton", figure(wall->depth.newton)}};
+  add_other_forces(json, description);
   json["fates"] = to_json(description.fates);
   if (description.shaking) {
     json["shaking"] = to_json(*description.shaking);

@@ -236,15 +236,46 @@ std::string bound_lines(const Description& description) {
   return line;
 }
 
+/// What resists along one axis, what pushes everywhere alike, and what no percept tells.
+std::string other_forces(const Description& description) {
+  std::string text;
+  for (const Description::Directed& each : description.directed) {
+    const double across = std::abs(each.size.across) < 0.01 * std::abs(each.size.greatest) ? 0 : each.size.across;
+    const long angle = degrees(std::atan2(each.size.axis.y, each.size.axis.x) + std::numbers::pi);
+    const std::string way = angle == 0    ? "x"
+                            : angle == 90 ? "y"
+                                          : in_degrees(readable("the direction {}", angle)) + " from x";
+    text += readable("  {} {:.3g} {} along {}, {} across\n", each.name, each.size.greatest, each.unit, way,
+                     across == 0 ? std::string("none") : readable("{:.3g} {}", across, each.unit));
+  }
+  if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
+    text +=
+        readable("  a constant push of {:.3g} N towards {}\n", std::hypot(push.x, push.y),
+                 in_degrees(readable("{:.0f}", std::round(std::atan2(push.y, push.x) * 180 / std::numbers::pi) + 0.0)));
+  const OtherForce& other = description.other;
+  if (other.button > 0) text += readable("  up to {:.3g} N by the button, which no percept tells\n", other.button);
+  if (other.slowly > 0)
+    text += readable("  up to {:.3g} N that comes with time, which no percept tells\n", other.slowly);
+  if (other.remembered > 0)
+    text += readable("  up to {:.3g} N by where the hand has been, which no percept tells\n", other.remembered);
+  if (description.aside > 0)
+    text += readable("  {:.3g} N aside on a hand at 200 mm/s, which no percept tells\n", description.aside);
+  if (description.unread > 0) text += readable("  up to {:.3g} N that no percept tells\n", description.unread);
+  return text;
+}
+
 void write_pushing(std::string& text, const Description& description) {
   text += readable("\npushes\n  {:.3f} N at most with these parameters; with any, never more than {:.3f} N (proved)\n",
                    description.force.max_newton, description.bound.newton);
   text += readable("  on a hand at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n", description.force.p99_newton,
                    description.force.rms_newton);
   if (const auto& wall = description.wall)
-    text +=
-        readable("  a wall {}: {:.3g} N/m, up to {:.3g} N on a hand that goes {:.3g} mm into it, to the patch's edge\n",
-                 wall_place(wall->face), wall->face.stiffness, wall->depth.newton, 1e3 * wall->depth.depth);
+    text += readable(
+        "  a wall {}: {:.3g} N/m{}, up to {:.3g} N on a hand that goes {:.3g} mm into it, to the patch's edge\n",
+        wall_place(wall->face), wall->face.stiffness,
+        wall->face.preload > 0 ? readable(" from {:.3g} N on", wall->face.preload) : "", wall->depth.newton,
+        1e3 * wall->depth.depth);
+  text += other_forces(description);
   text += bound_lines(description);
   text += "\nstability\n" + grade_text(description.grade, description.device);
 }

@@ -126,7 +126,8 @@ std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceRead
     const auto changes = [&](TermId force) { return material.terms.dependence(force).changing(); };
     const bool as_meant = !record.basis.summand && (material.scales_a_texture || !material.force ||
                                                     changes((*material.force)[0]) || changes((*material.force)[1]));
-    if (outside.empty() && !as_meant)
+    // That a program pushes nowhere has a warning of its own, with this cause.
+    if (outside.empty() && !as_meant && !stands_outside(record, found))
       report_difference(record, correction->told, *percept.asked, correction->why, asked->place(), diagnostics);
     changed = true;
   }

@@ -47,7 +47,11 @@ SurfaceProfile profile_of(const PatchProgram& program, const Relief& relief) {
 std::vector<std::string> beside(const PerceptRecord& record, double size, const Cues& cues, const Relief& relief) {
   std::vector<std::string> others;
   for (const CueFacts& facts : cue_table())
-    if (facts.exerts && facts.extractor != record.extractor && cues[facts.kind]) others.emplace_back(facts.name);
+    if (facts.exerts && facts.extractor != record.extractor && cues[facts.kind] && !whole_of(facts.kind)) {
+      const bool push = facts.kind == CueKind::push_x || facts.kind == CueKind::push_y;
+      const std::string name = push ? "a constant push" : facts.name;
+      if (std::ranges::find(others, name) == others.end()) others.push_back(name);
+    }
   if (record.extractor != Extractor::lateral_force) {
     // A relief is called by what it is, and not by its size.
     for (std::string& other : others)

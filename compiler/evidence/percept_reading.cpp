@@ -134,7 +134,8 @@ PerceptReading percept_reading(const Bank& bank, std::size_t index, const ForceR
     const bool limited = record.unit == (program.vibrates() ? "m/s^2" : "N");
     told.size = limited ? std::min(told.aimed, most_given(bank, declarations) * record.basis.share) : told.aimed;
   }
-  if (told.size != 0) {
+  // A force that pushes the hand on has no level of what opposes it.
+  if (told.size > 0 || (told.size < 0 && told.aimed < 0)) {
     const Prediction prediction = predict(bank, index, static_cast<float>(told.size));
     told.level = prediction.level, told.magnitude = prediction.magnitude;
   }
@@ -152,8 +153,14 @@ bool differs(const PerceptRecord& record, double aimed, double asked, double siz
   return large - small > record.floor;
 }
 
+bool stands_outside(const PerceptRecord& record, const ForceReading& found) {
+  const bool of_a_wall = record.extractor == Extractor::wall_stiffness || record.extractor == Extractor::wall_damping;
+  return of_a_wall && !found.wall && found.still.largest < least_force;
+}
+
 std::string cause_of_difference(const PerceptRecord& record, const PerceptReading& reading, const ForceReading& found,
                                 const Declarations& declarations) {
+  if (stands_outside(record, found)) return "its wall stands outside of the patch";
   if (record.extractor == Extractor::lateral_force) {
     const Relief& relief = found.relief();
     const PeriodBand band = band_of(read_as(record), declarations);

@@ -49,6 +49,10 @@ std::vector<OutsideRange> outside_of(const PerceptRecord& record, double size, c
 /// more than a just noticeable difference, the scatter of the map and the author's tolerance.
 bool differs(const PerceptRecord& record, double aimed, double asked, double size, double level);
 
+/// Whether the percept is a wall's and the patch has none, and no force at all on hands at rest: the face stands
+/// outside.
+bool stands_outside(const PerceptRecord& record, const ForceReading& found);
+
 /// Why a percept reads otherwise than asked, in a line.
 std::string cause_of_difference(const PerceptRecord& record, const PerceptReading& reading, const ForceReading& found,
                                 const Declarations& declarations);

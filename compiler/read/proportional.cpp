@@ -69,13 +69,20 @@ ForceReading times_as_strong(ForceReading found, double times) {
     for (glm::dvec2& force : each.profile) force *= times;
     each.range *= times;
   }
+  if (still.face) still.face->stiffness *= times, still.face->preload *= times;
   Relief& relief = still.relief;
-  for (double* each : {&relief.amplitude, &relief.maximum, &relief.rms, &relief.mean, &found.stiffness,
-                       &found.opposing.friction, &found.opposing.damping, &found.opposing.scatter, &found.breakaway,
-                       &found.inertia, &found.sway.amplitude, &found.vibration.amplitude})
+  OpposingForce& opposing = found.opposing;
+  for (double* each :
+       {&relief.amplitude,          &relief.maximum,          &relief.rms,           &relief.mean,
+        &found.stiffness,           &found.stiffness_across,  &opposing.friction,    &opposing.friction_across,
+        &opposing.damping,          &opposing.damping_across, &opposing.scatter,     &opposing.aside,
+        &found.breakaway,           &found.inertia.greatest,  &found.inertia.across, &found.sway.amplitude,
+        &found.vibration.amplitude, &found.other.button,      &found.other.slowly,   &found.other.remembered})
     *each *= times;
+  found.constant *= times;
   if (found.wall)
-    for (double* each : {&found.wall->stiffness, &found.wall->damping, &found.wall->release}) *each *= times;
+    for (double* each : {&found.wall->stiffness, &found.wall->damping, &found.wall->release, &found.wall->preload})
+      *each *= times;
   return found;
 }
 

@@ -34,6 +34,11 @@ constexpr std::pair<Cue, CueKind> words[] = {
     {Cue::sway, CueKind::sway},
     {Cue::sway_rate, CueKind::sway_frequency},
     {Cue::constant, CueKind::other_force},
+    {Cue::stiffness_across, CueKind::stiffness_across},
+    {Cue::viscosity_across, CueKind::viscosity_across},
+    {Cue::friction_across, CueKind::friction_across},
+    {Cue::mass_across, CueKind::mass_across},
+    {Cue::wall_damping, CueKind::wall_damping},
 };
 
 }  // namespace
@@ -44,6 +49,12 @@ Reading reading_of(const Program& program) {
   const Cues cues = cues_of(bank, found);
   Reading reading;
   for (const auto& [cue, kind] : words) reading[cue] = cues[kind];
+  if (cues[CueKind::push_x] || cues[CueKind::push_y])
+    reading[Cue::constant] = std::hypot(cues[CueKind::push_x].value_or(0), cues[CueKind::push_y].value_or(0));
+  for (const CueKind kind :
+       {CueKind::stiffness_axis, CueKind::viscosity_axis, CueKind::friction_axis, CueKind::mass_axis})
+    if (cues[kind]) reading[Cue::axis] = cues[kind];
+  if (found.wall) reading[Cue::face] = glm::dot(found.wall->place, found.wall->inward);
   reading[Cue::roughness] = carrier_of(found, *declarations().percepts.find("roughness"), declarations());
   reading[Cue::bumpiness] = carrier_of(found, *declarations().percepts.find("bumpiness"), declarations());
   if (cues[CueKind::amplitude] && found.relief().regular())
