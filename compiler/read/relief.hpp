@@ -24,7 +24,7 @@ struct Relief {
   double maximum = 0;      ///< N: the definition of Minsky 1995, the largest force found
   double rms = 0;          ///< N
   double mean = 0;         ///< N: the mean of its size
-  double transitions = 0;  ///< 1/m: sign changes along the strongest wave
+  double transitions = 0;  ///< 1/m: sign changes along the direction in which it changes
   /// m: after which it repeats, whatever the waveform: the period of the strongest wave, or the shortest step of a
   /// lattice. If it does not repeat, the size of its grain; 0 without relief, and for a single hill.
   double period = 0;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compiler/read/fundamental.hpp"
+#include "compiler/read/sign_changes.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
 
@@ -32,7 +33,7 @@ double half_turned(double angle) {
 struct Distribution {
   std::vector<double> octaves = std::vector<double>(24 * octave_parts, 0.0);  // from a micrometre on
   std::complex<double> doubled = 0;  // power times the direction of twice the angle
-  double squared_waves = 0, sum = 0;
+  double sum = 0;
 
   void add(glm::dvec2 waves, double share) {
     const double far = glm::length(waves);
@@ -40,7 +41,7 @@ struct Distribution {
     octaves[std::clamp<std::size_t>(static_cast<std::size_t>(std::max(place, 0.0)), 0, octaves.size() - 1)] += share;
     const std::complex<double> direction(waves.x / far, waves.y / far);
     doubled += share * direction * direction;
-    squared_waves += share * far * far, sum += share;
+    sum += share;
   }
   static double period(std::size_t place) {
     return 1e-6 * std::exp2((static_cast<double>(place) + 0.5) / octave_parts);
@@ -79,6 +80,7 @@ class ReliefFigures {
     const bool hilly = std::ranges::any_of(from_.features, [](const Feature& each) { return !each.monotone; });
     tell_parts(hilly);
     tell_push();
+    tell_sign_changes();
     tell_steepness();
     return relief_;
   }
@@ -110,7 +112,7 @@ class ReliefFigures {
       const std::vector<WavePart> parts = parts_of(each);
       // A sum of waves repeats after their common multiple, but is felt by its waves.
       for (const WavePart& part : parts)
-        relief.parts.push_back({each.wave.period() / static_cast<double>(part.number), share * part.share});
+        relief_.parts.push_back({each.wave.period() / static_cast<double>(part.number), share * part.share});
       regular.add(each.wave.waves, share);
       tell_wave(each, share, parts);
     }
@@ -228,11 +230,20 @@ class ReliefFigures {
     } else {
       relief_.orientation = half_turned(0.5 * std::arg(doubled));
     }
-    if (relief_.transitions == 0 && regular.sum + irregular.sum > 0) {
-      // An irregular wave changes its sign as often as one of its mean square number of periods does.
-      const double across = 0.5 * (irregular.squared_waves + regular.squared_waves) * (1 + relief_.anisotropy) / sum;
-      relief_.transitions = 2 * std::sqrt(across);
+  }
+
+  /// Those of a single wave are known from its waveform.
+  void tell_sign_changes() {
+    if (relief_.parts.size() == 1 && relief_.transitions > 0) return;
+    double finest = 0, seen = 0;
+    std::vector<Relief::Part> parts = relief_.parts;
+    std::ranges::sort(parts, std::ranges::greater{}, &Relief::Part::period);
+    for (const Relief::Part& each : parts) {
+      // What is finer than all but a twentieth changes few signs.
+      if (seen < 0.95) finest = each.period;
+      seen += each.share;
     }
+    if (finest > 0) relief_.transitions = sign_changes(from_, relief_, finest);
   }
 
   /// The steepness of the relief, relative to its size.

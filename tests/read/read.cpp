@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
 #include <span>
 
@@ -91,6 +92,37 @@ TEST(Reading, EveryFigureOfASineIsItsClosedForm) {
     EXPECT_NEAR(texture.transitions, 2 / metres, 0.05 * 2 / metres) << period;
     EXPECT_NEAR(texture.steepness, 2 * pi / metres, 0.05 * 2 * pi / metres) << period;
   }
+}
+
+TEST(Reading, SignChangesOfSumsAndNoisesAreThoseThatCountingFinds) {
+  struct Case {
+    const char* physical;
+    std::function<double(double)> force;  // at x, in millimetres
+  };
+  const auto sine = [](double x, double period) { return std::sin(2 * pi * x / period); };
+  const std::vector<Case> cases = {
+      {"force = vector(1 N * sin(2 * pi * x / 4 mm) + 1 N * sin(2 * pi * x / 5 mm), 0 N)",
+       [&](double x) { return sine(x, 4) + sine(x, 5); }},
+      {"force = vector(1 N * sin(2 * pi * x / 20 mm) + 0.6 N * sin(2 * pi * x / 1.7 mm), 0 N)",
+       [&](double x) { return sine(x, 20) + 0.6 * sine(x, 1.7); }},
+      {"force = vector(0.4 N * sin(2 * pi * x / 3 mm) + 1 N * sin(2 * pi * x / 7.7 mm) - 30 N/m * x, 0 N)",
+       [&](double x) { return 0.4 * sine(x, 3) + sine(x, 7.7); }}};
+  for (const Case& each : cases) {
+    int changes = 0;
+    double before = 0;
+    for (double x = -70; x < 70; x += 0.002) {
+      const double force = each.force(x);
+      if (std::abs(force) < 0.05 * 1.4) continue;
+      changes += before * force < 0;
+      before = force;
+    }
+    const double truth = changes / 0.14;
+    EXPECT_NEAR(relief_of(pushing(each.physical)).transitions, truth, 0.15 * truth) << each.physical;
+  }
+  // A force of noise has about as many zeros as its own lattice has cells; a height of it, as many as its slope.
+  const double cells = relief_of(pushing("force = vector(1 N * noise2(x / 2 mm, y / 2 mm), 0 N)")).transitions;
+  EXPECT_GT(cells, 200);
+  EXPECT_LT(cells, 500);
 }
 
 TEST(Reading, TheOrientationIsTheDirectionInWhichATextureChanges) {
