@@ -83,10 +83,29 @@ Measured measured(const Bank& bank, const Declarations& declarations) {
 
 /// The proved bounds of the force.
 void describe_bounds(Description& description, const Program& program) {
+  constexpr float lasting = 1e9f;    // s, thirty years: a time at which formulas still give numbers
+  constexpr double rounding = 1e-6;  // of a ceiling
   description.bound = force_bound(program);
-  const Proof proof = prove(program);
+  Domain domain = whole_domain(program.description());
+  domain[Input::time] = Interval::between(0, lasting);
+  Proof proof = prove(program, domain);
+  for (const std::size_t axis : {0, 1}) {
+    Interval& asked = proof.unlimited[axis];
+    // A force that a limit cuts is as large as the limit, so a smaller bound shows that the limit cuts none.
+    const double most = description.bound.axis_newton[axis];
+    if (most < proof.ceiling[axis].low * (1 - rounding) && most < asked.largest())
+      asked = Interval::between(static_cast<float>(-most), static_cast<float>(most), asked.maybe_nan);
+  }
   description.limit_matters = proof.limit_matters(0) || proof.limit_matters(1);
   description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
+}
+
+/// A face cannot be stiffer than the steepest slope of the force, which is exact; a face is fitted to samples.
+void settle_stiffness(Description& description) {
+  const Grade& grade = description.grade;
+  if (!description.wall || grade.jumps || grade.standing == Standing::not_analysed) return;
+  double& stiffness = description.wall->face.stiffness;
+  stiffness = std::min(stiffness, grade.stiffness);
 }
 
 /// The force, the stability of the loop, and the percepts and the texture that the force shows.
@@ -116,6 +135,7 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
   if (texture == Texture::left_out) return;
   tell_settings(description.percepts, bank, found, declarations);
   describe_extracted(description, bank, found, declarations);
+  settle_stiffness(description);
 }
 
 /// The shaking of a pad.

@@ -63,8 +63,7 @@ std::vector<std::string> reading_lines(const DescribedPercept& percept, const De
                            percept.amplitude, percept.unit, percept.magnitude));
   lines.push_back(people_line(percept));
   if (!percept.readable && !description.shaking)
-    lines.push_back(
-        readable("not read but aimed at: `{}` cuts the forces, which hides it", description.device.name));
+    lines.push_back(readable("not read but aimed at: `{}` cuts the forces, which hides it", description.device.name));
   if (percept.near_threshold) lines.emplace_back("near or below threshold");
   if (percept.saturated)
     lines.push_back(
@@ -216,9 +215,11 @@ void write_texture(std::string& text, const Description& description) {
 std::string bound_lines(const Description& description) {
   const ForceBound& bound = description.bound;
   std::string line;
-  if (bound.found.newton > 0)
-    line = readable("  the proved bound is {:.2f} times the largest force found ({:.3f} N)\n", bound.ratio(),
-                    bound.found.newton);
+  if (bound.found.newton >= 0.5 * description.device.force_step())
+    line = readable(
+        "  over all parameters, sizes of the patch and hands, the largest force found is {:.3f} N; the proved bound is "
+        "{:.2f} times that\n",
+        bound.found.newton, bound.ratio());
   if (!description.limit_matters) return line;
   const double most = description.device.force_newton, asked = description.asked.largest();
   if (asked > most)
@@ -234,7 +235,8 @@ std::string bound_lines(const Description& description) {
 void write_pushing(std::string& text, const Description& description) {
   text += readable("\npushes\n  {:.3f} N at most with these parameters; with any, never more than {:.3f} N (proved)\n",
                    description.force.max_newton, description.bound.newton);
-  text += readable("  on a hand at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n", description.force.p99_newton,
+  text += readable("  on a hand at rest, over the patch{}: P99 {:.3f} N, RMS {:.3f} N\n",
+                   description.force.over_time ? " and time" : "", description.force.p99_newton,
                    description.force.rms_newton);
   if (const auto& wall = description.wall)
     text +=

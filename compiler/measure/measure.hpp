@@ -7,10 +7,12 @@ namespace wale {
 
 /// The forces of a program, found by running it at many hands over its patch; N.
 struct Measured {
-  float max_newton = 0;  ///< the largest |force| found, at rest or moving up to the device's speed limit
-  float p99_newton = 0;  ///< 99th percentile of |force| over the patch less its rim, at rest
-  float rms_newton = 0;  ///< root mean square of the same
-  bool flat = false;     ///< a texture without slope: a peak of zero, so that it cannot push
+  float max_newton = 0;    ///< the largest |force| found, at rest or moving up to the device's speed limit
+  float less_rim = 0;      ///< the same without the patch's rim, where heights fade
+  float p99_newton = 0;    ///< 99th percentile of |force| over the patch less its rim, at rest
+  float rms_newton = 0;    ///< root mean square of the same
+  bool over_time = false;  ///< both are also over a second, since the force on a hand at rest changes with time
+  bool flat = false;       ///< a texture without slope: a peak of zero, so that it cannot push
 };
 
 /// Runs the program at this bank's parameters. Deterministic; about a millisecond.

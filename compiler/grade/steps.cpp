@@ -1,0 +1,380 @@
+#include "compiler/grade/steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace wale {
+namespace {
+
+constexpr std::size_t most_switches = 64;  // of a program that are followed
+constexpr std::size_t switch_seeds = 2048, seeds_in_all = 2048, fewest_seeds = 24;
+constexpr int approaches = 8;             // steps of Newton's method to the line of a switch
+constexpr double near_line = 0.2;         // of a step: the distance at which a hand is on the line
+constexpr double seeds_apart = 3.0 / 64;  // of the patch's half extent: one and a half distances between seeds
+constexpr std::size_t lines = 16, most_intervals = 512, bisected_intervals = 48;
+constexpr int halvings_of_step = 6;
+constexpr double most_at_once = 0.5;  // of a step's change: a smooth one has a 64th of it
+constexpr std::size_t steps_kept = 8;
+constexpr std::size_t climbers_along = 6;  // steps from which larger ones are searched along the line of their switch
+constexpr int climbs_along = 8;            // each half as far as the one before
+
+void move(Hand& hand, const SteppedQuantity& quantity, std::size_t axis, double by) {
+  (hand.*quantity.value)[static_cast<int>(axis)] += static_cast<float>(by);
+  if (quantity.value == &Hand::position) hand.workspace[static_cast<int>(axis)] += static_cast<float>(by);
+}
+
+/// Keeps a step around the hand within the quantity's reach.
+void keep_in_reach(Hand& hand, const SteppedQuantity& quantity) {
+  const glm::vec2 most =
+      glm::max(quantity.reach - glm::vec2(static_cast<float>(0.51 * quantity.step)), glm::vec2(0.0f));
+  const glm::vec2 before = hand.*quantity.value, kept = glm::clamp(before, -most, most);
+  hand.*quantity.value = kept;
+  if (quantity.value == &Hand::position) hand.workspace += kept - before;
+}
+
+/// What a node switches on: a function that is 0 where it changes, and the node that has the same derivatives.
+struct Switch {
+  NodeId zero, derived;
+};
+
+std::optional<Switch> switch_of(Graph& graph, NodeId id) {
+  const Node node = graph[id];  // a copy: the graph grows
+  if (node.kind != Node::Kind::operation) return std::nullopt;
+  const auto same = [](NodeId of) { return Switch{of, of}; };
+  switch (node.operation) {
+    case Operation::less: return same(graph.apply(Operation::subtract, node.a, node.b));
+    case Operation::divide: return same(node.b);
+    case Operation::select:
+    case Operation::arctangent: return same(node.a);
+    case Operation::floor: {
+      const NodeId nearest = graph.apply(Operation::floor, graph.apply(Operation::add, node.a, graph.constant(0.5f)));
+      return Switch{graph.apply(Operation::subtract, node.a, nearest), node.a};
+    }
+    default: return std::nullopt;
+  }
+}
+
+/// For each node, whether the force depends on it.
+std::vector<char> needed_for_force(const LiftedTick& lifted) {
+  std::vector<char> needed(lifted.graph.size());
+  for (const NodeId force : lifted.force) needed[force] = true;
+  for (auto id = static_cast<NodeId>(lifted.graph.size()); id-- > 0;)
+    if (needed[id])
+      for (const NodeId operand : lifted.graph.operands(id)) needed[operand] = true;
+  return needed;
+}
+
+void largest_first(std::vector<ForceStep>& steps) {
+  std::ranges::stable_sort(steps, [](const ForceStep& a, const ForceStep& b) { return a.newton() > b.newton(); });
+}
+
+}  // namespace
+
+std::array<SteppedQuantity, 3> stepped_quantities(const DeviceProfile& device, glm::vec2 extent, double speed) {
+  const double count = device.position_step(), window = std::max(1.0, device.velocity_window);
+  const glm::vec2 fast(static_cast<float>(speed));
+  return {{{&HandSlopes::place, &Hand::position, {Input::x, Input::y}, count, extent},
+           {&HandSlopes::velocity,
+            &Hand::velocity,
+            {Input::velocity_x, Input::velocity_y},
+            count * device.rate / window,
+            fast},
+           {&HandSlopes::raw_velocity,
+            &Hand::raw_velocity,
+            {Input::raw_velocity_x, Input::raw_velocity_y},
+            count * device.rate,
+            fast}}};
+}
+
+double ForceStep::newton() const { return glm::length(change); }
+bool ForceStep::jumps() const { return at_once > most_at_once * newton(); }
+
+void StepSearch::Hands::add(const Hand& hand, std::span<const float> of_it, std::size_t axis, std::size_t which) {
+  hands.push_back(hand);
+  states.insert(states.end(), of_it.begin(), of_it.end());
+  axes.push_back(axis);
+  switches.push_back(which);
+}
+
+StepSearch::StepSearch(const Bank& bank, ProgramSlopes& slopes)
+    : bank_(bank), slopes_(slopes), state_count_(bank.program().description().states.size()), lifted_(lift(bank)) {
+  force_.emplace(lifted_.graph, lifted_.force, bank_);
+}
+
+std::span<const float> StepSearch::states_of(std::span<const float> states, std::size_t hand) const {
+  return states.subspan(hand * state_count_, state_count_);
+}
+
+std::vector<glm::dvec2> StepSearch::forces(std::span<const Hand> hands, std::span<const float> states) {
+  force_->evaluate(hands, states, values_);
+  std::vector<glm::dvec2> all(hands.size());
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    all[i] = {values_[i], values_[hands.size() + i]};
+    if (!std::isfinite(all[i].x) || !std::isfinite(all[i].y)) all[i] = {0, 0};
+  }
+  return all;
+}
+
+/// Finds the switches that the force and this quantity meet in; false if there are none.
+bool StepSearch::find_switches(const SteppedQuantity& quantity) {
+  Graph& graph = lifted_.graph;
+  const std::vector<char> needed = needed_for_force(lifted_);
+  const auto by = [&](std::size_t axis) {
+    return quantity.value == &Hand::position ? Derivatives::place(static_cast<int>(axis))
+                                             : Derivatives::By{.inputs = {quantity.inputs[axis]}, .state = {}};
+  };
+  Derivatives along_x(graph, by(0), 1.0f / 16), along_y(graph, by(1), 1.0f / 16);
+  std::vector<NodeId> roots;
+  switch_count_ = 0;
+  for (NodeId id = 0; id < needed.size() && switch_count_ < most_switches; ++id) {
+    if (!needed[id]) continue;
+    const auto changes = switch_of(graph, id);
+    if (!changes) continue;
+    const NodeId x = along_x(changes->derived), y = along_y(changes->derived);
+    if (graph.is_zero(x) && graph.is_zero(y)) continue;
+    roots.insert(roots.end(), {changes->zero, x, y});
+    ++switch_count_;
+  }
+  if (switch_count_ == 0) return false;
+  switches_.emplace(graph, roots, bank_);
+  return switches_->fits();
+}
+
+/// The way to the line of a switch from a hand of the last evaluation, to first order; nothing where it is level.
+std::optional<glm::dvec2> StepSearch::way(std::size_t which, std::size_t hand, std::size_t count) const {
+  const auto value = [&](std::size_t root) { return static_cast<double>(values_[(3 * which + root) * count + hand]); };
+  const glm::dvec2 slope(value(1), value(2));
+  const double squares = glm::dot(slope, slope), zero = value(0);
+  if (!(squares > 0) || !std::isfinite(squares) || !std::isfinite(zero)) return std::nullopt;
+  return slope * (-zero / squares);
+}
+
+/// Some of the hands that are near the line of a switch, for each switch.
+StepSearch::Hands StepSearch::near_switches(const SteppedQuantity& quantity, std::span<const Hand> hands,
+                                            std::span<const float> states) {
+  const double reach = seeds_apart * std::max(quantity.reach.x, quantity.reach.y);
+  const std::size_t every = std::max<std::size_t>(1, hands.size() / switch_seeds);
+  Hands some, seeds;
+  for (std::size_t i = 0; i < hands.size(); i += every) some.add(hands[i], states_of(states, i), 0);
+  switches_->evaluate(some.hands, some.states, values_);
+  const std::size_t most = std::max(fewest_seeds, seeds_in_all / switch_count_);
+  for (std::size_t which = 0; which < switch_count_; ++which) {
+    std::vector<std::size_t> near;
+    for (std::size_t i = 0; i < some.hands.size(); ++i)
+      if (const auto step = way(which, i, some.hands.size()); step && glm::length(*step) < reach) near.push_back(i);
+    const std::size_t count = std::min(most, near.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t hand = near[i * near.size() / count];
+      seeds.add(some.hands[hand], states_of(some.states, hand), 0, which);
+    }
+  }
+  return seeds;
+}
+
+/// The hands that Newton's method brings onto the line of their switch.
+StepSearch::Hands StepSearch::on_lines_of_switches(const SteppedQuantity& quantity, Hands seeds) {
+  const double reach = seeds_apart * std::max(quantity.reach.x, quantity.reach.y);
+  Hands found;
+  for (int round = 0; round < approaches && !seeds.hands.empty(); ++round) {
+    switches_->evaluate(seeds.hands, seeds.states, values_);
+    const std::size_t count = seeds.hands.size();
+    Hands left;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto step = way(seeds.switches[i], i, count);
+      if (!step || glm::length(*step) > reach) continue;
+      const std::size_t axis = std::abs(step->y) > std::abs(step->x) ? 1 : 0;
+      Hand hand = seeds.hands[i];
+      const bool there = glm::length(*step) < near_line * quantity.step;
+      move(hand, quantity, 0, step->x), move(hand, quantity, 1, step->y);
+      keep_in_reach(hand, quantity);
+      (there ? found : left).add(hand, states_of(seeds.states, i), axis, seeds.switches[i]);
+    }
+    seeds = std::move(left);
+  }
+  return found;
+}
+
+/// The steps on the lines of switches, and larger ones further along the lines of the largest.
+std::vector<ForceStep> StepSearch::at_switches(const SteppedQuantity& quantity, std::span<const Hand> hands,
+                                               std::span<const float> states) {
+  if (!find_switches(quantity)) return {};
+  std::vector<ForceStep> steps =
+      measured(quantity, on_lines_of_switches(quantity, near_switches(quantity, hands, states)));
+  largest_first(steps);
+  double along = seeds_apart * std::max(quantity.reach.x, quantity.reach.y);
+  for (int climb = 0; climb < climbs_along && !steps.empty(); ++climb, along /= 2) {
+    Hands tried;
+    for (std::size_t i = 0; i < std::min(climbers_along, steps.size()); ++i)
+      for (const double way : {-along, along}) {
+        Hand hand = steps[i].hand;
+        move(hand, quantity, 1 - steps[i].axis, way);
+        keep_in_reach(hand, quantity);
+        tried.add(hand, steps[i].states, 0, steps[i].which);
+      }
+    for (ForceStep& step : measured(quantity, on_lines_of_switches(quantity, std::move(tried))))
+      steps.push_back(std::move(step));
+    largest_first(steps);
+  }
+  return steps;
+}
+
+/// Halves intervals of this width, which begin at the hands `low`, down to one step; keeps the half whose change the
+/// slopes explain less. Returns the hands in the middle.
+StepSearch::Hands StepSearch::bisected(const SteppedQuantity& quantity, Hands low, float width) {
+  const bool has_slopes = quantity.value == &Hand::position;
+  const std::size_t count = low.hands.size();
+  for (; width > 1.001 * quantity.step; width /= 2) {
+    Hands three;
+    for (int end = 0; end < 3; ++end)
+      for (std::size_t i = 0; i < count; ++i) {
+        Hand hand = low.hands[i];
+        move(hand, quantity, low.axes[i], 0.5 * end * width);
+        three.add(hand, states_of(low.states, i), low.axes[i]);
+      }
+    const auto at = has_slopes ? slopes_.by_place(three.hands, three.states) : std::vector<ProgramSlopes::ByPlace>{};
+    const auto force = has_slopes ? std::vector<glm::dvec2>{} : forces(three.hands, three.states);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto unexplained = [&](std::size_t half) {
+        const std::size_t a = half * count + i, b = a + count;
+        if (!has_slopes) return glm::length(force[b] - force[a]);
+        const std::size_t axis = low.axes[i];
+        const glm::dvec2 slope(at[a].place[0][axis] + at[b].place[0][axis],
+                               at[a].place[1][axis] + at[b].place[1][axis]);
+        return glm::length(at[b].force - at[a].force - 0.25 * width * slope);
+      };
+      if (unexplained(1) > unexplained(0)) move(low.hands[i], quantity, low.axes[i], 0.5 * width);
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) move(low.hands[i], quantity, low.axes[i], 0.5 * width);
+  return low;
+}
+
+/// Hands in the middle of the steps that lines along both axes through some of the hands lead to.
+StepSearch::Hands StepSearch::on_lines(const SteppedQuantity& quantity, std::span<const Hand> hands,
+                                       std::span<const float> states) {
+  const bool has_slopes = quantity.value == &Hand::position;
+  const float longest = 2 * std::max(quantity.reach.x, quantity.reach.y);
+  const auto intervals = static_cast<std::size_t>(
+      std::clamp(std::ceil(longest / quantity.step), 1.0, static_cast<double>(most_intervals)));
+  struct Interval {
+    std::size_t line, number;
+    double unexplained;
+  };
+  std::vector<Interval> found;
+  Hands along;  // all hands of all lines, line by line
+  for (std::size_t line = 0; line < 2 * lines; ++line) {
+    const std::size_t base = (line / 2) * hands.size() / lines, axis = line % 2;
+    for (std::size_t i = 0; i <= intervals; ++i) {
+      Hand hand = hands[base];
+      const float half = quantity.reach[static_cast<int>(axis)];
+      const float at = half * (2 * static_cast<float>(i) / static_cast<float>(intervals) - 1);
+      move(hand, quantity, axis, at - (hand.*quantity.value)[static_cast<int>(axis)]);
+      along.add(hand, states_of(states, base), axis);
+    }
+  }
+  const auto at = has_slopes ? slopes_.by_place(along.hands, along.states) : std::vector<ProgramSlopes::ByPlace>{};
+  const auto force = has_slopes ? std::vector<glm::dvec2>{} : forces(along.hands, along.states);
+  for (std::size_t line = 0; line < 2 * lines; ++line)
+    for (std::size_t i = 0; i < intervals; ++i) {
+      const std::size_t a = line * (intervals + 1) + i, b = a + 1, axis = line % 2;
+      double beyond = 0;
+      if (has_slopes) {
+        const double width = 2.0 * quantity.reach[static_cast<int>(axis)] / static_cast<double>(intervals);
+        const glm::dvec2 slope(at[a].place[0][axis] + at[b].place[0][axis],
+                               at[a].place[1][axis] + at[b].place[1][axis]);
+        beyond = glm::length(at[b].force - at[a].force - 0.5 * width * slope);
+      } else {
+        beyond = glm::length(force[b] - force[a]);
+      }
+      if (std::isfinite(beyond) && beyond > 0) found.push_back({line, i, beyond});
+    }
+  const std::size_t kept = std::min(bisected_intervals, found.size());
+  std::ranges::partial_sort(found, found.begin() + static_cast<std::ptrdiff_t>(kept),
+                            [](const Interval& a, const Interval& b) {
+                              if (a.unexplained != b.unexplained) return a.unexplained > b.unexplained;
+                              return a.line != b.line ? a.line < b.line : a.number < b.number;
+                            });
+  found.resize(kept);
+  // Each axis has intervals of its own width.
+  Hands middles;
+  for (const std::size_t axis : {0, 1}) {
+    Hands low;
+    for (const Interval& each : found)
+      if (each.line % 2 == axis) {
+        const std::size_t a = each.line * (intervals + 1) + each.number;
+        low.add(along.hands[a], states_of(along.states, a), axis);
+      }
+    if (low.hands.empty()) continue;
+    const float width = 2 * quantity.reach[static_cast<int>(axis)] / static_cast<float>(intervals);
+    const Hands some = bisected(quantity, std::move(low), width);
+    for (std::size_t i = 0; i < some.hands.size(); ++i) middles.add(some.hands[i], states_of(some.states, i), axis);
+  }
+  for (Hand& hand : middles.hands) keep_in_reach(hand, quantity);
+  return middles;
+}
+
+/// The change over one step around each hand along its axis.
+std::vector<ForceStep> StepSearch::measured(const SteppedQuantity& quantity, const Hands& middles) {
+  const std::size_t count = middles.hands.size();
+  std::vector<Hand> low = middles.hands;
+  double width = quantity.step;
+  for (std::size_t i = 0; i < count; ++i) move(low[i], quantity, middles.axes[i], -0.5 * width);
+  std::vector<ForceStep> steps(count);
+  std::vector<Hand> three;
+  std::vector<float> their_states;
+  for (int end = 0; end < 3; ++end)
+    their_states.insert(their_states.end(), middles.states.begin(), middles.states.end());
+  for (int halving = 0; halving < halvings_of_step && count > 0; ++halving, width /= 2) {
+    three.clear();
+    for (int end = 0; end < 3; ++end)
+      for (std::size_t i = 0; i < count; ++i) {
+        Hand& hand = three.emplace_back(low[i]);
+        move(hand, quantity, middles.axes[i], 0.5 * end * width);
+      }
+    const auto force = forces(three, their_states);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (halving == 0) {
+        steps[i].hand = middles.hands[i], steps[i].axis = middles.axes[i], steps[i].which = middles.switches[i];
+        const auto states = states_of(middles.states, i);
+        steps[i].states.assign(states.begin(), states.end());
+        steps[i].change = force[2 * count + i] - force[i];
+      }
+      const double first = glm::length(force[count + i] - force[i]),
+                   second = glm::length(force[2 * count + i] - force[count + i]);
+      if (second > first) low[i] = three[count + i];
+      steps[i].at_once = std::max(first, second);
+    }
+  }
+  return steps;
+}
+
+std::vector<ForceStep> StepSearch::largest(const SteppedQuantity& quantity, std::span<const Hand> hands,
+                                           std::span<const float> states) {
+  if (!force_->fits() || hands.empty() || !(quantity.step > 0)) return {};
+  std::vector<ForceStep> steps = at_switches(quantity, hands, states);
+  for (ForceStep& step : measured(quantity, on_lines(quantity, hands, states))) steps.push_back(std::move(step));
+  largest_first(steps);
+  // Of the smooth and of the sudden ones alike.
+  std::vector<ForceStep> kept;
+  std::array<std::size_t, 2> counts{};
+  for (ForceStep& step : steps)
+    if (step.newton() > 0 && counts[step.jumps()]++ < steps_kept) kept.push_back(std::move(step));
+  return kept;
+}
+
+std::vector<ForceStep> StepSearch::around(const SteppedQuantity& quantity, std::span<const Hand> hands,
+                                          std::span<const float> states) {
+  if (!force_->fits()) return {};
+  Hands both;
+  for (std::size_t i = 0; i < hands.size(); ++i)
+    for (const std::size_t axis : {0, 1}) {
+      Hand hand = hands[i];
+      keep_in_reach(hand, quantity);
+      both.add(hand, states_of(states, i), axis);
+    }
+  return measured(quantity, both);
+}
+
+}  // namespace wale
