@@ -152,8 +152,11 @@ double curl_watt(const Bank& bank, const LookedAt& looked_at, std::span<const Fo
     for (std::size_t i = 0; i < circled; ++i) centres.push_back(looked_at.hands[i].position);
   for (const ForceStep& step : jumps)
     if (step.jumps()) centres.push_back(step.hand.position);
-  if (centres.empty()) return on_tiles;
-  return std::max(on_tiles, strongest_circle(bank, centres, hand, least_watt));
+  if (on_tiles > 0) centres.emplace_back(0.0f);
+  if (centres.empty()) return 0;
+  // The mean over a tile tells less than a circle, but finds a weak curl under a strong texture.
+  const double on_circles = strongest_circle(bank, centres, hand, least_watt);
+  return on_circles > 0 ? on_circles : on_tiles;
 }
 
 }  // namespace wale

@@ -22,6 +22,7 @@ namespace {
 using std::numbers::pi;
 constexpr std::size_t candidates = 12;       // of each kind: hands whose required damping is computed
 constexpr std::size_t hands_at_once = 1024;  // evaluated at once, so that their values fit into the cache
+constexpr double steeper = 1.01;             // than the steepest slope found: less is rounding
 constexpr double share_of_hand = 0.01;  // of the power that the hand absorbs at its pace; smaller powers are ignored
 constexpr double share_of_work = 0.01;  // of the energy in both directions; smaller net energy is rounding
 constexpr double sharp_over_step =
@@ -149,7 +150,7 @@ class Grader {
     for (ForceStep& step : search.around(place, steepest_.hands, steepest_.states)) steps_.push_back(std::move(step));
     for (const ForceStep& step : steps_) {
       if (step.newton() > grade_.step_newton) grade_.step_newton = step.newton(), worst_step_ = step.hand;
-      grade_.jumps = grade_.jumps || (step.jumps() && step.at_once > device_.force_step());
+      grade_.jumps = grade_.jumps || (step.jumps() && step.newton() > device_.force_step());
     }
     find_finest_period();
     const double count = device_.position_step();
@@ -160,7 +161,7 @@ class Grader {
     }
     // A smooth step between the hands of the lattice is steeper than these.
     for (const ForceStep& step : steps_)
-      if (!step.jumps() && step.newton() / count > grade_.stiffness) {
+      if (!step.jumps() && step.newton() > device_.force_step() && step.newton() / count > steeper * grade_.stiffness) {
         grade_.stiffness = step.newton() / count;
         grade_.stiffest = {step.hand.position, step.hand.velocity};
       }
@@ -326,10 +327,9 @@ class Grader {
       grade_.required_damping = damping;
       grade_.worst = {step.hand.position, step.hand.velocity};
     }
-    // Across a jump the sampled loop sees the slope between two counts.
-    if (!grade_.jumps) return true;
+    // Across a jump or a steep step the sampled loop sees the slope between two counts.
     const double across = grade_.step_newton / device_.position_step() * (timing.period / 2 + timing.latest());
-    if (across <= grade_.required_damping) return true;
+    if (across <= steeper * grade_.required_damping) return true;
     grade_.required_damping = across;
     grade_.worst = {worst_step_.position, worst_step_.velocity};
     return true;

@@ -13,9 +13,11 @@ constexpr std::size_t switch_seeds = 2048, seeds_in_all = 2048, fewest_seeds = 2
 constexpr int approaches = 8;             // steps of Newton's method to the line of a switch
 constexpr double near_line = 0.2;         // of a step: the distance at which a hand is on the line
 constexpr double seeds_apart = 3.0 / 64;  // of the patch's half extent: one and a half distances between seeds
+constexpr double steps_with_memory = 8;   // in a tick of a brisk hand
 constexpr std::size_t lines = 16, most_intervals = 512, bisected_intervals = 48;
 constexpr int halvings_of_step = 6;
-constexpr double most_at_once = 0.5;  // of a step's change: a smooth one has a 64th of it
+constexpr double halved_width = 1.1;  // of a step: the bracket that is halved
+constexpr double most_at_once = 0.5;  // of a step's change: a smooth one has a twentieth of it
 constexpr std::size_t steps_kept = 8;
 constexpr std::size_t climbers_along = 6;  // steps from which larger ones are searched along the line of their switch
 constexpr int climbs_along = 8;            // each half as far as the one before
@@ -27,8 +29,7 @@ void move(Hand& hand, const SteppedQuantity& quantity, std::size_t axis, double 
 
 /// Keeps a step around the hand within the quantity's reach.
 void keep_in_reach(Hand& hand, const SteppedQuantity& quantity) {
-  const glm::vec2 most =
-      glm::max(quantity.reach - glm::vec2(static_cast<float>(0.51 * quantity.step)), glm::vec2(0.0f));
+  const glm::vec2 most = glm::max(quantity.reach - glm::vec2(static_cast<float>(0.6 * quantity.step)), glm::vec2(0.0f));
   const glm::vec2 before = hand.*quantity.value, kept = glm::clamp(before, -most, most);
   hand.*quantity.value = kept;
   if (quantity.value == &Hand::position) hand.workspace += kept - before;
@@ -89,7 +90,7 @@ std::array<SteppedQuantity, 3> stepped_quantities(const DeviceProfile& device, g
 }
 
 double ForceStep::newton() const { return glm::length(change); }
-bool ForceStep::jumps() const { return at_once > most_at_once * newton(); }
+bool ForceStep::jumps() const { return at_once > most_at_once * std::max(newton(), both_ways); }
 
 void StepSearch::Hands::add(const Hand& hand, std::span<const float> of_it, std::size_t axis, std::size_t which) {
   hands.push_back(hand);
@@ -151,10 +152,16 @@ std::optional<glm::dvec2> StepSearch::way(std::size_t which, std::size_t hand, s
   return slope * (-zero / squares);
 }
 
+/// How far from a hand the line of a switch may be. A hand whose program remembers cannot be anywhere else at once.
+double StepSearch::approach_from(const SteppedQuantity& quantity) const {
+  const double apart = seeds_apart * std::max(quantity.reach.x, quantity.reach.y);
+  return state_count_ > 0 ? std::min(apart, steps_with_memory * quantity.step) : apart;
+}
+
 /// Some of the hands that are near the line of a switch, for each switch.
 StepSearch::Hands StepSearch::near_switches(const SteppedQuantity& quantity, std::span<const Hand> hands,
                                             std::span<const float> states) {
-  const double reach = seeds_apart * std::max(quantity.reach.x, quantity.reach.y);
+  const double reach = approach_from(quantity);
   const std::size_t every = std::max<std::size_t>(1, hands.size() / switch_seeds);
   Hands some, seeds;
   for (std::size_t i = 0; i < hands.size(); i += every) some.add(hands[i], states_of(states, i), 0);
@@ -175,7 +182,7 @@ StepSearch::Hands StepSearch::near_switches(const SteppedQuantity& quantity, std
 
 /// The hands that Newton's method brings onto the line of their switch.
 StepSearch::Hands StepSearch::on_lines_of_switches(const SteppedQuantity& quantity, Hands seeds) {
-  const double reach = seeds_apart * std::max(quantity.reach.x, quantity.reach.y);
+  const double reach = approach_from(quantity);
   Hands found;
   for (int round = 0; round < approaches && !seeds.hands.empty(); ++round) {
     switches_->evaluate(seeds.hands, seeds.states, values_);
@@ -203,7 +210,7 @@ std::vector<ForceStep> StepSearch::at_switches(const SteppedQuantity& quantity, 
   std::vector<ForceStep> steps =
       measured(quantity, on_lines_of_switches(quantity, near_switches(quantity, hands, states)));
   largest_first(steps);
-  double along = seeds_apart * std::max(quantity.reach.x, quantity.reach.y);
+  double along = approach_from(quantity);
   for (int climb = 0; climb < climbs_along && !steps.empty(); ++climb, along /= 2) {
     Hands tried;
     for (std::size_t i = 0; i < std::min(climbers_along, steps.size()); ++i)
@@ -251,9 +258,9 @@ StepSearch::Hands StepSearch::bisected(const SteppedQuantity& quantity, Hands lo
   return low;
 }
 
-/// Hands in the middle of the steps that lines along both axes through some of the hands lead to.
-StepSearch::Hands StepSearch::on_lines(const SteppedQuantity& quantity, std::span<const Hand> hands,
-                                       std::span<const float> states) {
+/// Hands in the middle of the steps that lines along both axes through some of the hands lead to, for a program without
+/// states.
+StepSearch::Hands StepSearch::on_lines(const SteppedQuantity& quantity, std::span<const Hand> hands) {
   const bool has_slopes = quantity.value == &Hand::position;
   const float longest = 2 * std::max(quantity.reach.x, quantity.reach.y);
   const auto intervals = static_cast<std::size_t>(
@@ -271,7 +278,7 @@ StepSearch::Hands StepSearch::on_lines(const SteppedQuantity& quantity, std::spa
       const float half = quantity.reach[static_cast<int>(axis)];
       const float at = half * (2 * static_cast<float>(i) / static_cast<float>(intervals) - 1);
       move(hand, quantity, axis, at - (hand.*quantity.value)[static_cast<int>(axis)]);
-      along.add(hand, states_of(states, base), axis);
+      along.add(hand, {}, axis);
     }
   }
   const auto at = has_slopes ? slopes_.by_place(along.hands, along.states) : std::vector<ProgramSlopes::ByPlace>{};
@@ -304,12 +311,12 @@ StepSearch::Hands StepSearch::on_lines(const SteppedQuantity& quantity, std::spa
     for (const Interval& each : found)
       if (each.line % 2 == axis) {
         const std::size_t a = each.line * (intervals + 1) + each.number;
-        low.add(along.hands[a], states_of(along.states, a), axis);
+        low.add(along.hands[a], {}, axis);
       }
     if (low.hands.empty()) continue;
     const float width = 2 * quantity.reach[static_cast<int>(axis)] / static_cast<float>(intervals);
     const Hands some = bisected(quantity, std::move(low), width);
-    for (std::size_t i = 0; i < some.hands.size(); ++i) middles.add(some.hands[i], states_of(some.states, i), axis);
+    for (const Hand& hand : some.hands) middles.add(hand, {}, axis);
   }
   for (Hand& hand : middles.hands) keep_in_reach(hand, quantity);
   return middles;
@@ -318,35 +325,46 @@ StepSearch::Hands StepSearch::on_lines(const SteppedQuantity& quantity, std::spa
 /// The change over one step around each hand along its axis.
 std::vector<ForceStep> StepSearch::measured(const SteppedQuantity& quantity, const Hands& middles) {
   const std::size_t count = middles.hands.size();
-  std::vector<Hand> low = middles.hands;
-  double width = quantity.step;
-  for (std::size_t i = 0; i < count; ++i) move(low[i], quantity, middles.axes[i], -0.5 * width);
   std::vector<ForceStep> steps(count);
   std::vector<Hand> three;
   std::vector<float> their_states;
   for (int end = 0; end < 3; ++end)
     their_states.insert(their_states.end(), middles.states.begin(), middles.states.end());
-  for (int halving = 0; halving < halvings_of_step && count > 0; ++halving, width /= 2) {
+  /// The forces at the beginnings, middles and ends of brackets.
+  const auto across = [&](const std::vector<Hand>& low, double width) {
     three.clear();
     for (int end = 0; end < 3; ++end)
-      for (std::size_t i = 0; i < count; ++i) {
-        Hand& hand = three.emplace_back(low[i]);
-        move(hand, quantity, middles.axes[i], 0.5 * end * width);
-      }
-    const auto force = forces(three, their_states);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (halving == 0) {
-        steps[i].hand = middles.hands[i], steps[i].axis = middles.axes[i], steps[i].which = middles.switches[i];
-        const auto states = states_of(middles.states, i);
-        steps[i].states.assign(states.begin(), states.end());
-        steps[i].change = force[2 * count + i] - force[i];
-      }
-      const double first = glm::length(force[count + i] - force[i]),
-                   second = glm::length(force[2 * count + i] - force[count + i]);
-      if (second > first) low[i] = three[count + i];
-      steps[i].at_once = std::max(first, second);
-    }
+      for (std::size_t i = 0; i < count; ++i)
+        move(three.emplace_back(low[i]), quantity, middles.axes[i], 0.5 * end * width);
+    return forces(three, their_states);
+  };
+  std::vector<Hand> low = middles.hands;
+  for (std::size_t i = 0; i < count; ++i) move(low[i], quantity, middles.axes[i], -0.5 * quantity.step);
+  auto force = across(low, quantity.step);
+  for (std::size_t i = 0; i < count; ++i) {
+    steps[i].hand = middles.hands[i], steps[i].axis = middles.axes[i], steps[i].which = middles.switches[i];
+    const auto states = states_of(middles.states, i);
+    steps[i].states.assign(states.begin(), states.end());
+    steps[i].change = force[2 * count + i] - force[i];
+    steps[i].both_ways =
+        glm::length(force[2 * count + i] - force[count + i]) + glm::length(force[count + i] - force[i]);
   }
+  // A jump is often in the very middle of a step, where the halves of a bracket must not end.
+  double width = halved_width * quantity.step;
+  for (std::size_t i = 0; i < count; ++i) move(low[i], quantity, middles.axes[i], -0.3 * (width - quantity.step));
+  for (int halving = 0; halving < halvings_of_step; ++halving, width /= 2) {
+    force = across(low, width);
+    for (std::size_t i = 0; i < count; ++i)
+      if (glm::length(force[2 * count + i] - force[count + i]) > glm::length(force[count + i] - force[i]))
+        low[i] = three[count + i];
+  }
+  // Across what is left, since a spike as wide as a float is no jump, and `sign` has a value of its own at 0.
+  std::vector<Hand> ends;
+  for (const double end : {-1.0, 2.0})
+    for (std::size_t i = 0; i < count; ++i) move(ends.emplace_back(low[i]), quantity, middles.axes[i], end * width);
+  their_states.resize(2 * middles.states.size());
+  force = forces(ends, their_states);
+  for (std::size_t i = 0; i < count; ++i) steps[i].at_once = glm::length(force[count + i] - force[i]);
   return steps;
 }
 
@@ -354,7 +372,8 @@ std::vector<ForceStep> StepSearch::largest(const SteppedQuantity& quantity, std:
                                            std::span<const float> states) {
   if (!force_->fits() || hands.empty() || !(quantity.step > 0)) return {};
   std::vector<ForceStep> steps = at_switches(quantity, hands, states);
-  for (ForceStep& step : measured(quantity, on_lines(quantity, hands, states))) steps.push_back(std::move(step));
+  if (state_count_ == 0)
+    for (ForceStep& step : measured(quantity, on_lines(quantity, hands))) steps.push_back(std::move(step));
   largest_first(steps);
   // Of the smooth and of the sudden ones alike.
   std::vector<ForceStep> kept;

@@ -32,7 +32,8 @@ struct ForceStep {
   std::size_t axis = 0;
   std::size_t which = 0;   ///< the number of the switch on whose line it was found; 0 for others
   glm::dvec2 change{0.0};  ///< N
-  double at_once = 0;      ///< N: its largest change within a 64th of the step
+  double both_ways = 0;    ///< N: the sizes of its changes over both halves
+  double at_once = 0;      ///< N: its change within a twentieth of the step, where it is largest
 
   double newton() const;
   /// Whether most of it happens within a small part of the step.
@@ -72,12 +73,13 @@ class StepSearch {
 
   std::span<const float> states_of(std::span<const float> states, std::size_t hand) const;
   bool find_switches(const SteppedQuantity& quantity);
+  double approach_from(const SteppedQuantity& quantity) const;
   std::optional<glm::dvec2> way(std::size_t which, std::size_t hand, std::size_t count) const;
   Hands near_switches(const SteppedQuantity& quantity, std::span<const Hand> hands, std::span<const float> states);
   Hands on_lines_of_switches(const SteppedQuantity& quantity, Hands seeds);
   std::vector<ForceStep> at_switches(const SteppedQuantity& quantity, std::span<const Hand> hands,
                                      std::span<const float> states);
-  Hands on_lines(const SteppedQuantity& quantity, std::span<const Hand> hands, std::span<const float> states);
+  Hands on_lines(const SteppedQuantity& quantity, std::span<const Hand> hands);
   Hands bisected(const SteppedQuantity& quantity, Hands low, float width);
   std::vector<ForceStep> measured(const SteppedQuantity& quantity, const Hands& middles);
   std::vector<glm::dvec2> forces(std::span<const Hand> hands, std::span<const float> states);
