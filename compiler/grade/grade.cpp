@@ -22,6 +22,7 @@ namespace {
 using std::numbers::pi;
 constexpr std::size_t candidates = 12;       // of each kind: hands whose required damping is computed
 constexpr std::size_t hands_at_once = 1024;  // evaluated at once, so that their values fit into the cache
+constexpr double share_of_steps = 0.25;      // of the largest step: a smaller jump is not told
 constexpr double steeper = 1.01;             // than the steepest slope found: less is rounding
 constexpr double share_of_hand = 0.01;  // of the power that the hand absorbs at its pace; smaller powers are ignored
 constexpr double share_of_work = 0.01;  // of the energy in both directions; smaller net energy is rounding
@@ -150,9 +151,12 @@ class Grader {
     for (ForceStep& step : search.around(place, steepest_.hands, steepest_.states)) steps_.push_back(std::move(step));
     for (const ForceStep& step : steps_) {
       if (step.newton() > grade_.step_newton) grade_.step_newton = step.newton(), worst_step_ = step.hand;
-      grade_.jumps = grade_.jumps || (step.jumps() && step.newton() > device_.force_step());
     }
     find_finest_period();
+    // A jump that is smaller than other steps, or than the device's own, is not told.
+    const double least = std::max(device_.force_step(), share_of_steps * grade_.step_newton);
+    grade_.jumps = std::ranges::any_of(
+        steps_, [&](const ForceStep& step) { return step.jumps() && std::min(step.at_once, step.newton()) > least; });
     const double count = device_.position_step();
     // A tip that is sharper than one count cannot be felt: the loop sees only the difference between two counts.
     if (grade_.stiffness * count > sharp_over_step * grade_.step_newton) {
