@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "compiler/check/follow_on.hpp"
 #include "compiler/emit/emit.hpp"
@@ -149,7 +150,8 @@ void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const S
   const bool says_so = is_zero(solved.force[0]) && is_zero(solved.force[1]);
   const auto& asked = material.percepts;
   const bool asks_for_none = std::ranges::any_of(asked, [](const AskedPercept& each) { return each.level == 0; });
-  const double least = 0.5 * solved.device.force_step();
+  // A percept that was asked for, and of which cancelling forces leave nothing, has a warning of its own (W0425).
+  const double least = asked.empty() ? 0.5 * solved.device.force_step() : std::numeric_limits<double>::min();
   if (measured.less_rim >= least || says_so || asks_for_none || depends_on_the_moment(bank.program().description()) ||
       !solved.states.empty() || !solved.memories.empty())
     return;
@@ -291,7 +293,7 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
     warn_of_fast_rates(bank, solved, diagnostics);
   }
   const GradingHand hand = normal_hand(module.declarations());
-  warn_of_undeclared_energy(bank, solved, hand, diagnostics);
+  if (!material->doubted) warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   warn_of_a_device_that_gives_less(solved, diagnostics);
   if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), diagnostics)) {
     PatchProgram confirmed = finished.program->description();

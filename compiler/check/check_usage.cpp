@@ -132,7 +132,10 @@ class AngleReader {
     const Term& term = terms_[id];
     const bool is_operation = term.kind == TermKind::operation;
     if (term.known()) {
-      factors.hertz = factors.hertz || surroundings_.sources.text(term.span).ends_with("Hz");
+      const auto text = surroundings_.sources.text(term.span);
+      factors.hertz = factors.hertz || text.ends_with("Hz");
+      // `2 pi * 900 Hz` is one number by now.
+      if (!divides && text.ends_with("Hz") && text.find("pi") != text.npos) factors.radians = true;
       if (!divides && (is_turn_in_degrees(term.value) || makes_degrees(term.value))) factors.degrees = id;
       if (!divides && is_turn_in_radians(term.value)) factors.radians = true;
       if (!is_turn_in_degrees(term.value) && std::abs(term.value) != 1) ++factors.others;

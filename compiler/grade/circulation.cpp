@@ -53,10 +53,16 @@ void integrate(const Bank& bank, std::span<Circle> circles, std::size_t points) 
   }
 }
 
+/// Half the sides of the patch less its rim, m. In the rim heights fade, and limits at their amplitude give a curl
+/// there that no author means.
+glm::vec2 inside(const Bank& bank) {
+  return 0.5f * glm::vec2(bank.size().width, bank.size().height) - glm::vec2(bank.size().rim);
+}
+
 /// The circle around one of `centres` that gains the most power, W.
 double strongest_circle(const Bank& bank, std::span<const glm::vec2> centres, const GradingHand& hand,
                         double least_watt) {
-  const glm::dvec2 half(0.5 * bank.size().width, 0.5 * bank.size().height);
+  const glm::dvec2 half(inside(bank));
   const double least = fewest_counts_of_radius * bank.program().description().device.position_step();
   std::vector<Circle> circles;
   for (const glm::vec2 centre : centres) {
@@ -99,7 +105,7 @@ struct Curls {
   std::size_t counted = 0;    ///< hands whose curl counts
 };
 
-Curls curls_of(const LookedAt& looked_at, glm::vec2 extent) {
+Curls curls_of(const LookedAt& looked_at, glm::vec2 extent, glm::vec2 less_rim) {
   struct Sum {
     double count = 0, sum = 0, squares = 0;
   };
@@ -120,7 +126,8 @@ Curls curls_of(const LookedAt& looked_at, glm::vec2 extent) {
     sum.count += 1, sum.sum += curl, sum.squares += curl * curl;
     const double steep = steepness(place);
     squares += steep * steep, hands += 1;
-    found.sizes[i] = std::abs(curl);
+    if (std::abs(hand.position.x) < less_rim.x && std::abs(hand.position.y) < less_rim.y)
+      found.sizes[i] = std::abs(curl);
   }
   const double least = share_of_slope * (hands > 0 ? std::sqrt(squares / hands) : 0);
   for (const Sum& sum : sums) {
@@ -143,7 +150,7 @@ Curls curls_of(const LookedAt& looked_at, glm::vec2 extent) {
 double curl_watt(const Bank& bank, const LookedAt& looked_at, std::span<const ForceStep> jumps, const GradingHand& hand,
                  double least_watt) {
   const glm::vec2 extent = 0.5f * glm::vec2(bank.size().width, bank.size().height);
-  const Curls curls = curls_of(looked_at, extent);
+  const Curls curls = curls_of(looked_at, extent, inside(bank));
   const double on_tiles = curls.over_tiles * pi * hand.radius * hand.radius * hand.frequency;
   std::vector<glm::vec2> centres;
   if (curls.counted > 0)

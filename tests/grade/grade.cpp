@@ -39,7 +39,8 @@ TEST_P(SinesOfTheThesis, HaveTheGradeOfTheClosedForms) {
 INSTANTIATE_TEST_SUITE_P(Minsky, SinesOfTheThesis,
                          testing::Values(Stimulus{9, 0.9, 1227, 0.68, 0.0681}, Stimulus{17, 0.7, 2980, 1.66, 0.1646},
                                          Stimulus{41, 0.7, 7188, 3.99, 0.3970}, Stimulus{14, 2.5, 687, 0.38, 0.0383},
-                                         Stimulus{159, 2.5, 7805, 4.34, 0.4352}, Stimulus{194, 10, 2381, 1.32, 0.1329}));
+                                         Stimulus{159, 2.5, 7805, 4.34, 0.4352},
+                                         Stimulus{194, 10, 2381, 1.32, 0.1329}));
 
 TEST(Grade, KnownDampingDecidesBetweenPassiveHandAndUnstable) {
   const std::string wave = "    force = vector(1 N * sin(2 pi * x / 2.5 mm), 0 N)";  // K T / 2 = 1.396 N s/m
