@@ -10,12 +10,15 @@ namespace {
 
 constexpr std::size_t most_switches = 64;  // of a program that are followed
 constexpr std::size_t switch_seeds = 2048, seeds_in_all = 2048, fewest_seeds = 24;
-constexpr int approaches = 8;             // steps of Newton's method to the line of a switch
-constexpr double near_line = 0.2;         // of a step: the distance at which a hand is on the line
+constexpr int approaches = 14;            // steps of Newton's method to the line of a switch
+constexpr double near_line = 0.02;        // of a step: the distance at which a hand is on the line
+constexpr double at_least_near = 0.2;     // of a step: the same after all approaches
 constexpr double seeds_apart = 3.0 / 64;  // of the patch's half extent: one and a half distances between seeds
 constexpr double steps_with_memory = 8;   // in a tick of a brisk hand
 constexpr std::size_t lines = 16, most_intervals = 512, bisected_intervals = 48;
 constexpr int halvings_of_step = 6;
+constexpr std::size_t parts_of_step = 4;
+constexpr double larger = 1.001;      // than the step in the middle: less is rounding
 constexpr double halved_width = 1.1;  // of a step: the bracket that is halved
 constexpr double most_at_once = 0.5;  // of a step's change: a smooth one has a twentieth of it
 constexpr std::size_t steps_kept = 8;
@@ -29,7 +32,7 @@ void move(Hand& hand, const SteppedQuantity& quantity, std::size_t axis, double 
 
 /// Keeps a step around the hand within the quantity's reach.
 void keep_in_reach(Hand& hand, const SteppedQuantity& quantity) {
-  const glm::vec2 most = glm::max(quantity.reach - glm::vec2(static_cast<float>(0.6 * quantity.step)), glm::vec2(0.0f));
+  const glm::vec2 most = glm::max(quantity.reach - glm::vec2(static_cast<float>(1.1 * quantity.step)), glm::vec2(0.0f));
   const glm::vec2 before = hand.*quantity.value, kept = glm::clamp(before, -most, most);
   hand.*quantity.value = kept;
   if (quantity.value == &Hand::position) hand.workspace += kept - before;
@@ -40,20 +43,42 @@ struct Switch {
   NodeId zero, derived;
 };
 
-std::optional<Switch> switch_of(Graph& graph, NodeId id) {
-  const Node node = graph[id];  // a copy: the graph grows
-  if (node.kind != Node::Kind::operation) return std::nullopt;
-  const auto same = [](NodeId of) { return Switch{of, of}; };
+/// Where this node may jump.
+std::vector<Switch> jumps_of(Graph& graph, const Node& node) {
+  const auto whole = [&](NodeId of) {
+    const NodeId nearest = graph.apply(Operation::floor, graph.apply(Operation::add, of, graph.constant(0.5f)));
+    return Switch{graph.apply(Operation::subtract, of, nearest), of};
+  };
   switch (node.operation) {
-    case Operation::less: return same(graph.apply(Operation::subtract, node.a, node.b));
-    case Operation::divide: return same(node.b);
-    case Operation::select:
-    case Operation::arctangent: return same(node.a);
-    case Operation::floor: {
-      const NodeId nearest = graph.apply(Operation::floor, graph.apply(Operation::add, node.a, graph.constant(0.5f)));
-      return Switch{graph.apply(Operation::subtract, node.a, nearest), node.a};
+    case Operation::less: {
+      const NodeId difference = graph.apply(Operation::subtract, node.a, node.b);
+      return {{difference, difference}};
     }
-    default: return std::nullopt;
+    case Operation::divide: return {{node.b, node.b}};
+    case Operation::select:
+    case Operation::arctangent: return {{node.a, node.a}};
+    case Operation::floor: return {whole(node.a)};
+    case Operation::hash: return {whole(node.a), whole(node.b), whole(node.c)};
+    default: return {};
+  }
+}
+
+/// Where the slope of this node may change, or is steepest.
+std::vector<Switch> bends_of(Graph& graph, const Node& node) {
+  const auto equal = [&](NodeId a, NodeId b) {
+    const NodeId difference = graph.apply(Operation::subtract, a, b);
+    return Switch{difference, difference};
+  };
+  switch (node.operation) {
+    case Operation::minimum:
+    case Operation::maximum: return {equal(node.a, node.b)};
+    case Operation::limit: return {equal(graph.apply(Operation::absolute, node.a), node.b)};
+    case Operation::exp2:
+    case Operation::normal:
+    case Operation::absolute:
+    case Operation::square_root:
+    case Operation::log2: return {{node.a, node.a}};
+    default: return {};
   }
 }
 
@@ -65,6 +90,18 @@ std::vector<char> needed_for_force(const LiftedTick& lifted) {
     if (needed[id])
       for (const NodeId operand : lifted.graph.operands(id)) needed[operand] = true;
   return needed;
+}
+
+/// The change of the force over a width (m) along an axis that the slopes at both ends do not explain, N. A slope that
+/// has no number, as that of a step as steep as floats allow, explains nothing.
+double beyond_slopes(const ProgramSlopes::ByPlace& from, const ProgramSlopes::ByPlace& to, std::size_t axis,
+                     double width) {
+  glm::dvec2 beyond = to.force - from.force;
+  for (const auto* end : {&from, &to}) {
+    const glm::dvec2 slope(end->place[0][axis], end->place[1][axis]);
+    if (std::isfinite(slope.x) && std::isfinite(slope.y)) beyond -= 0.5 * width * slope;
+  }
+  return glm::length(beyond);
 }
 
 void largest_first(std::vector<ForceStep>& steps) {
@@ -129,15 +166,17 @@ bool StepSearch::find_switches(const SteppedQuantity& quantity) {
   Derivatives along_x(graph, by(0), 1.0f / 16), along_y(graph, by(1), 1.0f / 16);
   std::vector<NodeId> roots;
   switch_count_ = 0;
-  for (NodeId id = 0; id < needed.size() && switch_count_ < most_switches; ++id) {
-    if (!needed[id]) continue;
-    const auto changes = switch_of(graph, id);
-    if (!changes) continue;
-    const NodeId x = along_x(changes->derived), y = along_y(changes->derived);
-    if (graph.is_zero(x) && graph.is_zero(y)) continue;
-    roots.insert(roots.end(), {changes->zero, x, y});
-    ++switch_count_;
-  }
+  for (const auto& of : {jumps_of, bends_of})
+    for (NodeId id = 0; id < needed.size(); ++id) {
+      const Node node = graph[id];  // a copy: the graph grows
+      if (!needed[id] || node.kind != Node::Kind::operation) continue;
+      for (const Switch& changes : of(graph, node)) {
+        const NodeId x = along_x(changes.derived), y = along_y(changes.derived);
+        if (switch_count_ == most_switches || (graph.is_zero(x) && graph.is_zero(y))) continue;
+        roots.insert(roots.end(), {changes.zero, x, y});
+        ++switch_count_;
+      }
+    }
   if (switch_count_ == 0) return false;
   switches_.emplace(graph, roots, bank_);
   return switches_->fits();
@@ -193,7 +232,8 @@ StepSearch::Hands StepSearch::on_lines_of_switches(const SteppedQuantity& quanti
       if (!step || glm::length(*step) > reach) continue;
       const std::size_t axis = std::abs(step->y) > std::abs(step->x) ? 1 : 0;
       Hand hand = seeds.hands[i];
-      const bool there = glm::length(*step) < near_line * quantity.step;
+      const double near = round + 1 < approaches ? near_line : at_least_near;
+      const bool there = glm::length(*step) < near * quantity.step;
       move(hand, quantity, 0, step->x), move(hand, quantity, 1, step->y);
       keep_in_reach(hand, quantity);
       (there ? found : left).add(hand, states_of(seeds.states, i), axis, seeds.switches[i]);
@@ -246,10 +286,7 @@ StepSearch::Hands StepSearch::bisected(const SteppedQuantity& quantity, Hands lo
       const auto unexplained = [&](std::size_t half) {
         const std::size_t a = half * count + i, b = a + count;
         if (!has_slopes) return glm::length(force[b] - force[a]);
-        const std::size_t axis = low.axes[i];
-        const glm::dvec2 slope(at[a].place[0][axis] + at[b].place[0][axis],
-                               at[a].place[1][axis] + at[b].place[1][axis]);
-        return glm::length(at[b].force - at[a].force - 0.25 * width * slope);
+        return beyond_slopes(at[a], at[b], low.axes[i], 0.5 * width);
       };
       if (unexplained(1) > unexplained(0)) move(low.hands[i], quantity, low.axes[i], 0.5 * width);
     }
@@ -289,9 +326,7 @@ StepSearch::Hands StepSearch::on_lines(const SteppedQuantity& quantity, std::spa
       double beyond = 0;
       if (has_slopes) {
         const double width = 2.0 * quantity.reach[static_cast<int>(axis)] / static_cast<double>(intervals);
-        const glm::dvec2 slope(at[a].place[0][axis] + at[b].place[0][axis],
-                               at[a].place[1][axis] + at[b].place[1][axis]);
-        beyond = glm::length(at[b].force - at[a].force - 0.5 * width * slope);
+        beyond = beyond_slopes(at[a], at[b], axis, width);
       } else {
         beyond = glm::length(force[b] - force[a]);
       }
@@ -322,48 +357,53 @@ StepSearch::Hands StepSearch::on_lines(const SteppedQuantity& quantity, std::spa
   return middles;
 }
 
-/// The change over one step around each hand along its axis.
+/// The largest change over one step that begins at most a step before each hand, along its axis.
 std::vector<ForceStep> StepSearch::measured(const SteppedQuantity& quantity, const Hands& middles) {
   const std::size_t count = middles.hands.size();
   std::vector<ForceStep> steps(count);
-  std::vector<Hand> three;
-  std::vector<float> their_states;
-  for (int end = 0; end < 3; ++end)
-    their_states.insert(their_states.end(), middles.states.begin(), middles.states.end());
-  /// The forces at the beginnings, middles and ends of brackets.
-  const auto across = [&](const std::vector<Hand>& low, double width) {
-    three.clear();
-    for (int end = 0; end < 3; ++end)
-      for (std::size_t i = 0; i < count; ++i)
-        move(three.emplace_back(low[i]), quantity, middles.axes[i], 0.5 * end * width);
-    return forces(three, their_states);
+  /// The forces at places this far from hands (m or m/s), place by place.
+  const auto at_all = [&](const std::vector<Hand>& from, std::span<const double> away) {
+    std::vector<Hand> all;
+    std::vector<float> states;
+    for (const double by : away) {
+      for (std::size_t i = 0; i < count; ++i) move(all.emplace_back(from[i]), quantity, middles.axes[i], by);
+      states.insert(states.end(), middles.states.begin(), middles.states.end());
+    }
+    return forces(all, states);
   };
+  std::array<double, 2 * parts_of_step + 1> around;
+  for (std::size_t part = 0; part < around.size(); ++part)
+    around[part] = quantity.step * (static_cast<double>(part) / parts_of_step - 1);
   std::vector<Hand> low = middles.hands;
-  for (std::size_t i = 0; i < count; ++i) move(low[i], quantity, middles.axes[i], -0.5 * quantity.step);
-  auto force = across(low, quantity.step);
+  auto force = at_all(low, around);
   for (std::size_t i = 0; i < count; ++i) {
-    steps[i].hand = middles.hands[i], steps[i].axis = middles.axes[i], steps[i].which = middles.switches[i];
+    ForceStep& step = steps[i];
+    const auto change = [&](std::size_t from, std::size_t parts) {
+      return force[(from + parts) * count + i] - force[from * count + i];
+    };
+    // The step in the middle counts unless another is larger.
+    std::size_t first = parts_of_step / 2;
+    for (std::size_t from = 0; from <= parts_of_step; ++from)
+      if (glm::length(change(from, parts_of_step)) > larger * glm::length(change(first, parts_of_step))) first = from;
+    step.change = change(first, parts_of_step);
+    for (std::size_t part = 0; part < parts_of_step; ++part) step.both_ways += glm::length(change(first + part, 1));
+    step.hand = middles.hands[i], step.axis = middles.axes[i], step.which = middles.switches[i];
+    move(step.hand, quantity, step.axis, around[first] + 0.5 * quantity.step);
     const auto states = states_of(middles.states, i);
-    steps[i].states.assign(states.begin(), states.end());
-    steps[i].change = force[2 * count + i] - force[i];
-    steps[i].both_ways =
-        glm::length(force[2 * count + i] - force[count + i]) + glm::length(force[count + i] - force[i]);
+    step.states.assign(states.begin(), states.end());
+    move(low[i], quantity, step.axis, around[first]);
   }
   // A jump is often in the very middle of a step, where the halves of a bracket must not end.
   double width = halved_width * quantity.step;
   for (std::size_t i = 0; i < count; ++i) move(low[i], quantity, middles.axes[i], -0.3 * (width - quantity.step));
   for (int halving = 0; halving < halvings_of_step; ++halving, width /= 2) {
-    force = across(low, width);
+    force = at_all(low, std::array{0.0, 0.5 * width, width});
     for (std::size_t i = 0; i < count; ++i)
       if (glm::length(force[2 * count + i] - force[count + i]) > glm::length(force[count + i] - force[i]))
-        low[i] = three[count + i];
+        move(low[i], quantity, middles.axes[i], 0.5 * width);
   }
   // Across what is left, since a spike as wide as a float is no jump, and `sign` has a value of its own at 0.
-  std::vector<Hand> ends;
-  for (const double end : {-1.0, 2.0})
-    for (std::size_t i = 0; i < count; ++i) move(ends.emplace_back(low[i]), quantity, middles.axes[i], end * width);
-  their_states.resize(2 * middles.states.size());
-  force = forces(ends, their_states);
+  force = at_all(low, std::array{-width, 2 * width});
   for (std::size_t i = 0; i < count; ++i) steps[i].at_once = glm::length(force[count + i] - force[i]);
   return steps;
 }

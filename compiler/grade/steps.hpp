@@ -25,7 +25,7 @@ struct SteppedQuantity {
 /// (m/s). The filtered velocity changes by one count over the filter's longest window, the raw one by one count a tick.
 std::array<SteppedQuantity, 3> stepped_quantities(const DeviceProfile& device, glm::vec2 extent, double speed);
 
-/// The change of the force over one step of a quantity.
+/// The change of the force over one step of a quantity, beginning wherever it is largest: a count may be anywhere.
 struct ForceStep {
   Hand hand;                  ///< in the middle of the step
   std::vector<float> states;  ///< of the program, for that hand
@@ -42,11 +42,12 @@ struct ForceStep {
 
 /// Searches for the places and motions at which a program's force changes most over one step of the device.
 ///
-/// The force may jump where a comparison changes, at whole numbers of a floor, at the pole of a quotient and at the cut
-/// of an angle. The derivatives of such a switch lead from hands all over the patch to the line where it changes. Lines
-/// across the patch also show changes that the slopes at both ends of an interval do not explain, as those of a steep
-/// smooth step. A feature that is smaller than the distance between hands and whose switch is level around it may be
-/// missed. Deterministic.
+/// The force may jump where a comparison changes, at whole numbers of a floor or a hash, at the pole of a quotient and
+/// at the cut of an angle, and may be steep where the smaller of two numbers, a size, a root, an exponential or a
+/// normal distribution bends. The derivatives of such a switch lead from hands all over the patch to the line where it
+/// changes. Lines across the patch also show changes that the slopes at both ends of an interval do not explain, as
+/// those of a steep smooth step. A feature that is smaller than the distance between hands and whose switch is level
+/// around it may be missed. Deterministic.
 class StepSearch {
  public:
   StepSearch(const Bank& bank, ProgramSlopes& slopes);

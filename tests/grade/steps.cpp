@@ -2,7 +2,9 @@
 // random.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 #include "compiler/grade/own_rate.hpp"
@@ -147,6 +149,75 @@ TEST(Steps, AreNoLargerThanTheForceAllows) {
     const double most = 0.6 * std::sin(pi * count / (1e-3 * period));
     EXPECT_NEAR(grade.step_newton, most, 0.005 * most) << period;
   }
+}
+
+/// A force that changes smoothly, and perhaps within far less than one count, along one direction: `shape` of u.
+struct Shape {
+  const char* formula;             ///< of u and the width w
+  double (*value)(double u_by_w);  ///< the same
+};
+
+constexpr Shape shapes[] = {
+    {"(1 + tanh(u / w))", [](double u) { return 1 + std::tanh(u); }},
+    {"atan(u / w) / (90 deg)", [](double u) { return std::atan(u) / (pi / 2); }},
+    {"clamp(u / w, 0, 1)", [](double u) { return std::clamp(u, 0.0, 1.0); }},
+    {"smoothstep(u / w)",
+     [](double u) {
+       const double t = std::clamp(u, 0.0, 1.0);
+       return t * t * (3 - 2 * t);
+     }},
+    {"normal(u / w)", [](double u) { return 0.5 * std::erfc(-u / std::sqrt(2.0)); }},
+    {"1 / (1 + exp(-u / w))", [](double u) { return 1 / (1 + std::exp(-u)); }},
+    {"exp(-(u / w)^2)", [](double u) { return std::exp(-u * u); }},
+    {"max(0, 1 - abs(u / w))", [](double u) { return std::max(0.0, 1 - std::abs(u)); }},
+};
+
+/// The largest change of a shape over a distance, by trying places; both by the width.
+double largest_change(const Shape& shape, double distance) {
+  double largest = 0;
+  const double reach = 3 + distance;
+  for (int i = 0; i <= 20000; ++i) {
+    const double from = -reach + 2 * reach * i / 20000;
+    largest = std::max(largest, std::abs(shape.value(from + distance) - shape.value(from)));
+  }
+  return largest;
+}
+
+// The loop sees the change over one count, not the slope: a step as steep as a jump needs as much damping as one.
+TEST(Steps, SteepSmoothStepsAreFoundWithTheirSizes) {
+  Jumps dice(31);
+  for (int i = 0; i < 160; ++i) {
+    const Shape& shape = shapes[i % std::size(shapes)];
+    const bool returns = shape.value(-100) == shape.value(100);  // a spike; far below one count it is never met
+    const double narrowest = returns ? 2 : 0.3;
+    const double width = 1e-6 * std::exp(dice.in(std::log(narrowest), std::log(300.0))), newton = dice.in(0.5, 5);
+    const double angle = dice.in(0, 2 * pi), at = dice.in(-55, 55), radius = dice.in(2, 20);
+    // A disc's middle must be without force, since its direction turns there.
+    const bool disc = i / std::size(shapes) % 2 == 1 && shape.value(-100) == 0;
+    const std::string along =
+        disc ? "away / length(away)" : fmt::format("vector({}, {})", std::cos(angle), std::sin(angle));
+    const std::string distance =
+        disc ? fmt::format("    let away = hand - vector({} mm, {} mm)\n    let u = length(away) - {} mm\n", at,
+                           dice.in(-55, 55), radius)
+             : fmt::format("    let u = {} * x + {} * y - {} mm\n", std::cos(angle), std::sin(angle), at);
+    const std::string physical = fmt::format("{}    let w = {} um\n    force = {} N * {} * {}", distance, 1e6 * width,
+                                             newton, shape.formula, along);
+    // A count along x or y is a shorter way along u.
+    const double way = disc ? count : count * std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
+    const double change = newton * largest_change(shape, way / width);
+    SCOPED_TRACE(physical);
+    const Grade grade = graded(physical);
+    EXPECT_NEAR(grade.step_newton, change, 0.05 * change + 0.02);
+    EXPECT_GE(grade.required_damping, 0.95 * (change - 0.02) / count * tick / 2);
+  }
+}
+
+TEST(Steps, PolesNeedTheDampingOfTheLimit) {
+  // From -10 N to 10 N in one count.
+  const double most = 20 / count * tick / 2;
+  for (const char* force : {"vector(1 N * tan(x / 1 mm), 0 N)", "vector(1 mJ / (x - 3.3 mm), 0 N)",
+                            "vector(0 N, -1000 N/mm * (y + 17.77 mm))", "-1000 N/mm * hand"})
+    EXPECT_NEAR(graded(fmt::format("    force = {}", force)).required_damping, most, 0.02 * most) << force;
 }
 
 /// The damping that a material needs.
