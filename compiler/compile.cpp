@@ -12,11 +12,14 @@
 #include "compiler/evidence/confirm.hpp"
 #include "compiler/grade/grade.hpp"
 #include "compiler/grade/own_rate.hpp"
+#include "compiler/grade/sought_force.hpp"
 #include "compiler/measure/cut_force.hpp"
 #include "compiler/measure/hands.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/parse/parse.hpp"
+#include "compiler/prove/force_bound.hpp"
+#include "compiler/prove/reachable.hpp"
 #include "compiler/solve/plausible.hpp"
 #include "compiler/solve/solve.hpp"
 #include "schema/spelling.hpp"
@@ -142,8 +145,21 @@ void warn_of_jumps(const SolvedMaterial& solved, const CheckedMaterial& material
        .help = "let it rise over a distance, as `smoothstep(x / 1 mm)` does, or begin and end at the same height"});
 }
 
-/// Warns of a material whose force is nothing that the device can command, for every hand, or for every hand inside the
-/// patch's rim, unless it says so itself.
+/// The force of a program for all its parameters, at rest or moving, inside its patch's rim: what is proved and found.
+ForceBound bound_inside(const Bank& bank) {
+  const PatchSize size = bank.size();
+  const auto either_way = [](float most) { return Interval::between(-most, most); };
+  Domain domain = reachable_domain(bank.program());
+  domain[Input::x] = either_way(size.width / 2 - size.rim);
+  domain[Input::y] = either_way(size.height / 2 - size.rim);
+  domain[Input::patch_half_width] = Interval::of(size.width / 2);
+  domain[Input::patch_half_height] = Interval::of(size.height / 2);
+  domain[Input::patch_rim] = Interval::of(size.rim);
+  return force_bound(bank.program(), domain);
+}
+
+/// Warns of a material whose force is nothing that the device can command, for every hand and all parameters, or for
+/// every hand inside the patch's rim, unless it says so itself.
 void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const SolvedMaterial& solved,
                       const Measured& measured, Diagnostics& diagnostics) {
   const auto is_zero = [&](TermId id) { return solved.terms[id].known(); };
@@ -155,23 +171,32 @@ void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const S
   if (measured.less_rim >= least || says_so || asks_for_none || depends_on_the_moment(bank.program().description()) ||
       !solved.states.empty() || !solved.memories.empty())
     return;
+  const double sought = sought_force(bank, least);
+  if (sought >= least) return;
+  const ForceBound bound = bound_inside(bank);
+  if (bound.found.newton >= least) return;
+  const bool proved = bound.newton < least;
+  const double newton = std::max({static_cast<double>(measured.less_rim), sought, bound.found.newton});
   const std::string where = fmt::format("{:.0f} mm by {:.0f} mm", 1e3 * solved.patch_width, 1e3 * solved.patch_height);
+  const std::string needed =
+      fmt::format("`{}` gives no less than {:.2g} N", solved.device.name, solved.device.force_step());
   std::string message, help = "look for a length in m instead of mm, or for a size of 0";
   if (measured.max_newton >= least) {
-    message = fmt::format(
-        "`{}` pushes only in the rim of its patch, with up to {:.3g} N, where heights fade; inside, its "
-        "force is 0",
-        solved.name, measured.max_newton);
+    message =
+        fmt::format("`{}` pushes only in the rim of its patch, with up to {:.3g} N, where heights fade; inside, {}",
+                    solved.name, measured.max_newton, proved ? "its force is 0" : "no force was found");
     help = "look for heights that add up to the same height everywhere, or for a place outside the patch";
-  } else if (measured.max_newton > 0) {
-    message = fmt::format(
-        "`{}` never pushes: its force is {:.2g} N at most on its patch, {}, and `{}` gives no less than "
-        "{:.2g} N",
-        solved.name, measured.max_newton, where, solved.device.name, solved.device.force_step());
-    help = "look for forces that cancel, or for a size near 0";
-  } else {
+  } else if (bound.newton == 0) {
     message = fmt::format("`{}` never pushes: its force is 0 at every place of its patch, {}, and at every velocity",
                           solved.name, where);
+  } else if (proved) {
+    message = fmt::format("`{}` never pushes: its force is {:.2g} N at most on its patch, {}, and {}", solved.name,
+                          bound.newton, where, needed);
+    help = "look for forces that cancel, or for a size near 0";
+  } else {
+    message = fmt::format("`{}` seems never to push: the largest force found on its patch, {}, is {:.2g} N, and {}",
+                          solved.name, where, newton, needed);
+    help = "look for forces that cancel, or for a feature far smaller than an encoder count";
   }
   diagnostics.report({.code = Code::never_pushes, .span = solved.force_span, .message = message, .help = help});
 }

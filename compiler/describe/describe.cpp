@@ -100,6 +100,21 @@ void describe_bounds(Description& description, const Program& program) {
   description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
 }
 
+/// What is called the largest force is the largest of all searches: with these parameters on this patch, and of any.
+void settle_largest(Description& description, const Bank& bank) {
+  float& most = description.force.max_newton;
+  most = std::max(most, static_cast<float>(description.grade.largest_newton));
+  LargestForce& found = description.bound.found;
+  const auto first = bank.registers().begin() + bank.program().description().first_parameter();
+  const glm::vec2 half = 0.5f * glm::vec2(bank.size().width, bank.size().height), at = glm::abs(found.hand.position);
+  if (found.size == bank.size() && std::equal(found.parameters.begin(), found.parameters.end(), first) &&
+      at.x <= half.x && at.y <= half.y)
+    most = std::max(most, static_cast<float>(found.newton));
+  // The bound is proved; a sum of squares in floats may be above it by rounding.
+  most = std::min(most, static_cast<float>(description.bound.newton));
+  found.newton = std::max(found.newton, static_cast<double>(most));
+}
+
 /// A face cannot be stiffer than the steepest slope of the force, which is exact; a face is fitted to samples.
 void settle_stiffness(Description& description) {
   const Grade& grade = description.grade;
@@ -129,6 +144,7 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
     in_parallel(tasks.size(), work);
   else
     work(0, 1);
+  settle_largest(description, bank);
   description.no_percept = why_no_texture(program, description.force);
   description.percepts = recorded_percepts(bank, found, declarations);
   description.fates = fates_at(bank, found, declarations);

@@ -233,8 +233,10 @@ std::string bound_lines(const Description& description) {
 }
 
 void write_pushing(std::string& text, const Description& description) {
-  text += readable("\npushes\n  {:.3f} N at most with these parameters; with any, never more than {:.3f} N (proved)\n",
-                   description.force.max_newton, description.bound.newton);
+  text +=
+      readable("\npushes\n  {:.3f} N {} with these parameters; with any, never more than {:.3f} N (proved)\n",
+               description.force.max_newton, description.force.may_be_larger ? "is the largest force found" : "at most",
+               description.bound.newton);
   text += readable("  on a hand at rest, over the patch{}: P99 {:.3f} N, RMS {:.3f} N\n",
                    description.force.over_time ? " and time" : "", description.force.p99_newton,
                    description.force.rms_newton);

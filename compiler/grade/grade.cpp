@@ -150,6 +150,7 @@ class Grader {
     steps_ = search.largest(place, hands_, states_);
     for (ForceStep& step : search.around(place, steepest_.hands, steepest_.states)) steps_.push_back(std::move(step));
     for (const ForceStep& step : steps_) {
+      grade_.largest_newton = std::max(grade_.largest_newton, step.largest);
       if (step.newton() > grade_.step_newton) grade_.step_newton = step.newton(), worst_step_ = step.hand;
     }
     find_finest_period();
@@ -205,18 +206,18 @@ class Grader {
 
   void find_resolution() {
     // A force below half a step of the command is never given, and what is left of two that cancel is rounding.
-    if (std::max(largest_force_, grade_.step_newton) < 0.5 * device_.force_step()) {
+    if (std::max(grade_.largest_newton, grade_.step_newton) < 0.5 * device_.force_step()) {
       grade_.finest_period = std::numeric_limits<double>::infinity();
       grade_.stiffness = grade_.step_newton = 0;
       return;
     }
     grade_.counts_per_period = grade_.finest_period / device_.position_step();
     grade_.fastest_hand = grade_.finest_period * device_.rate / 2;
-    grade_.force_levels = largest_force_ / device_.force_step();
+    grade_.force_levels = grade_.largest_newton / device_.force_step();
   }
 
   void find_energy() {
-    for (const auto& here : at_) largest_force_ = std::max(largest_force_, glm::length(here.force));
+    for (const auto& here : at_) grade_.largest_newton = std::max(grade_.largest_newton, glm::length(here.force));
     find_curl();
     find_motion_power();
     find_sources();
@@ -409,7 +410,6 @@ class Grader {
   std::vector<ForceStep> steps_;  ///< by place
   std::vector<std::pair<SteppedQuantity, ForceStep>> motion_steps_;
   Hand worst_step_;
-  double largest_force_ = 0;
 };
 
 }  // namespace

@@ -381,6 +381,8 @@ std::vector<ForceStep> StepSearch::measured(const SteppedQuantity& quantity, con
     const auto change = [&](std::size_t from, std::size_t parts) {
       return force[(from + parts) * count + i] - force[from * count + i];
     };
+    for (std::size_t place = 0; place < around.size(); ++place)
+      step.largest = std::max(step.largest, glm::length(force[place * count + i]));
     // The step in the middle counts unless another is larger.
     std::size_t first = parts_of_step / 2;
     for (std::size_t from = 0; from <= parts_of_step; ++from)

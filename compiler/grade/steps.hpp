@@ -33,6 +33,7 @@ struct ForceStep {
   std::size_t which = 0;   ///< the number of the switch on whose line it was found; 0 for others
   glm::dvec2 change{0.0};  ///< N
   double both_ways = 0;    ///< N: the sizes of its changes over both halves
+  double largest = 0;      ///< N: the largest force in its neighbourhood
   double at_once = 0;      ///< N: its change within a twentieth of the step, where it is largest
 
   double newton() const;

@@ -26,12 +26,12 @@ constexpr std::size_t resting_hands = 16;              ///< of a program with me
 constexpr double resting_cost = 2e7;                   ///< units of cost of all their ticks
 constexpr int looking_ticks = 64;                      ///< in which a force that changes by itself shows
 
-bool reads_time(const PatchProgram& program) {
-  return std::ranges::any_of(program.tick, [](const Instruction& instruction) {
+bool reads(const PatchProgram& program, std::initializer_list<Input> inputs) {
+  return std::ranges::any_of(program.tick, [&](const Instruction& instruction) {
     const auto fields = facts(static_cast<Operation>(instruction.operation)).fields;
     const RegisterNumber operands[] = {instruction.a, instruction.b, instruction.c};
     for (std::size_t i = 0; i < 3; ++i)
-      if (fields[i] == 'r' && operands[i] == static_cast<RegisterNumber>(Input::time)) return true;
+      if (fields[i] == 'r' && std::ranges::find(inputs, static_cast<Input>(operands[i])) != inputs.end()) return true;
     return false;
   });
 }
@@ -149,7 +149,7 @@ Measured measure(const Bank& bank) {
   const PatchSize size = bank.size();
   const glm::vec2 whole{size.width / 2, size.height / 2}, extent = whole - glm::vec2(size.rim);
   const float speed = static_cast<float>(program.device.speed_limit);
-  const bool changes = reads_time(program);
+  const bool changes = reads(program, {Input::time});
 
   std::vector<Hand> at_rest = hands_at_rest(hands, extent);
   if (changes)
@@ -187,6 +187,9 @@ Measured measure(const Bank& bank) {
     strongest.climb(bank, whole);
   }
   measured.max_newton = strongest.newton();
+  measured.may_be_larger = changes || !program.states.empty() || !program.grids.empty() ||
+                           reads(program, {Input::acceleration_x, Input::acceleration_y, Input::raw_acceleration_x,
+                                           Input::raw_acceleration_y});
   for (const auto& instruction : program.setup)
     if (instruction.operation == static_cast<std::uint8_t>(Operation::peak) &&
         !(bank.registers()[instruction.destination] > 0))

@@ -1,7 +1,10 @@
 // The largest force, its spread over time and what the compiler's limit does, against closed forms.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/measure/measure.hpp"
@@ -15,6 +18,88 @@ Measured measured(const std::string& physical) { return measure(Bank(compiling::
 
 Description described(const std::string& physical) {
   return describe(Bank(compiling::compiled(physical)), common_modules()->declarations);
+}
+
+/// Whether the compiler says that a material never pushes.
+bool said_never_to_push(const std::string& physical) {
+  compiling::Files files;
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const SourceId source = sources.add("test.wale", "wale 1\nmaterial m {\n  physical {\n" + physical + "\n  }\n}\n");
+  if (!compile(sources, source, "", default_device, files, diagnostics)) throw std::runtime_error(physical);
+  return std::ranges::any_of(diagnostics.all(), [](const Diagnostic& each) { return each.code == Code::never_pushes; });
+}
+
+/// A force that acts within a few encoder counts only, and its largest size.
+struct Feature {
+  std::string physical;
+  double newton;
+};
+
+Feature some_feature(std::mt19937& dice, int kind) {
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(dice); };
+  constexpr double count = 0.2286 / 4096;  // m, of Minsky's joystick
+  const double newton = in(0.5, 6), half = 1e3 * count * in(0.5, 4), x = in(-55, 55), y = in(-55, 55);
+  const std::string along = in(0, 1) < 0.5 ? "vector(f, 0 N)" : "vector(0 N, f)";
+  const double angle = in(0, 6.283);
+  const std::string u = fmt::format("    let u = {} * x + {} * y - {} mm\n", std::cos(angle), std::sin(angle), x);
+  const std::string away = fmt::format("    let u = length(hand - vector({} mm, {} mm))\n", x, y);
+  const std::string force = "    force = " + along;
+  const std::string within = fmt::format("    let f = if abs(u) < {} mm then {} N else 0 N\n", half, newton);
+  const std::string hill = fmt::format("    let f = {} N * exp(-(u / {} mm)^2)\n", newton, half);
+  const std::string tent = fmt::format("    let f = {} N * max(0, 1 - abs(u) / {} mm)\n", newton, half);
+  switch (kind % 6) {
+    case 0: return {u + within + force, newton};
+    case 1: return {u + hill + force, newton};
+    case 2: return {u + tent + force, newton};
+    case 3: return {away + within + force, newton};
+    case 4: return {away + hill + force, newton};
+    default: return {away + tent + force, newton};
+  }
+}
+
+TEST(Limits, AFeatureOfAFewCountsIsAForce) {
+  std::mt19937 dice(432);
+  for (int i = 0; i < 120; ++i) {
+    const Feature feature = some_feature(dice, i);
+    SCOPED_TRACE(feature.physical);
+    EXPECT_FALSE(said_never_to_push(feature.physical));
+    const Description found = described(feature.physical);
+    EXPECT_NEAR(found.force.max_newton, feature.newton, 0.06 * feature.newton);
+    EXPECT_GE(found.bound.found.newton, found.force.max_newton);
+    EXPECT_GE(found.bound.newton * (1 + 1e-6), found.bound.found.newton);
+  }
+}
+
+TEST(Limits, AForceThatAParameterBringsIsNotMissing) {
+  EXPECT_FALSE(said_never_to_push(
+      "    param k = 0 N in 0 N .. 5 N \"size\"\n    force = vector(k * sin(2 pi * x / 5 mm), 0 N)"));
+  EXPECT_FALSE(
+      said_never_to_push("    param k = 0 N in 0 N .. 5 N \"size\"\n    param j = 0 in 0 .. 1 \"share\"\n"
+                         "    force = vector(j * k * sin(2 pi * x / 5 mm), 0 N)"));
+  EXPECT_FALSE(
+      said_never_to_push("    param face = 90 mm in 20 mm .. 90 mm \"place\"\n    force = firm(500 N/m, face: face)"));
+  EXPECT_TRUE(
+      said_never_to_push("    param k = 500 N/m in 100 N/m .. 900 N/m \"stiffness\"\n    force = firm(k, face: 20 m)"));
+  EXPECT_TRUE(said_never_to_push("    force = vector(0.001 mN * sin(2 pi * x / 3 mm), 0 N)"));
+}
+
+// No search tries all histories, so that "at most" would claim too much.
+TEST(Limits, WhatDependsOnMoreThanTheMomentIsOnlyFound) {
+  for (const char* physical :
+       {"    force = sticky(0.5 N)", "    force = -0.2 kg * acceleration",
+        "    active 2 W\n    force = vector(1 N * sin(2 pi * 0.004 Hz * time), 0 N)",
+        "    state slow: length = 0 mm in -100 mm .. 100 mm\n    next slow = slow + 0.01 * (x - slow)\n    force = "
+        "vector(-100 N/m * slow, 0 N)"}) {
+    const Description found = described(physical);
+    EXPECT_TRUE(found.force.may_be_larger) << physical;
+    const std::string text = description_text(found);
+    EXPECT_EQ(text.find("N at most with"), std::string::npos) << physical;
+    EXPECT_NE(text.find("N is the largest force found with these parameters"), std::string::npos) << physical;
+    EXPECT_LE(found.force.max_newton, found.bound.newton * (1 + 1e-6)) << physical;
+  }
+  for (const char* physical : {"    force = -100 N/m * hand", "    force = -2 N s/m * velocity"})
+    EXPECT_NE(description_text(described(physical)).find("N at most with these parameters"), std::string::npos);
 }
 
 // Heights that add up to 1 are level inside the patch, and fade to 0 over its rim.
