@@ -59,7 +59,7 @@ void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostic
 
 /// Reports a texture without slope, which cannot push; a height that only jumps has none either.
 void report_flat_height(const SolvedMaterial& solved, const CheckedMaterial& material, Diagnostics& diagnostics) {
-  const auto jump = find_jump(material, solved.device);
+  const auto jump = find_level(material, solved.device) ? std::nullopt : find_jump(material, solved.device);
   diagnostics.report(
       {.code = Code::flat_height,
        .span = jump ? jump->span : solved.force_span,

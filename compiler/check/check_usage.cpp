@@ -29,6 +29,17 @@ bool is_turn_in_radians(double value) {
   return std::abs(value) <= largest && parts > 0.5 && std::abs(parts - std::round(parts)) < written * parts;
 }
 
+/// Whether it is one number in Hz or in a multiple of it: "30 Hz". Of `2 pi * 30 Hz`, which is one number too once it
+/// is computed, nobody knows what it counts; and of 377 Hz, the whole turns of which are already in radians.
+bool counts_turns(std::string_view text, double value) {
+  if (!text.ends_with("Hz")) return false;
+  text.remove_suffix(2);
+  const std::size_t unit = text.find_first_not_of("0123456789.eE+-_");
+  if (unit == 0 || (unit != text.npos && text.substr(unit).find_first_of("0123456789*/()") != text.npos)) return false;
+  const double turns = value / turn;
+  return turns < 1 || std::abs(turns - std::round(turns)) > 1e-4 * turns;
+}
+
 class AngleReader {
  public:
   AngleReader(const CheckedMaterial& material, const CallRecord& record, const Surroundings& surroundings)
@@ -132,10 +143,7 @@ class AngleReader {
     const Term& term = terms_[id];
     const bool is_operation = term.kind == TermKind::operation;
     if (term.known()) {
-      const auto text = surroundings_.sources.text(term.span);
-      factors.hertz = factors.hertz || text.ends_with("Hz");
-      // `2 pi * 900 Hz` is one number by now.
-      if (!divides && text.ends_with("Hz") && text.find("pi") != text.npos) factors.radians = true;
+      factors.hertz = factors.hertz || counts_turns(surroundings_.sources.text(term.span), term.value);
       if (!divides && (is_turn_in_degrees(term.value) || makes_degrees(term.value))) factors.degrees = id;
       if (!divides && is_turn_in_radians(term.value)) factors.radians = true;
       if (!is_turn_in_degrees(term.value) && std::abs(term.value) != 1) ++factors.others;
@@ -148,6 +156,9 @@ class AngleReader {
       factors.phase = true;
     } else if (term.kind == TermKind::input && term.input() == Input::time && !divides) {
       factors.time = true;
+    } else if (term.kind == TermKind::parameter && !divides && term.index < material_.parameters.size() &&
+               material_.parameters[term.index].unit.ends_with("Hz")) {
+      factors.hertz = true;
     } else {
       ++factors.others;
     }

@@ -57,17 +57,19 @@ Result<SectionChoice> section_of(const PreviewOptions& options, PatchSize size) 
 }
 
 int preview(const PreviewOptions& options) {
-  const auto programs = load_programs(options.choice, false);
+  auto opened = open(options.choice);
+  if (!opened) return opened.status();
+  const auto programs = programs_of(*opened, options.choice, false);
   if (!programs) return programs.status();
   const Program& program = programs->front();
   const auto parameters = chosen_parameters(program, options.settings);
   if (!parameters) return refuse(parameters.error());
-  const auto common = common_modules();
+  const auto declarations = declarations_of(*opened, options.choice);
   const Bank bank(program, *parameters, program.default_size());
   const auto section = section_of(options, bank.size());
   if (!section) return refuse(section.error());
   const auto drawing =
-      draw_preview(bank, preview_text(bank, common->declarations), common->declarations, {*section, options.seconds});
+      draw_preview(bank, preview_text(bank, *declarations), *declarations, {*section, options.seconds});
   if (!drawing) return refuse(drawing.error());
   if (!drawing->has_text)
     print_error("wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");

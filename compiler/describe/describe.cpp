@@ -17,6 +17,7 @@
 #include "compiler/measure/rehearsal.hpp"
 #include "compiler/read/cues.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/text/readable.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
@@ -57,18 +58,48 @@ std::vector<std::string> dependences(const PatchProgram& program) {
   return found;
 }
 
-/// Why no texture is described, in a line; empty if one is.
+/// Why the program has no texture of its own, in a line; empty if it has one.
 std::string why_no_texture(const PatchProgram& program, const Measured& force) {
   if (std::ranges::find(program.percepts, Extractor::lateral_force, &PerceptRecord::extractor) !=
       program.percepts.end())
     return {};
   if (force.max_newton == 0) return "it does not push";
   const auto found = dependences(program);
-  if (found.empty()) return "its force depends on the position in a way that no percept's map covers";
+  if (found.empty())
+    return depends_on_place(program) ? "its force depends on the position and has no relief"
+                                     : "its force is the same everywhere";
   std::string text;
   for (std::size_t i = 0; i < found.size(); ++i)
     text += (i == 0 ? "" : i + 1 == found.size() ? " and " : ", ") + found[i];
   return fmt::format("its force depends on {}, so it has no single texture", text);
+}
+
+/// "roughness from 0.7 mm to 10 mm, …": the periods of the percepts of textures.
+std::string bands_in_words(const Declarations& declarations) {
+  std::string text;
+  declarations.percepts.each([&](const std::string& name, const Percept& percept) {
+    if (percept.extractor != Extractor::lateral_force || !percept.has_reference) return;
+    const auto [low, high] = percept.period;
+    const std::string to = std::isfinite(high) ? readable(" to {:.3g} mm", 1e3 * high) : "";
+    text += readable("{}{} from {:.3g} mm{}", text.empty() ? "" : ", ", name, 1e3 * low, to);
+  });
+  return text;
+}
+
+/// Why nothing that people name was read, in a line.
+std::string why_no_percept(const Description& description, const PatchProgram& program,
+                           const Declarations& declarations) {
+  if (description.force.max_newton == 0) return "it does not push";
+  if (description.texture && description.texture->force.amplitude > 0)
+    return description.texture->force.period > 0
+               ? readable("its texture has a period of {:.3g} mm ({})", 1e3 * description.texture->force.period,
+                          bands_in_words(declarations))
+               : "its texture has no period that a map covers";
+  if (description.limit_matters && depends_on_place(program))
+    return readable("`{}` cuts its force, and a force that is cut has no size that a map covers",
+                    description.device.name);
+  const std::string why = why_no_texture(program, description.force);
+  return why.empty() ? "no map covers what it does" : why;
 }
 
 /// The measured force.
@@ -145,13 +176,14 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
   else
     work(0, 1);
   settle_largest(description, bank);
-  description.no_percept = why_no_texture(program, description.force);
+  description.no_texture = why_no_texture(program, description.force);
   description.percepts = recorded_percepts(bank, found, declarations);
   description.fates = fates_at(bank, found, declarations);
   if (texture == Texture::left_out) return;
   tell_settings(description.percepts, bank, found, declarations);
   describe_extracted(description, bank, found, declarations);
   settle_stiffness(description);
+  if (description.percepts.empty()) description.no_percept = why_no_percept(description, program, declarations);
 }
 
 /// The shaking of a pad.

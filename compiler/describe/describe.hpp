@@ -85,7 +85,8 @@ struct Description {
     WallDepth depth;
   };
   std::optional<Wall> wall;          ///< the stiffest, if a reading found one
-  std::string no_percept;            ///< why no percept is of a texture, in a line; empty if one is
+  std::string no_percept;            ///< why there is no percept, in a line; empty if there is one
+  std::string no_texture;            ///< why there is no texture, in a line; empty if there is one
   std::vector<DescribedFate> fates;  ///< fate of each percept and of the physics on the device
   std::optional<MeasuredShaking>
       shaking;                        ///< of a program that vibrates; its force, bound, grade and texture are empty

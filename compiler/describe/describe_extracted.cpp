@@ -117,8 +117,11 @@ void describe_extracted(Description& description, const Bank& bank, const ForceR
   description.texture = texture_of(cues, found, description.force.max_newton, description.patch,
                                    description.device.position_step(), declarations);
   if (found.wall) description.wall = {*found.wall, deepest(bank, *found.wall)};
-  const DeviceDeclaration* device = declarations.devices.find(description.device.name);
-  if (!device) return;
+  // A patch program may be built for a device that nothing here declares.
+  DeviceDeclaration undeclared;
+  undeclared.profile = description.device;
+  const DeviceDeclaration* declared = declarations.devices.find(description.device.name);
+  const DeviceDeclaration* const device = declared ? declared : &undeclared;
   declarations.percepts.each([&](const std::string& name, const Percept& percept) {
     if (std::ranges::find(description.percepts, name, &DescribedPercept::name) != description.percepts.end()) return;
     const auto size = carrier_of(found, percept, declarations);
@@ -126,7 +129,7 @@ void describe_extracted(Description& description, const Bank& bank, const ForceR
     if (const Map* map = choose_map(percept, *device, declarations).map)
       description.percepts.push_back(told_by(percept, *map, *size, *device, bank, found, declarations));
   });
-  if (description.texture->force.amplitude > 0) description.no_percept.clear();
+  if (description.texture->force.amplitude > 0) description.no_texture.clear();
 }
 
 }  // namespace wale

@@ -215,6 +215,7 @@ nlohmann::ordered_json to_json(const Description& description) {
   auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
   for (const auto& percept : description.percepts) percepts[percept.name] = to_json(percept);
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
+  if (!description.no_texture.empty()) json["no_texture"] = description.no_texture;
   if (description.texture) json["texture"] = to_json(*description.texture);
   if (const auto& wall = description.wall)
     json["wall"] = {{"at", {figure(wall->face.place.x), figure(wall->face.place.y)}},

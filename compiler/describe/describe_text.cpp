@@ -19,6 +19,15 @@ std::string heading(const Description& description) {
   return description.material;
 }
 
+/// "assumed: the ranges of amplitude and rate", without what the interval's line tells; empty if there is nothing.
+std::string assumed_line(const DescribedPercept& percept) {
+  std::vector<std::string> ranges;
+  for (const std::string& each : percept.assumed)
+    if (each != "scatter" && each != "spread" && each != "noise") ranges.push_back(each);
+  if (ranges.empty()) return {};
+  return fmt::format("assumed: the range{} of {}", ranges.size() == 1 ? "" : "s", fmt::join(ranges, " and "));
+}
+
 /// "measured: slope measured, …" and how the stimulus differs from those that the map was measured with.
 std::vector<std::string> evidence_lines(const DescribedPercept& percept) {
   const std::string domain = percept.domain ? "domain " + evidence_word(*percept.domain) : "domain not stated";
@@ -29,8 +38,8 @@ std::vector<std::string> evidence_lines(const DescribedPercept& percept) {
   lines.push_back(alike ? readable("{}: slope, anchor, handle and domain", word)
                         : readable("{}: slope {}, anchor {}, handle {}, {}", word, evidence_word(percept.slope),
                                    evidence_word(percept.anchor), evidence_word(percept.handle), domain));
-  for (const OutsideRange& each : percept.outside)
-    lines.push_back(readable("outside what was measured ({})", in_words(each)));
+  if (std::string line = assumed_line(percept); !line.empty()) lines.push_back(std::move(line));
+  for (const OutsideRange& each : percept.outside) lines.push_back(outside_in_words(each));
   if (!percept.domain_why.empty()) lines.push_back(percept.domain_why);
   lines.push_back(readable("{} ({}, on {})", percept.source, percept.map, percept.device));
   return lines;
@@ -87,9 +96,7 @@ std::string asked_line(const DescribedPercept& percept) {
 
 void write_percepts(std::string& text, const Description& description) {
   text += "\nfeels\n";
-  if (!description.no_percept.empty())
-    text += readable("  {}: {}\n", description.percepts.empty() ? "none can be read" : "no roughness",
-                     description.no_percept);
+  if (!description.no_percept.empty()) text += readable("  none can be read: {}\n", description.no_percept);
   for (const auto& percept : description.percepts) {
     std::string name = percept.name;
     const auto add = [&](std::string label, const std::vector<std::string>& lines) {
@@ -202,7 +209,8 @@ void write_texture(std::string& text, const Description& description) {
                        texture.size_class == "transitional" ? "something between a texture and single features"
                                                             : texture.size_class);
   } else {
-    text += readable("  none{}\n", texture.kind.empty() ? "" : readable(": {}", texture.kind));
+    const std::string& why = texture.kind.empty() ? description.no_texture : texture.kind;
+    text += readable("  none{}{}\n", why.empty() ? "" : ": ", why);
   }
   if (texture.confidence_mean)
     text += readable("  confidence that it is a texture: {:.0f} % (s.d. {:.0f} %; {})\n",

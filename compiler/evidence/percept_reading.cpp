@@ -65,6 +65,11 @@ std::string in_words(const OutsideRange& outside) {
                   below ? "from" : "to", bound / outside.unit_in_si);
 }
 
+std::string outside_in_words(const OutsideRange& outside) {
+  return fmt::format("outside {} ({})", outside.assumed ? "the range assumed for its map" : "what was measured",
+                     in_words(outside));
+}
+
 std::vector<OutsideRange> outside_of(const PerceptRecord& record, double size, const Bank& bank,
                                      const ForceReading& found, const Declarations& declarations) {
   std::vector<OutsideRange> outside;
@@ -172,18 +177,22 @@ std::vector<OutsideRange> outside_ranges(const PerceptRecord& record, const Perc
 std::string why_approximated(const PerceptRecord& record, const PerceptReading& told, double asked,
                              const ForceReading& found, const Declarations& declarations) {
   if (!told.readable) return {};
-  if (const auto outside = outside_ranges(record, told); !outside.empty())
-    return fmt::format("outside what was measured ({})", in_words(outside.front()));
+  if (const auto outside = outside_ranges(record, told); !outside.empty()) return outside_in_words(outside.front());
   return differs(record, told.aimed, asked, told.size, told.level)
              ? cause_of_difference(record, told, found, declarations)
              : "";
 }
 
+ReadParts parts_for(Extractor extractor) {
+  const bool none = extractor == Extractor::none || extractor == Extractor::acceleration;
+  return {.still = !none && is_still(extractor), .moving = !none && !is_still(extractor)};
+}
+
 ReadParts parts_for(const PatchProgram& program) {
   ReadParts parts{.still = false, .moving = false};
   for (const PerceptRecord& record : program.percepts) {
-    if (record.extractor == Extractor::none || record.extractor == Extractor::acceleration) continue;
-    (is_still(record.extractor) ? parts.still : parts.moving) = true;
+    const ReadParts of_it = parts_for(record.extractor);
+    parts.still |= of_it.still, parts.moving |= of_it.moving;
   }
   return parts;
 }

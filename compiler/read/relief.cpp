@@ -43,11 +43,24 @@ double half_turned(double angle) {
   return std::numbers::pi - angle < 1e-3 ? 0 : angle;
 }
 
-double percentile(std::vector<double> values, double share) {
+/// The value that so large a share of all values, at least a half, lies below.
+double percentile(const std::vector<double>& values, double share) {
   if (values.empty()) return 0;
   const auto rank = std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(rank));
-  return values[rank];
+  // Only the values above what a sample puts well below it are put in order.
+  constexpr std::size_t every = 16;
+  std::vector<double> sample;
+  for (std::size_t i = 0; i < values.size(); i += every) sample.push_back(values[i]);
+  const auto below = static_cast<std::ptrdiff_t>((2 * share - 1) * static_cast<double>(sample.size()));
+  std::ranges::nth_element(sample, sample.begin() + below);
+  const double least = sample[static_cast<std::size_t>(below)];
+  std::vector<double> top;
+  for (const double value : values)
+    if (value >= least) top.push_back(value);
+  if (top.size() < values.size() - rank) top = values;
+  const auto from_the_top = static_cast<std::ptrdiff_t>(top.size() - (values.size() - rank));
+  std::ranges::nth_element(top, top.begin() + from_the_top);
+  return top[static_cast<std::size_t>(from_the_top)];
 }
 
 /// Adds up where the mean square lies: by period, and by direction.
@@ -86,7 +99,7 @@ class ReliefReader {
   StaticForce read() {
     std::vector<double> sizes;
     for (const glm::dvec2& force : whole_.forces) sizes.push_back(glm::length(force));
-    found_.largest = percentile(std::move(sizes), ratio);
+    found_.largest = percentile(sizes, ratio);
     const LinearForce line = linear_force(whole_.places, whole_.forces);
     std::vector<glm::dvec2> beyond = whole_.forces;
     double most = 0;
@@ -243,7 +256,7 @@ class ReliefReader {
     }
     const auto count = static_cast<double>(sizes.size());
     relief.mean = sum / count, relief.rms = std::sqrt(squares / count);
-    relief.amplitude = percentile(std::move(sizes), ratio);
+    relief.amplitude = percentile(sizes, ratio);
     const bool hilly = std::ranges::any_of(found_.features, [](const Feature& each) { return !each.monotone; });
     if (relief.amplitude < least_amplitude ||
         (waves_.waves.empty() && !waves_.lattice && relief.amplitude < misfit * found_.largest)) {
@@ -404,7 +417,7 @@ class ReliefReader {
       const glm::dvec2 y = (forces[i + 2] - forces[i + 3]) / (2 * difference) - found_.trend.by_y;
       changes.push_back(std::sqrt(glm::dot(x, x) + glm::dot(y, y)));
     }
-    found_.relief.steepness = percentile(std::move(changes), ratio) / found_.relief.amplitude;
+    found_.relief.steepness = percentile(changes, ratio) / found_.relief.amplitude;
   }
 
   const StillField& field_;

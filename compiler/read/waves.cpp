@@ -40,6 +40,7 @@ constexpr double least_turn = 0.2;  // rad between two directions
 /// Every fourth place or so, chosen as if by chance: a regular choice would alias.
 StillForces thinned_by_chance(const StillForces& window, const std::vector<glm::dvec2>& forces, std::size_t about) {
   StillForces thin{window.side, window.centre, window.size, {}, {}};
+  thin.places.reserve(about + about / 8), thin.forces.reserve(about + about / 8);
   std::uint64_t random = 88172645463325252u;  // Marsaglia's xorshift
   for (std::size_t i = 0; i < forces.size(); ++i) {
     random ^= random << 13, random ^= random >> 7, random ^= random << 17;
@@ -79,40 +80,41 @@ class WaveSearch {
 
   FoundWaves search() {
     if (!(all_ > 0)) return std::move(found_);
-    StillForces window = whole_;
-    std::vector<glm::dvec2> forces = found_.rest;
+    StillForces closer_window;
+    std::vector<glm::dvec2> rest_there;
+    const StillForces* window = &whole_;
+    const std::vector<glm::dvec2>* forces = &found_.rest;  // in the window
     bool again = false;
     for (std::size_t level = 0;; ++level) {
-      WindowSpectrum spectrum(window, forces);
-      while (found_.waves.size() < most_waves_found && mean_square(forces) > 0 &&
-             next_wave(window, forces, spectrum, level)) {
+      WindowSpectrum spectrum(*window, *forces);
+      while (found_.waves.size() < most_waves_found && mean_square(*forces) > 0 &&
+             next_wave(*window, *forces, spectrum, level)) {
         if (found_.local) return finished();
         if (mean_square(found_.rest) < negligible * all_) return finished();
-        forces = level == 0 ? found_.rest : rest_at(window.places, window.forces);
-        spectrum = WindowSpectrum(window, forces);
+        if (level > 0) rest_there = rest_at(window->places, window->forces);
+        spectrum = WindowSpectrum(*window, *forces);
         again |= level > 0;
       }
       // Without its fine waves the whole may show slow ones that were too small a part of it.
       if (again && found_.waves.size() < most_waves_found) {
-        again = false, level = 0, window = whole_, forces = found_.rest;
-        spectrum = WindowSpectrum(window, forces);
-        while (found_.waves.size() < most_waves_found && next_wave(window, forces, spectrum, level)) {
-          forces = found_.rest;
-          spectrum = WindowSpectrum(window, forces);
-        }
+        again = false, level = 0, window = &whole_, forces = &found_.rest;
+        spectrum = WindowSpectrum(*window, *forces);
+        while (found_.waves.size() < most_waves_found && next_wave(*window, *forces, spectrum, level))
+          spectrum = WindowSpectrum(*window, *forces);
         if (mean_square(found_.rest) < negligible * all_) return finished();
       }
       if (level == 0 && find_lattice(spectrum)) return finished();
-      const bool finer = spectrum.finer() * mean_square(forces) > 0.5 * negligible * all_;
+      const bool finer = spectrum.finer() * mean_square(*forces) > 0.5 * negligible * all_;
       const bool enough = level == 0 ? !finer && !found_.waves.empty() : !finer;
       if (enough || level == closer.size() || found_.waves.size() == most_waves_found) return finished();
       const double longest = std::max(whole_.size.x, whole_.size.y);
       const glm::dvec2 size = glm::min(glm::dvec2(longest / closer[level]), whole_.size),
                        room = 0.5 * (whole_.size - size);
-      glm::dvec2 centre = level == 0 ? busiest_place(whole_, found_.rest) : window.centre;
+      glm::dvec2 centre = level == 0 ? busiest_place(whole_, found_.rest) : window->centre;
       centre = glm::clamp(centre, whole_.centre - room, whole_.centre + room);
-      window = still_forces(field_, centre, size, closer_side);
-      forces = rest_at(window.places, window.forces);
+      closer_window = still_forces(field_, centre, size, closer_side);
+      rest_there = rest_at(closer_window.places, closer_window.forces);
+      window = &closer_window, forces = &rest_there;
     }
   }
 
@@ -244,7 +246,7 @@ class WaveSearch {
       add_to_rest(last.wave, -1);
     }
     StillForces some = every(3);
-    some.forces = rest_at(some.places, some.forces);
+    some.forces = rest_at(some.places, std::move(some.forces));
     fit_trend(some);
     update_rest();
     for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
@@ -257,7 +259,7 @@ class WaveSearch {
     std::size_t most = 0;
     for (const FoundWave& each : found_.waves) most = std::max(most, each.wave.profile.size());
     StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / (places_a_part * most)));
-    some.forces = rest_at(some.places, some.forces);
+    some.forces = rest_at(some.places, std::move(some.forces));
     for (int turn = 0; turn < turns; ++turn) {
       fit_trend(some);
       for (FoundWave& each : found_.waves) {

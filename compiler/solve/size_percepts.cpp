@@ -86,6 +86,12 @@ void PerceptSolver::work_out_sizes() {
   }
 }
 
+/// The levels that a map's range of sizes covers: "from 0.04 to 0.99"; "from 0.13 on" where it goes beyond level 1.
+static std::string levels_of_range(const Law& law, const Map& map) {
+  const auto [low, high] = std::minmax({law.level_of(map.valid_low), law.level_of(map.valid_high)});
+  return high > 1.005 ? readable("from {:.2g} on", low) : readable("from {:.2g} to {:.2g}", low, high);
+}
+
 void PerceptSolver::warn_of_range(const Told& told) {
   const Law& law = *told.law;
   const AskedPercept& asked = *told.asked;
@@ -110,10 +116,11 @@ void PerceptSolver::warn_of_range(const Told& told) {
            asked.level < percept.near_threshold
                ? readable("expected {} {:.2g} or more, found {:.3g}, which few people can feel", asked.name,
                           percept.near_threshold, asked.level)
-               : readable("expected {} from {:.2g} to {:.2g}, the measured range, found {:.3g} ({})", asked.name,
-                          law.level_of(map.valid_low), law.level_of(map.valid_high), asked.level, map.source),
-           readable("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
-                    law.level_of(map.valid_high), map.valid_low, map.valid_high, of_carrier));
+               : readable("expected {} {}, {}, found {:.3g} ({})", asked.name, levels_of_range(law, map),
+                          map.valid_assumed ? "the range assumed for its map" : "the measured range", asked.level,
+                          map.source),
+           readable("{}: levels {}, {:.3g} to {:.3g} {}", map.valid_assumed ? "assumed" : "measured",
+                    levels_of_range(law, map), map.valid_low, map.valid_high, of_carrier));
   if (map.recalled())
     report(Code::unverified_basis, asked.place(),
            readable("{} rests on a figure that was recalled and not looked up ({})", asked.name, map.source),

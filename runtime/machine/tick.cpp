@@ -5,6 +5,7 @@
 #include "runtime/machine/inputs.hpp"
 #include "runtime/machine/parallel.hpp"
 #include "runtime/machine/states.hpp"
+#include "runtime/machine/tick_alone.hpp"
 #include "wale/memory.hpp"
 #include "wale/program.hpp"
 
@@ -43,7 +44,9 @@ namespace {
 /// threads.
 constexpr double worth_a_thread = 4e6;
 
-void tick_some(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces) {
+}  // namespace
+
+void tick_alone(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces) {
   const DecodedProgram& program = bank.program().decoded();
   const PatchProgram& description = program.description;
   const float* registers = bank.registers().data();
@@ -63,15 +66,13 @@ void tick_some(const Bank& bank, std::span<const Hand> hands, std::span<Force> f
   }
 }
 
-}  // namespace
-
 void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces) {
   const PatchProgram& description = bank.program().description();
   const double cost = 1.0 + static_cast<double>(cost_of(description.enter) + cost_of(description.tick));
-  if (static_cast<double>(hands.size()) * cost < worth_a_thread) return tick_some(bank, hands, forces);
+  if (static_cast<double>(hands.size()) * cost < worth_a_thread) return tick_alone(bank, hands, forces);
   in_parallel((hands.size() + lanes - 1) / lanes, [&](std::size_t begin, std::size_t end) {
     const std::size_t first = begin * lanes, count = std::min(end * lanes, hands.size()) - first;
-    tick_some(bank, hands.subspan(first, count), forces.subspan(first, count));
+    tick_alone(bank, hands.subspan(first, count), forces.subspan(first, count));
   });
 }
 

@@ -48,9 +48,6 @@ struct Placement {
   }
 
   Bank bank() const { return Bank(program, parameters, size); }
-  bool has_bank_of(const Placement& other) const {
-    return &program.decoded() == &other.program.decoded() && parameters == other.parameters && size == other.size;
-  }
 };
 
 }  // namespace wale

@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "runtime/record/record_writer.hpp"
+#include "runtime/stage/bank_cache.hpp"
 #include "runtime/stage/placement.hpp"
 #include "runtime/stage/player.hpp"
-#include "runtime/stage/potential_range.hpp"
 #include "runtime/stage/recorded_run.hpp"
 #include "runtime/stage/scheduling.hpp"
 
@@ -119,6 +119,7 @@ struct Stage::Parts {
   bool moved = false;                 // since then one of the movers has been moved
   bool finished = false;              // the real-time thread's last tick is done
   bool running = false;
+  BankCache banks;
   PlacedPatches published;                 // belongs to the thread that publishes
   std::uint32_t revision = 0;              // how often the present run has handed over patches
   std::unique_ptr<RecordWriter> recorder;  // of the present run; called with the mutex held
@@ -181,17 +182,12 @@ struct Stage::Parts {
     if (!copies.empty()) {
       PlacedPatches::Patches all = published.patches();
       all.resize(count);
-      const Placement* like = nullptr;  // `bank` is its bank: often many patches differ only in their places
-      std::optional<Bank> bank;
-      double range = 0;
       for (const auto& [patch, copy] : copies) {
-        if (!like || !copy.has_bank_of(*like)) {
-          bank = copy.bank();
-          range = potential_range(*bank);
-          like = &copy;
-        }
-        all[patch] = std::make_shared<PlacedPatch>(
-            PlacedPatch{*bank, copy.position, copy.memory, copy.layer, static_cast<std::uint32_t>(patch), range});
+        const auto prepared = banks.get({copy.program, copy.parameters, copy.size});
+        prepared->sample();
+        all[patch] = std::make_shared<PlacedPatch>(PlacedPatch{prepared->bank, copy.position, copy.memory, copy.layer,
+                                                               static_cast<std::uint32_t>(patch),
+                                                               prepared->potential_range(true)});
       }
       published.take(std::move(all));
     }

@@ -216,8 +216,9 @@ TEST(Outside, ARateIsSaid) {
   EXPECT_EQ(inside.codes().find("W0407"), std::string::npos);
   const Made made("vibration 0.3", "    active 100 W\n    force = vibrate(rate: 400 Hz)");
   EXPECT_NE(made.codes().find("W0407"), std::string::npos);
-  EXPECT_NE(description_text(made.description()).find("outside what was measured (rate 400 Hz, assumed to 350)"),
-            std::string::npos)
+  EXPECT_NE(
+      description_text(made.description()).find("outside the range assumed for its map (rate 400 Hz, assumed to 350)"),
+      std::string::npos)
       << description_text(made.description());
 }
 

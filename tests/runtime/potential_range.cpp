@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -19,7 +20,9 @@ constexpr PatchSize size{.width = 0.16f, .height = 0.12f, .rim = 0.005f};
 double range_of(const Program& program) { return potential_range(Bank(program, program.default_parameters(), size)); }
 
 /// The work, in J, of the limit over half the distance between two lines of the sampling, at either end.
-double between_lines(double most) { return most * 0.5 * (size.width + size.height) / 32; }
+double between_lines(double most) {
+  return most * 0.5 * (static_cast<double>(size.width) + static_cast<double>(size.height)) / 32;
+}
 
 TEST(PotentialRange, OfASpringIsThatFromItsCentreToACorner) {
   const double stiffness = 40;
@@ -48,6 +51,49 @@ TEST(PotentialRange, OfAProgramWithStatesIsTheLimitTimesTheDiagonal) {
 }
 
 TEST(PotentialRange, OfAResistanceIsZero) { EXPECT_NEAR(range_of(oil(5)), between_lines(9), 1e-6); }
+
+/// J, the bound by its definition: every line, one tick at a time.
+double by_definition(const Program& program) {
+  Bank bank(program, program.default_parameters(), size);
+  double sum = 0, most = 0;
+  for (const Output& output : program.description().outputs)
+    most = std::max(most, static_cast<double>(std::abs(bank.registers()[output.ceiling])));
+  for (const bool along_x : {true, false}) {
+    const float length = along_x ? size.width : size.height, across = along_x ? size.height : size.width;
+    double farthest = 0;
+    for (int line = 0; line < 32; ++line) {
+      const float beside = across * ((static_cast<float>(line) + 0.5f) / 32 - 0.5f);
+      double potential = 0, low = 0, high = 0, last = 0;
+      for (int point = 0; point < 512; ++point) {
+        const float along = length * ((static_cast<float>(point) + 0.5f) / 512 - 0.5f);
+        const Force force = tick(bank, {.position = along_x ? glm::vec2(along, beside) : glm::vec2(beside, along)});
+        const double here = along_x ? force.x : force.y;
+        if (point > 0) potential -= 0.5 * (last + here) * (static_cast<double>(length) / 512);
+        low = std::min(low, potential), high = std::max(high, potential), last = here;
+      }
+      farthest = std::max(farthest, high - low);
+    }
+    sum += farthest;
+  }
+  return std::min(trivial_potential_range(bank), sum + between_lines(most));
+}
+
+/// Along x the force is y^2 x; along y it is 3 min(x, y): no two lines are alike but those at y and -y.
+Program saddle() {
+  Assembly a({3});
+  const RegisterNumber square = a.tick(Operation::multiply, a.input(Input::y), a.input(Input::y));
+  const RegisterNumber along_x = a.tick(Operation::multiply, square, a.input(Input::x));
+  const RegisterNumber least = a.tick(Operation::minimum, a.input(Input::x), a.input(Input::y));
+  const RegisterNumber along_y = a.tick(Operation::multiply, least, a.constant(0));
+  a.push(0, along_x, a.constant(0));
+  a.push(1, along_y, a.constant(0));
+  return a.load();
+}
+
+TEST(PotentialRange, IsThatOfAllLinesThoughEqualOnesAreComputedOnce) {
+  for (const Program& program : {spring(40), push(3), corduroy(1.934f), oil(5), saddle()})
+    EXPECT_NEAR(range_of(program) / by_definition(program), 1, 1e-12) << "but for the order of 512 sums";
+}
 
 /// On a stage, a program that pushes along the motion of the hand may give only the range of its force at rest.
 TEST(PotentialRange, IsTheEnergyThatAStageAllows) {

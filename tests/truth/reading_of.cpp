@@ -74,8 +74,9 @@ std::optional<double> difference_of(Cue cue, double a, double b) {
 }
 
 bool says_outside(const Program& program) {
-  return description_text(describe(Bank(program), declarations())).find("outside what was measured") !=
-         std::string::npos;
+  const std::string text = description_text(describe(Bank(program), declarations()));
+  return text.find("outside what was measured") != std::string::npos ||
+         text.find("outside the range assumed for its map") != std::string::npos;
 }
 
 }  // namespace wale::truth

@@ -19,7 +19,7 @@ std::array<std::optional<double>, cue_count> differences_of(const Program& a, co
 /// How far apart two sizes of a cue are by the same thresholds, if the reading is right; nothing without a threshold.
 std::optional<double> difference_of(Cue cue, double a, double b);
 
-/// Whether the description says of a percept that it is outside what was measured.
+/// Whether the description says of a percept that it is outside what was measured, or outside the range assumed for its map.
 bool says_outside(const Program& program);
 
 }  // namespace wale::truth
