@@ -153,11 +153,13 @@ class Grader {
       grade_.largest_newton = std::max(grade_.largest_newton, step.largest);
       if (step.newton() > grade_.step_newton) grade_.step_newton = step.newton(), worst_step_ = step.hand;
     }
+    find_steps_through_memory();
     find_finest_period();
     // A jump that is smaller than other steps, or than the device's own, is not told.
     const double least = std::max(device_.force_step(), share_of_steps * grade_.step_newton);
-    grade_.jumps = std::ranges::any_of(
-        steps_, [&](const ForceStep& step) { return step.jumps() && std::min(step.at_once, step.newton()) > least; });
+    grade_.jumps = (ahead_.jumps && ahead_.newton > least) || std::ranges::any_of(steps_, [&](const ForceStep& step) {
+                     return step.jumps() && std::min(step.at_once, step.newton()) > least;
+                   });
     const double count = device_.position_step();
     // A tip that is sharper than one count cannot be felt: the loop sees only the difference between two counts.
     if (grade_.stiffness * count > sharp_over_step * grade_.step_newton) {
@@ -175,6 +177,14 @@ class Grader {
     for (const std::size_t motion : {1, 2})
       for (ForceStep& step : search.largest(quantities[motion], hands_, states_))
         motion_steps_.push_back({quantities[motion], std::move(step)});
+  }
+
+  /// Finds the change of the force over one count that comes through what a program remembers of the hand's places. The
+  /// loop sees it later than a change that comes at once, so it needs at least as much damping.
+  void find_steps_through_memory() {
+    if (program_.states.empty() && program_.grids.empty()) return;
+    ahead_ = largest_step_ahead(bank_, hand_);
+    if (ahead_.newton > steeper * grade_.step_newton) grade_.step_newton = ahead_.newton, worst_step_ = ahead_.hand;
   }
 
   /// Finds the finest detail: the change of the force's slope over one encoder count shows it, and also steps between
@@ -409,6 +419,7 @@ class Grader {
   SteepPlaces steepest_;
   std::vector<ForceStep> steps_;  ///< by place
   std::vector<std::pair<SteppedQuantity, ForceStep>> motion_steps_;
+  StepAhead ahead_;
   Hand worst_step_;
 };
 

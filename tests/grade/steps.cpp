@@ -212,6 +212,53 @@ TEST(Steps, SteepSmoothStepsAreFoundWithTheirSizes) {
   }
 }
 
+// A jump that comes late is a jump, whether the place is remembered or the force.
+TEST(Steps, JumpsThroughMemoryAreFound) {
+  Jumps dice(17);
+  for (int i = 0; i < 60; ++i) {
+    const double newton = dice.in(0.3, 5), angle = dice.in(0, 2 * pi), at = dice.in(-30, 30);
+    const std::string u = fmt::format("    let u = {} * x + {} * y\n", std::cos(angle), std::sin(angle));
+    const std::string along = fmt::format("vector({}, {})", std::cos(angle), std::sin(angle));
+    const std::string late[] = {
+        fmt::format("{}    state old: length = 0 mm in -200 mm .. 200 mm\n    next old = u\n    force = if old > {} mm "
+                    "then {} N * {} else vector(0 N, 0 N)",
+                    u, at, newton, along),
+        fmt::format(
+            "{}    state old: length = 0 mm in -200 mm .. 200 mm\n    state older: length = 0 mm in -200 mm .. "
+            "200 mm\n    next old = u\n    next older = old\n    force = {} N * clamp((older - {} mm) / 0.3 um, "
+            "0, 1) * {}",
+            u, newton, at, along),
+        fmt::format(
+            "{}    state slow: length = 0 mm in -200 mm .. 200 mm\n    next slow = slow + 0.3 * (u - slow)\n    "
+            "force = if slow > {} mm then {} N * {} else vector(0 N, 0 N)",
+            u, at, newton, along),
+        fmt::format("{}    state pushed: force = 0 N in -10 N .. 10 N\n    next pushed = if u > {} mm then {} N else 0 "
+                    "N\n    force = pushed * {}",
+                    u, at, newton, along)};
+    const std::string& physical = late[i % std::size(late)];
+    SCOPED_TRACE(physical);
+    const Grade grade = graded(physical);
+    EXPECT_TRUE(grade.jumps);
+    EXPECT_NEAR(grade.step_newton, newton, 0.03 * newton + 0.02);
+    EXPECT_GE(grade.required_damping, 0.97 * (newton - 0.02) / count * tick / 2);
+    EXPECT_NE(grade.standing, Standing::passive);
+  }
+}
+
+TEST(Steps, MemoryWithoutJumpsIsNotSaidToJump) {
+  for (const char* physical :
+       {"    force = sticky(1 N)",
+        "    state slow: length = 0 mm in -200 mm .. 200 mm\n    next slow = slow + 0.3 * (x - slow)\n    force = "
+        "vector(-300 N/m * slow, 0 N)",
+        "    state slow: length = 0 mm in -200 mm .. 200 mm\n    next slow = slow + 0.3 * (x - slow)\n    force = "
+        "vector(2 N * tanh((slow - 7 mm) / 2 mm), 0 N)",
+        "    active 2 W\n    force = vector((if fract(phase(3 Hz)) < 0.5 then 1 N else 0 N), 0 N)"}) {
+    const Grade grade = graded(physical);
+    EXPECT_FALSE(grade.jumps) << physical;
+    EXPECT_LT(grade.step_newton, 0.2) << physical;
+  }
+}
+
 TEST(Steps, PolesNeedTheDampingOfTheLimit) {
   // From -10 N to 10 N in one count.
   const double most = 20 / count * tick / 2;
