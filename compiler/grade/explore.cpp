@@ -24,7 +24,8 @@ glm::dvec2 place(double time, double radius, double frequency, bool circles) {
   return radius * coming_up(time, seconds / 4) * glm::dvec2(std::sin(angle), circles ? std::cos(angle) : 0.0);
 }
 
-/// The forces on an exploring hand that is ahead on its way, for some ticks, with the hand of the last one.
+/// The forces on an exploring hand whose places are ahead on its way, for some ticks, with the hand of the last one.
+/// Its motion is that of the hand that is not ahead: a friction that turns with the motion is no jump by place.
 struct RunAhead {
   std::vector<glm::dvec2> forces;
   Hand last;
@@ -33,11 +34,13 @@ struct RunAhead {
 RunAhead run_ahead(Bank bank, const GradingHand& hand, bool circles, double seconds_ahead, std::size_t ticks) {
   const double radius = std::min(hand.radius, room_to_stroke(bank.size()));
   const double period = 1 / bank.program().description().device.rate;
-  const auto at = [&](double time) { return place(time + seconds_ahead, radius, hand.frequency, circles); };
+  const auto at = [&](double time) { return place(time, radius, hand.frequency, circles); };
   Memory memory(bank.program());
   RunAhead run;
   for (std::size_t i = 0; i < ticks; ++i) {
-    run.last = hand_along(at, static_cast<double>(i) * period, period);
+    const double time = static_cast<double>(i) * period;
+    run.last = hand_along(at, time, period);
+    run.last.position = run.last.workspace = glm::vec2(at(time + seconds_ahead));
     if (i == 0) memory.enter(bank, run.last);
     run.forces.emplace_back(tick(bank, memory, run.last));
   }

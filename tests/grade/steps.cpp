@@ -252,6 +252,8 @@ TEST(Steps, MemoryWithoutJumpsIsNotSaidToJump) {
         "vector(-300 N/m * slow, 0 N)",
         "    state slow: length = 0 mm in -200 mm .. 200 mm\n    next slow = slow + 0.3 * (x - slow)\n    force = "
         "vector(2 N * tanh((slow - 7 mm) / 2 mm), 0 N)",
+        "    state slow: length = 0 mm in -200 mm .. 200 mm\n    next slow = slow + 0.3 * (x - slow)\n    force = "
+        "vector(-1 N * sign(velocity.x) - 10 N/m * slow, 0 N)",
         "    active 2 W\n    force = vector((if fract(phase(3 Hz)) < 0.5 then 1 N else 0 N), 0 N)"}) {
     const Grade grade = graded(physical);
     EXPECT_FALSE(grade.jumps) << physical;
