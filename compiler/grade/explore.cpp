@@ -51,7 +51,7 @@ RunAhead run_ahead(Bank bank, const GradingHand& hand, bool circles, double seco
 
 StepAhead largest_step_ahead(const Bank& bank, const GradingHand& hand) {
   const PatchProgram& program = bank.program().description();
-  const double period = 1 / program.device.rate, in_a_count = program.device.position_step() / hand.speed();
+  const double period = 1 / program.device.rate, count = program.device.position_step();
   const auto ticks = static_cast<std::size_t>(std::lround(seconds * program.device.rate));
   if (static_cast<double>(cost_of(program.tick)) * static_cast<double>(4 * hands_in_a_tick * ticks) > most_cost)
     return {};
@@ -71,24 +71,24 @@ StepAhead largest_step_ahead(const Bank& bank, const GradingHand& hand) {
   }
   StepAhead found;
   if (largest == 0) return found;
-  const auto force_at = [&](double by) {
-    RunAhead run = run_ahead(bank, hand, circling, by, when + 1);
-    found.hand = run.last;
-    return run.forces.back();
+  const auto at = [&](double by) { return run_ahead(bank, hand, circling, by, when + 1); };
+  const auto change = [](const RunAhead& from, const RunAhead& to) {
+    return glm::length(to.forces.back() - from.forces.back());
   };
-  glm::dvec2 low = force_at(ahead), high = force_at(ahead + width);
+  RunAhead low = at(ahead), high = at(ahead + width);
   const auto halve = [&] {
     width /= 2;
-    const glm::dvec2 middle = force_at(ahead + width);
-    if (glm::length(high - middle) > glm::length(middle - low))
-      low = middle, ahead += width;
+    RunAhead middle = at(ahead + width);
+    if (change(middle, high) > change(low, middle))
+      low = std::move(middle), ahead += width;
     else
-      high = middle;
+      high = std::move(middle);
   };
-  while (width > in_a_count) halve();
-  found.newton = glm::length(high - low);
+  while (glm::distance(low.last.position, high.last.position) > count) halve();
+  found.hand = low.last;
+  found.newton = change(low, high);
   for (int i = 0; i < halvings_for_jump; ++i) halve();
-  found.jumps = glm::length(high - low) > share_of_jump * found.newton;
+  found.jumps = change(low, high) > share_of_jump * found.newton;
   return found;
 }
 

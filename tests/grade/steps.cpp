@@ -261,6 +261,14 @@ TEST(Steps, MemoryWithoutJumpsIsNotSaidToJump) {
   }
 }
 
+// Hands one count apart feel no more than a spring's slope over one count.
+TEST(Steps, MemoryDoesNotMakeASpringStiffer) {
+  const Grade grade = graded(
+      "    state slow: length = 0 mm in -200 mm .. 200 mm\n    next slow = slow + 0.3 * (x - slow)\n    force = "
+      "vector(-150 N/m * x - 0.001 N/m * slow, 0 N)");
+  EXPECT_NEAR(grade.step_newton, 150 * count, 0.002 * 150 * count);
+}
+
 TEST(Steps, PolesNeedTheDampingOfTheLimit) {
   // From -10 N to 10 N in one count.
   const double most = 20 / count * tick / 2;
