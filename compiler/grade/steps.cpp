@@ -18,9 +18,10 @@ constexpr double steps_with_memory = 8;   // in a tick of a brisk hand
 constexpr std::size_t lines = 16, most_intervals = 512, bisected_intervals = 48;
 constexpr int halvings_of_step = 6;
 constexpr std::size_t parts_of_step = 4;
-constexpr double larger = 1.001;      // than the step in the middle: less is rounding
-constexpr double halved_width = 1.1;  // of a step: the bracket that is halved
-constexpr double most_at_once = 0.5;  // of a step's change: a smooth one has a twentieth of it
+constexpr double beside_line = 0.0037;  // of a step: rounding may make a spike on the line itself, as wide as a float
+constexpr double larger = 1.001;        // than the step in the middle: less is rounding
+constexpr double halved_width = 1.1;    // of a step: the bracket that is halved
+constexpr double most_at_once = 0.5;    // of a step's change: a smooth one has a twentieth of it
 constexpr std::size_t steps_kept = 8;
 constexpr std::size_t climbers_along = 6;  // steps from which larger ones are searched along the line of their switch
 constexpr int climbs_along = 8;            // each half as far as the one before
@@ -373,7 +374,7 @@ std::vector<ForceStep> StepSearch::measured(const SteppedQuantity& quantity, con
   };
   std::array<double, 2 * parts_of_step + 1> around;
   for (std::size_t part = 0; part < around.size(); ++part)
-    around[part] = quantity.step * (static_cast<double>(part) / parts_of_step - 1);
+    around[part] = quantity.step * (static_cast<double>(part) / parts_of_step - 1 + beside_line);
   std::vector<Hand> low = middles.hands;
   auto force = at_all(low, around);
   for (std::size_t i = 0; i < count; ++i) {

@@ -269,6 +269,18 @@ TEST(Steps, MemoryDoesNotMakeASpringStiffer) {
   EXPECT_NEAR(grade.step_newton, 150 * count, 0.002 * 150 * count);
 }
 
+// Where `floor(x + 1)` rounds up before `floor(x)` does, a noise has a spike a nanometre wide, which no hand meets.
+TEST(Steps, RoundingOnALatticeIsNoStep) {
+  const std::string layer =
+      "    let u = x / 3.7 mm\n    let v = y / 3.7 mm\n    let f = mix(mix(lattice(u, v, 0), lattice(u + 1, v, 0), "
+      "smoothstep(fract(u))), mix(lattice(u, v + 1, 0), lattice(u + 1, v + 1, 0), smoothstep(fract(u))), "
+      "smoothstep(fract(v)))\n";
+  // The value itself changes by 1.5 over a cell's side at most, along one axis.
+  const Grade grade = graded(layer + "    force = vector(4 N * f, 0 N)");
+  EXPECT_LE(grade.step_newton, 4 * 1.5 * count / 3.7e-3 * 1.01);
+  EXPECT_FALSE(grade.jumps);
+}
+
 TEST(Steps, PolesNeedTheDampingOfTheLimit) {
   // From -10 N to 10 N in one count.
   const double most = 20 / count * tick / 2;
