@@ -22,6 +22,7 @@
 #include "compiler/prove/reachable.hpp"
 #include "compiler/solve/plausible.hpp"
 #include "compiler/solve/solve.hpp"
+#include "compiler/text/readable.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale {
@@ -36,13 +37,13 @@ void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material,
   const Energy energy = energy_of(bank, hand);
   if (!energy.active() || (material.active_watt > 0 && energy.watt() <= material.active_watt)) return;
   const double watt = std::max(energy.watt(), least_declared_watt);
-  const std::string mend = fmt::format("active {:.2g} W", std::ceil(watt * 100) / 100);
+  const std::string mend = typeable("active {:.2g} W", std::ceil(watt * 100) / 100);
   diagnostics.report({.code = Code::undeclared_energy,
                       .span = material.force_span,
-                      .message = fmt::format("`{}` gives energy to the hand, up to {:.2g} W at an ordinary pace: {}",
-                                             material.name, energy.watt(), energy.reasons.front()),
+                      .message = readable("`{}` gives energy to the hand, up to {:.2g} W at an ordinary pace: {}",
+                                          material.name, energy.watt(), energy.reasons.front()),
                       .help = material.active_watt > 0
-                                  ? fmt::format("it declares {:.2g} W; write `{}`", material.active_watt, mend)
+                                  ? readable("it declares {:.2g} W; write `{}`", material.active_watt, mend)
                                   : fmt::format("write `{}` in its physical block", mend)});
 }
 
@@ -52,13 +53,20 @@ void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostic
   if (device.active_watt == 0 || material.active_watt <= device.active_watt) return;
   diagnostics.report({.code = Code::more_than_device_gives,
                       .span = material.force_span,
-                      .message = fmt::format("`{}` declares {:.2g} W, but `{}` gives a program at most {:.2g} W",
-                                             material.name, material.active_watt, device.name, device.active_watt),
+                      .message = readable("`{}` declares {:.2g} W, but `{}` gives a program at most {:.2g} W",
+                                          material.name, material.active_watt, device.name, device.active_watt),
                       .help = "the runtime holds back the rest; declare less, or choose another device"});
 }
 
-/// Reports a texture without slope, which cannot push; a height that only jumps has none either.
+/// Reports a texture without slope, which cannot push; a height that only jumps has none either. If an argument was
+/// hardly meant, that is why: the error takes the place of the warning.
 void report_flat_height(const SolvedMaterial& solved, const CheckedMaterial& material, Diagnostics& diagnostics) {
+  if (!material.doubts.empty()) {
+    Diagnostic doubt = material.doubts.front();
+    doubt.code = Code::flat_height;
+    doubt.message = "this height is flat inside the patch, and a flat height gives no force: " + doubt.message;
+    return diagnostics.report(std::move(doubt));
+  }
   const auto jump = find_level(material, solved.device) ? std::nullopt : find_jump(material, solved.device);
   diagnostics.report(
       {.code = Code::flat_height,
@@ -309,16 +317,16 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
     report_flat_height(solved, *material, diagnostics);
     return std::nullopt;
   }
+  const GradingHand hand = normal_hand(module.declarations());
   // An argument that was hardly meant, and is reported, may be why a force is strange; it is said once.
-  if (!material->doubted) {
+  if (material->doubts.empty()) {
     const auto is_fine = [](const Diagnostic& each) { return each.code == Code::under_resolution; };
     if (std::ranges::none_of(diagnostics.all(), is_fine)) warn_of_jumps(solved, *material, diagnostics);
     warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
     warn_of_no_force(bank, *material, solved, measured, diagnostics);
     warn_of_fast_rates(bank, solved, diagnostics);
+    warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   }
-  const GradingHand hand = normal_hand(module.declarations());
-  if (!material->doubted) warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   warn_of_a_device_that_gives_less(solved, diagnostics);
   if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), diagnostics)) {
     PatchProgram confirmed = finished.program->description();

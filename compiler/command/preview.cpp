@@ -12,6 +12,7 @@
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/preview/preview.hpp"
+#include "compiler/text/readable.hpp"
 #include "compiler/typed_number.hpp"
 
 namespace wale::command {
@@ -43,14 +44,14 @@ Result<SectionChoice> section_of(const PreviewOptions& options, PatchSize size) 
                    .mend = "for example, `--along 30`, 30 degrees to the left of x",
                    .place = {.name = "--along"}};
     section.along = *angle * std::numbers::pi / 180;
-    section.name = fmt::format("{:.4g}°", *angle);
+    section.name = typeable("{:.4g}°", *angle);
   }
   if (!options.at) return section;
   const glm::dvec2 place(options.at->position);
   if (std::abs(place.x) > size.width / 2 || std::abs(place.y) > size.height / 2)
     return Error{.code = Code::value_out_of_range,
-                 .sentence = fmt::format("this place is outside the patch, {:.4g} mm by {:.4g} mm around its centre",
-                                         1e3 * size.width, 1e3 * size.height),
+                 .sentence = readable("this place is outside the patch, {:.4g} mm by {:.4g} mm around its centre",
+                                      1e3 * size.width, 1e3 * size.height),
                  .place = {.name = "--at"}};
   section.at = place;
   return section;

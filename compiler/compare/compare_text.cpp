@@ -79,8 +79,8 @@ void write_cues(std::string& text, const ComparisonMatrix& matrix, std::size_t f
     text += fmt::format("  {:<20} {:<{}}  {:<{}}  {}", facts_of(cue.kind).name, of_a, width, of_b, width,
                         noticeable_text(cue.noticeable));
     if (cue.threshold)
-      text += fmt::format("  ({:.2g} at d' = 1, {}: {})", cue.threshold->weber,
-                          threshold_words(*cue.threshold, cue.evidence, cue.outside), cue.threshold->source);
+      text += readable("  ({:.2g} at d' = 1, {}: {})", cue.threshold->weber,
+                       threshold_words(*cue.threshold, cue.evidence, cue.outside), cue.threshold->source);
     text += '\n';
   }
   text += fmt::format("  {}\n", verdict_text(comparison));

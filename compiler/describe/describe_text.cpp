@@ -204,10 +204,8 @@ void write_texture(std::string& text, const Description& description) {
           "  too fine for the encoder of `{}`, through which it is {}\n", description.device.name,
           std::isfinite(met->period) ? readable("a pattern of {:.3g} mm", 1e3 * met->period) : "the same everywhere");
     if (!texture.texture_class.empty()) text += readable("  people would call it {}\n", texture.texture_class);
-    if (!texture.size_class.empty() && texture.size_class != "texture")
-      text += readable("  period {:.3g} mm: felt as {}\n", 1e3 * force.period,
-                       texture.size_class == "transitional" ? "something between a texture and single features"
-                                                            : texture.size_class);
+    if (!texture.felt_as.empty())
+      text += readable("  period {:.3g} mm: felt as {}\n", 1e3 * force.period, texture.felt_as);
   } else {
     const std::string& why = texture.kind.empty() ? description.no_texture : texture.kind;
     text += readable("  none{}{}\n", why.empty() ? "" : ": ", why);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compiler/read/tolerances.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 namespace {
@@ -80,9 +81,9 @@ DomainJudgement judge_domain(const PerceptRecord& record, double size, const Ban
       why.push_back(fmt::format("{}, measured with {}", name->one, fmt::join(measured, " and ")));
     else if (profile == SurfaceProfile::grating && relief.crest > 0 && domain.crest_high > 0 &&
              (relief.crest < domain.crest_low * (1 - reading) || relief.crest > domain.crest_high * (1 + reading)))
-      why.push_back(fmt::format("a waveform with a crest of {:.2g}, {} {:.2g} to {:.2g}", relief.crest,
-                                domain.crest_assumed ? "assumed to feel alike from" : "measured from", domain.crest_low,
-                                domain.crest_high));
+      why.push_back(readable("a waveform with a crest of {:.2g}, {} {:.2g} to {:.2g}", relief.crest,
+                             domain.crest_assumed ? "assumed to feel alike from" : "measured from", domain.crest_low,
+                             domain.crest_high));
   }
   // Of another kind of surface, that it is another kind is enough.
   if (why.empty() && domain.dimensions != 0 && relief.amplitude > 0) {

@@ -158,9 +158,9 @@ std::string cause_of_difference(const PerceptRecord& record, const PerceptReadin
     const Relief& relief = found.relief();
     const PeriodBand band = band_of(read_as(record), declarations);
     if (relief.amplitude > 0 && relief.within(band) < mostly_elsewhere * record.basis.share * relief.amplitude)
-      return fmt::format("{} of its relief has periods outside {:.3g} .. {:.3g} mm",
-                         relief.within(band) < least_of_relief * relief.amplitude ? "all" : "a part",
-                         1e3 * record.period_low, 1e3 * record.period_high);
+      return readable("{} of its relief has periods outside {:.3g} .. {:.3g} mm",
+                      relief.within(band) < least_of_relief * relief.amplitude ? "all" : "a part",
+                      1e3 * record.period_low, 1e3 * record.period_high);
   }
   if (record.alone) return "the device or the shape of the force changes it";
   if (!record.basis.summand) return "its force is changed after it was solved";

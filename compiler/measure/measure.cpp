@@ -197,6 +197,12 @@ Measured measure(const Bank& bank) {
   return measured;
 }
 
+Force given_by(const Shaker& shaker, Force drive) {
+  drive.y = static_cast<float>(std::clamp<double>(drive.y, shaker.frequency_low, shaker.frequency_high));
+  drive.x = std::min(drive.x, static_cast<float>(shaker.acceleration(1, drive.y)));
+  return drive;
+}
+
 MeasuredShaking measure_shaking(const Bank& bank, const HandDeclaration* person) {
   constexpr std::size_t moments = 4096;
   const PatchSize size = bank.size();
@@ -214,10 +220,7 @@ MeasuredShaking measure_shaking(const Bank& bank, const HandDeclaration* person)
   std::vector<Force> drives(moments);
   tick_all(bank, stroke, drives);
   const Shaker& shaker = *bank.program().description().device.shaker;
-  for (Force& drive : drives) {
-    drive.y = static_cast<float>(std::clamp<double>(drive.y, shaker.frequency_low, shaker.frequency_high));
-    drive.x = std::min(drive.x, static_cast<float>(shaker.acceleration(1, drive.y)));
-  }
+  for (Force& drive : drives) drive = given_by(shaker, drive);
   MeasuredShaking measured;
   std::vector<float> amplitudes;
   double squares = 0;

@@ -28,6 +28,10 @@ struct MeasuredShaking {
   float lowest = 0, highest = 0;    ///< frequencies at which the amplitude is at least half of `p99`, Hz
 };
 
+/// What a pad's actuator gives of a drive, an amplitude (m/s^2) and a frequency (Hz): the frequency in its range, and
+/// at most its acceleration there.
+Force given_by(const Shaker& shaker, Force drive);
+
 /// Measures a program that vibrates, under the hand of `person`; if null, 1 Hz and 40 mm to both sides. Deterministic.
 MeasuredShaking measure_shaking(const Bank& bank, const HandDeclaration* person);
 

@@ -12,6 +12,7 @@
 
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/text/readable.hpp"
 #include "wale/batch.hpp"
 
 namespace wale {
@@ -251,11 +252,11 @@ std::string wall_place(const WallFace& face) {
   constexpr double straight = 0.9999;  // cosine of less than a degree
   const auto in_mm = [](double metres) { return std::round(1e4 * metres) / 10 + 0.0; };
   if (std::abs(face.inward.x) > straight)
-    return fmt::format("{} of x = {:g} mm", face.inward.x > 0 ? "right" : "left", in_mm(face.place.x));
+    return readable("{} of x = {:g} mm", face.inward.x > 0 ? "right" : "left", in_mm(face.place.x));
   if (std::abs(face.inward.y) > straight)
-    return fmt::format("{} y = {:g} mm", face.inward.y > 0 ? "above" : "below", in_mm(face.place.y));
-  return fmt::format("beyond ({:g}, {:g}) mm, towards {:.0f} degrees", in_mm(face.place.x), in_mm(face.place.y),
-                     std::atan2(face.inward.y, face.inward.x) * 180 / std::numbers::pi);
+    return readable("{} y = {:g} mm", face.inward.y > 0 ? "above" : "below", in_mm(face.place.y));
+  return readable("beyond ({:g}, {:g}) mm, towards {:.0f} degrees", in_mm(face.place.x), in_mm(face.place.y),
+                  std::atan2(face.inward.y, face.inward.x) * 180 / std::numbers::pi);
 }
 
 }  // namespace wale

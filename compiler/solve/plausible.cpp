@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "compiler/expression/check_expression.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -222,7 +223,7 @@ std::optional<Jump> jump_along(PlaceEvaluator& height, const Way& way, std::size
 }
 
 std::string in_numbers(double value, const std::string& unit) {
-  return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
+  return readable("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
 /// The largest force that a declared device gives, N.

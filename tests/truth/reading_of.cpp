@@ -51,6 +51,15 @@ Reading reading_of(const Program& program) {
   return reading;
 }
 
+ShapeReading shape_of(const Program& program) {
+  const ForceReading found = read(Bank(program), declarations());
+  const auto carrier = [&](const char* percept) {
+    return carrier_of(found, *declarations().percepts.find(percept), declarations());
+  };
+  return {found.relief().crest, found.relief().regularity, carrier("sharpness"), carrier("crispness"),
+          carrier("bumpiness")};
+}
+
 std::array<std::optional<double>, cue_count> differences_of(const Program& a, const Program& b) {
   const Cues first = cues_of(Bank(a), declarations()), second = cues_of(Bank(b), declarations());
   std::array<std::optional<double>, cue_count> differences;
