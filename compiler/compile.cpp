@@ -321,10 +321,11 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   // An argument that was hardly meant, and is reported, may be why a force is strange; it is said once.
   if (material->doubts.empty()) {
     const auto is_fine = [](const Diagnostic& each) { return each.code == Code::under_resolution; };
-    if (std::ranges::none_of(diagnostics.all(), is_fine)) warn_of_jumps(solved, *material, diagnostics);
+    const bool fine = std::ranges::any_of(diagnostics.all(), is_fine);
+    if (!fine) warn_of_jumps(solved, *material, diagnostics);
     warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
     warn_of_no_force(bank, *material, solved, measured, diagnostics);
-    warn_of_fast_rates(bank, solved, diagnostics);
+    if (!fine) warn_of_fast_rates(bank, solved, diagnostics);
     warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   }
   warn_of_a_device_that_gives_less(solved, diagnostics);
