@@ -96,12 +96,17 @@ nlohmann::ordered_json to_json(const MeasuredShaking& shaking) {
 }
 
 void add_force(nlohmann::ordered_json& json, const Description& description) {
-  json["force"] = {
-      {"max_newton", figure(description.force.max_newton)},     {"p99_newton", figure(description.force.p99_newton)},
-      {"rms_newton", figure(description.force.rms_newton)},     {"bound_newton", figure(description.bound.newton)},
-      {"found_newton", figure(description.bound.found.newton)}, {"limit_matters", description.limit_matters}};
+  json["force"] = {{"max_newton", figure(description.force.max_newton)},
+                   {"p99_newton", figure(description.force.p99_newton)},
+                   {"rms_newton", figure(description.force.rms_newton)},
+                   {"max_may_be_larger", description.force.may_be_larger},
+                   {"over_time", description.force.over_time},
+                   {"bound_newton", figure(description.bound.newton)},
+                   {"found_newton", figure(description.bound.found.newton)},
+                   {"limit_matters", description.limit_matters}};
   json["grade"] = to_json(description.grade);
   json["stiffness"] = {{"max_newton_per_metre", figure(description.grade.stiffness)},
+                       {"jumps", description.grade.jumps},
                        {"at", to_json(description.grade.stiffest)}};
 }
 

@@ -221,9 +221,11 @@ void write_texture(std::string& text, const Description& description) {
 std::string bound_lines(const Description& description) {
   const ForceBound& bound = description.bound;
   std::string line;
-  if (bound.found.newton > 0)
-    line = readable("  the proved bound is {:.2f} times the largest force found ({:.3f} N)\n", bound.ratio(),
-                    bound.found.newton);
+  if (bound.found.newton >= 0.5 * description.device.force_step())
+    line = readable(
+        "  over all parameters, sizes of the patch and hands, the largest force found is {:.3f} N; the proved bound is "
+        "{:.2f} times that\n",
+        bound.found.newton, bound.ratio());
   if (!description.limit_matters) return line;
   const double most = description.device.force_newton, asked = description.asked.largest();
   if (asked > most)
@@ -265,9 +267,12 @@ std::string other_forces(const Description& description) {
 }
 
 void write_pushing(std::string& text, const Description& description) {
-  text += readable("\npushes\n  {:.3f} N at most with these parameters; with any, never more than {:.3f} N (proved)\n",
-                   description.force.max_newton, description.bound.newton);
-  text += readable("  on a hand at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n", description.force.p99_newton,
+  text +=
+      readable("\npushes\n  {:.3f} N {} with these parameters; with any, never more than {:.3f} N (proved)\n",
+               description.force.max_newton, description.force.may_be_larger ? "is the largest force found" : "at most",
+               description.bound.newton);
+  text += readable("  on a hand at rest, over the patch{}: P99 {:.3f} N, RMS {:.3f} N\n",
+                   description.force.over_time ? " and time" : "", description.force.p99_newton,
                    description.force.rms_newton);
   if (const auto& wall = description.wall)
     text += readable(
