@@ -10,7 +10,7 @@ namespace wale {
 namespace {
 
 constexpr double counts_as_there = 0.004;  // of a wave's mean square, in one of its harmonics
-constexpr double counts_as_wave = 0.01;    // in a wave of its own and its harmonics
+constexpr double counts_as_wave = 0.02;    // in a wave of its own and its harmonics
 constexpr std::size_t far_off = 4;         // the first harmonic that a waveform hardly has without those between
 
 }  // namespace
