@@ -355,6 +355,9 @@ class WaveSearch {
     for (const FoundWave& each : found_.waves) {
       if (!is_slow(each.wave.waves)) continue;
       slow.push_back(each.wave.waves);
+      // Beyond the harmonics that are fitted with it.
+      for (const std::size_t part : each.parts)
+        if (part > harmonics_beside) slow.push_back(static_cast<double>(part) * each.wave.waves);
       for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += each.wave.at(rest.places[i]);
     }
     const LinearForce before = found_.trend;
