@@ -114,6 +114,11 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
     if (powers[i] >= strong_part && !is_own(i + 1)) own.push_back(i + 1);
   for (std::size_t i = 0; i < powers.size(); ++i)
     if (is_own(i + 1)) in_own += powers[i];
+  // One wave alone, and a finer one that fits into the longer period by chance.
+  if (own.size() == 1 && own.front() > 1 && found.multiple % own.front() == 0) {
+    const std::size_t multiple = found.multiple / own.front();
+    return {peak / static_cast<double>(multiple), multiple, all[multiple - 1], {1}};
+  }
   if (own.size() < 2 || own.size() > most_waves_found || in_own <= 0.85) return found;
   if (own.back() <= small_common_multiple && !lies_elsewhere(thin, found.waves, own)) {
     found.parts = own;
