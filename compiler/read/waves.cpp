@@ -18,8 +18,8 @@ namespace {
 constexpr std::array<double, 3> closer = {4, 16, 96};  // windows are so many times smaller than the patch
 constexpr std::size_t closer_side = 128;
 constexpr std::size_t candidates = 5;
-constexpr std::size_t few_places_a_part = 16;     // ... and until it hardly moves any more
-constexpr std::size_t places_a_part = 48;         // of a period, to move a wave by
+constexpr std::size_t few_places_a_part = 16;     // of a period, to move a wave by ...
+constexpr std::size_t places_a_part = 48;         // ... and at last, to put it where it is
 constexpr double least_explained = 0.3;           // of what is left, by a wave ...
 constexpr double least_explained_by_few = 0.7;    // ... and by one with few periods
 constexpr double least_explained_by_many = 0.12;  // ... and by one with many
@@ -36,8 +36,8 @@ constexpr std::size_t lattice_parts = 20;
 constexpr std::size_t finer_lattice_parts = 40;
 constexpr std::size_t lattice_places = 9000;
 constexpr double least_lattice = 0.6;
-constexpr double most_joined_harmonic = 24;  // that is found before the wave whose harmonic it is
-constexpr double least_turn = 0.2;           // rad between two directions
+constexpr std::size_t most_joined_harmonic = 24;  // that is found before the wave whose harmonic it is
+constexpr double least_turn = 0.2;                // rad between two directions
 
 /// Every fourth place or so, chosen as if by chance: a regular choice would alias.
 StillForces thinned_by_chance(const StillForces& window, const std::vector<glm::dvec2>& forces, std::size_t about) {
@@ -274,12 +274,9 @@ class WaveSearch {
 
   /// The number of a wave among the harmonics of a coarser one; 0 if it is none.
   std::size_t harmonic_of(const FoundWave& coarse, const FoundWave& fine) const {
-    const double ratio = glm::dot(fine.wave.waves, coarse.wave.waves) / glm::dot(coarse.wave.waves, coarse.wave.waves);
-    const double number = std::round(ratio);
-    const glm::dvec2 off = (fine.wave.waves - number * coarse.wave.waves) * whole_.size;
-    return std::abs(number) >= 2 && std::abs(number) <= most_joined_harmonic && glm::length(off) < out_of_place
-               ? static_cast<std::size_t>(std::abs(number))
-               : 0;
+    const auto number =
+        static_cast<std::size_t>(std::abs(whole_periods(coarse.wave.waves, fine.wave.waves, whole_.size)));
+    return number >= 2 && number <= most_joined_harmonic ? number : 0;
   }
 
   /// Joins waves that are harmonics of another one to it, unless they are waves of their own.
