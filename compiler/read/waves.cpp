@@ -31,6 +31,7 @@ constexpr double same_period = 0.03;    // relative difference
 constexpr double coherent = 0.7;        // of the share in a small window, also in the whole
 constexpr double negligible = 0.004;    // of the whole mean square
 constexpr double slowest_lattice = 4;   // periods over the patch
+constexpr double least_taken = 0.02;    // of what is left, by one more wave
 constexpr double too_fine = 0.97;       // of the mean square: nothing is left to search in this window
 constexpr std::size_t lattice_parts = 20;
 constexpr std::size_t finer_lattice_parts = 40;
@@ -232,7 +233,8 @@ class WaveSearch {
   bool take_off(glm::dvec2 waves, const Fundamental& fundamental) {
     const std::size_t bins = most_bins(2 * parts_of_a_wave * fundamental.multiple, whole_.places.size() / 4);
     FoldedWave wave = folded(whole_.places, found_.rest, waves, std::max<std::size_t>(bins, 192));
-    if (wave.explained < 0.02) return false;
+    if (wave.explained < least_taken) return false;
+    const double before = mean_square(found_.rest);
     found_.waves.push_back({std::move(wave), 0, fundamental.parts});
     fit_together(is_slow(waves));
     // Over the whole patch the harmonics are clean: if only every so many-th is there, the wave is that much shorter.
@@ -248,7 +250,8 @@ class WaveSearch {
     fit_trend(some);
     update_rest();
     for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
-    return true;
+    // A wave that joins another one and leaves as much as before would be found again without end.
+    return mean_square(found_.rest) < (1 - least_taken) * before;
   }
 
   /// Finds a wave anew whose harmonics are all multiples of one.
