@@ -57,23 +57,26 @@ std::vector<WavePart> parts_of(const FoundWave& wave) {
 }
 
 SharedHarmonic shared_harmonic(const FoundWave& one, const FoundWave& other, glm::dvec2 size) {
-  constexpr int most = 6;
+  constexpr int most_of_one = 40, most_of_other = 6;
   if (one.parts.size() > 1 || other.parts.size() > 1) return {};
-  for (int of_one = 2; of_one <= most; ++of_one) {
+  for (int of_one = 2; of_one <= most_of_one; ++of_one) {
     const int of_other = std::abs(whole_periods(other.wave.waves, static_cast<double>(of_one) * one.wave.waves, size));
-    if (of_other >= 2 && of_other <= most && of_other != of_one)
+    if (of_other >= 1 && of_other <= most_of_other && of_other != of_one)
       return {static_cast<std::size_t>(of_one), static_cast<std::size_t>(of_other)};
   }
   return {};
 }
 
 bool belongs_to_other(const FoundWave& one, const FoundWave& other, SharedHarmonic shared) {
-  const auto has_neighbour = [](const FoundWave& wave, std::size_t number) {
-    const std::vector<double> powers = harmonics_of(wave.wave, number + 1);
-    return powers[number - 2] >= weak_part || powers[number] >= weak_part;
+  // Some waveforms have only odd harmonics.
+  const auto has_neighbour = [](const FoundWave& wave, std::size_t number, std::size_t least) {
+    const std::vector<double> powers = harmonics_of(wave.wave, number + 2);
+    for (std::size_t each = std::max(least, number - std::min<std::size_t>(number, 2)); each <= number + 2; ++each)
+      if (each != number && powers[each - 1] >= weak_part) return true;
+    return false;
   };
-  return harmonics_of(one.wave, shared.of_one).back() >= weak_part && !has_neighbour(one, shared.of_one) &&
-         has_neighbour(other, shared.of_other);
+  return harmonics_of(one.wave, shared.of_one).back() > 0 && !has_neighbour(one, shared.of_one, 2) &&
+         (shared.of_other == 1 || has_neighbour(other, shared.of_other, 1));
 }
 
 void take_harmonic_off(FoldedWave& wave, std::size_t number) {

@@ -64,6 +64,23 @@ Composition incommensurate(Chance& chance) {
   return made;
 }
 
+/// A fine sine on a coarse one along one direction, whose periods have any ratio but nearly a whole one: then the fine
+/// one is a harmonic, and both are one wave. Over a long common multiple nobody can say which is the period.
+Composition fine_on_coarse(Chance& chance) {
+  Composition made = any_patch(chance);
+  const double coarse = rounded(chance.octaves(2e-3, made.longest_period()), 4);
+  double ratio = chance.octaves(1.3, 12);
+  while (std::abs(ratio - std::round(ratio)) < 0.1) ratio = chance.octaves(1.3, 12);
+  const double orientation = any_orientation(chance), size = chance.octaves(0.05, 2);
+  const double other = size * chance.between(0.4, 1);
+  const bool first = chance.happens(0.5);
+  made.truth[Cue::period] = open;
+  add_waves(made, chance,
+            {wave_of(chance, sine(), coarse, orientation, first ? size : other),
+             wave_of(chance, sine(), rounded(coarse / ratio, 4), orientation, first ? other : size)});
+  return made;
+}
+
 /// Two waves of any form across each other.
 Composition crossed(Chance& chance) {
   Composition made = any_patch(chance);
@@ -93,8 +110,11 @@ Composition three_waves(Chance& chance) {
 }  // namespace
 
 std::vector<Family> sum_families() {
-  return {
-      {"collinear", collinear}, {"incommensurate", incommensurate}, {"crossed", crossed}, {"three waves", three_waves}};
+  return {{"collinear", collinear},
+          {"incommensurate", incommensurate},
+          {"fine on coarse", fine_on_coarse},
+          {"crossed", crossed},
+          {"three waves", three_waves}};
 }
 
 }  // namespace wale::truth

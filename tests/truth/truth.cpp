@@ -38,6 +38,7 @@ const std::map<std::string, Floor>& floors() {
       {"finer than 2 counts", {8, 192}},
       {"collinear", {8, 188}},
       {"incommensurate", {8, 191}},
+      {"fine on coarse", {8, 182}},
       {"crossed", {8, 173}},
       {"three waves", {8, 184}},
       {"hill", {8, 152}},

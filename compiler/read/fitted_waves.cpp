@@ -1,0 +1,275 @@
+#include "compiler/read/fitted_waves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <utility>
+
+#include "compiler/read/harmonic_fit.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::size_t few_places_a_part = 16;     // of a period, to move a wave by ...
+constexpr std::size_t places_a_part = 48;         // ... and at last, to put it where it is
+constexpr std::size_t places_together = 3000;     // to move several waves by
+constexpr double slow_periods = 12;               // over the patch
+constexpr double few_periods_together = 25;       // over the patch, so that two waves look alike
+constexpr double least_taken = 0.02;              // of what is left, by one more wave
+constexpr double least_parted = 5e-4;             // of the whole mean square: worth it to look for two waves in one
+constexpr double much_less = 0.5;                 // of what waves leave, if they are moved together
+constexpr std::size_t most_joined_harmonic = 24;  // that is found before the wave whose harmonic it is
+
+}  // namespace
+
+FittedWaves::FittedWaves(const StillForces& whole, const std::vector<Feature>& features)
+    : whole_(whole), features_(features) {
+  update_rest();
+  found_.trend = linear_force(whole.places, found_.rest);
+  update_rest();
+  all_ = mean_square(found_.rest);
+}
+
+std::vector<glm::dvec2> FittedWaves::rest_at(const std::vector<glm::dvec2>& places,
+                                             std::vector<glm::dvec2> forces) const {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    forces[i] -= found_.trend.at(places[i]);
+    if (!features_.empty()) forces[i] = beside(features_, places[i], forces[i]);
+    for (const FoundWave& each : found_.waves) forces[i] -= each.wave.at(places[i]);
+  }
+  return forces;
+}
+
+bool FittedWaves::take_off(glm::dvec2 waves, const Fundamental& fundamental) {
+  const std::size_t bins = most_bins(2 * parts_of_a_wave * fundamental.multiple, whole_.places.size() / 4);
+  FoldedWave wave = folded(whole_.places, found_.rest, waves, std::max<std::size_t>(bins, 192));
+  if (wave.explained < least_taken) return false;
+  const double before = mean_square(found_.rest);
+  found_.waves.push_back({std::move(wave), 0, fundamental.parts});
+  fit_together(is_slow(waves));
+  shorten_if_longer(found_.waves.back());
+  join_harmonics();
+  StillForces some = every(3);
+  some.forces = rest_at(some.places, std::move(some.forces));
+  fit_trend(some);
+  update_rest();
+  settle_shared_harmonics();
+  part_slow_waves();
+  for (FoundWave& each : found_.waves) shorten_if_longer(each);
+  for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
+  // A wave that joins another one and leaves as much as before would be found again without end.
+  return mean_square(found_.rest) < (1 - least_taken) * before;
+}
+
+void FittedWaves::shorten_if_longer(FoundWave& found) {
+  if (found.parts.size() > 1) return;
+  // Over the whole patch the harmonics are clean.
+  const std::vector<double> powers = harmonics_of(found.wave, std::min<std::size_t>(60, found.wave.profile.size() / 3));
+  std::size_t step = 0;
+  for (std::size_t i = 0; i < powers.size(); ++i)
+    if (powers[i] >= weak_part) step = std::gcd(step, i + 1);
+  if (step > 1) shorten(found, step);
+}
+
+void FittedWaves::shorten(FoundWave& found, std::size_t step) {
+  add_to_rest(found.wave, 1);
+  found.wave = folded(whole_.places, found_.rest, static_cast<double>(step) * found.wave.waves,
+                      std::max<std::size_t>(found.wave.profile.size() / step, 64));
+  add_to_rest(found.wave, -1);
+}
+
+void FittedWaves::drop_parts_that_are_gone() {
+  for (FoundWave& each : found_.waves) {
+    if (each.parts.size() < 2) continue;
+    std::vector<std::size_t> left;
+    for (const WavePart& part : parts_of(each))
+      if (part.share >= strong_part) left.push_back(part.number);
+    if (left.size() != 1) continue;
+    shorten(each, left.front());
+    each.parts = {1}, each.power = mean_square(each.wave.profile);
+  }
+}
+
+std::size_t FittedWaves::harmonic_of(const FoundWave& coarse, const FoundWave& fine) const {
+  const auto number =
+      static_cast<std::size_t>(std::abs(whole_periods(coarse.wave.waves, fine.wave.waves, whole_.size)));
+  return number >= 2 && number <= most_joined_harmonic ? number : 0;
+}
+
+void FittedWaves::join_harmonics() {
+  for (std::size_t coarse = 0; coarse < found_.waves.size(); ++coarse)
+    for (std::size_t fine = 0; fine < found_.waves.size(); ++fine) {
+      const std::size_t number = harmonic_of(found_.waves[coarse], found_.waves[fine]);
+      if (number == 0 || found_.waves[coarse].parts.size() > 1 || found_.waves[fine].parts.size() > 1) continue;
+      FoundWave &one = found_.waves[coarse], &other = found_.waves[fine];
+      std::vector<glm::dvec2> forces = found_.rest;
+      for (std::size_t i = 0; i < forces.size(); ++i)
+        forces[i] += one.wave.at(whole_.places[i]) + other.wave.at(whole_.places[i]);
+      const std::size_t bins =
+          most_bins(std::max(one.wave.profile.size(), parts_of_a_wave * number), forces.size() / 4);
+      FoldedWave both = folded(whole_.places, forces, one.wave.waves, bins);
+      if (fine_wave(harmonics_of(both, both.profile.size() / 2)) == number) continue;
+      one.wave = std::move(both);
+      found_.waves.erase(found_.waves.begin() + static_cast<std::ptrdiff_t>(fine));
+      update_rest();
+      return join_harmonics();
+    }
+}
+
+std::vector<glm::dvec2> FittedWaves::may_be_waves() const {
+  std::vector<std::pair<double, glm::dvec2>> found;  // N^2
+  for (const FoundWave& each : found_.waves) {
+    std::vector<WavePart> parts = parts_of(each);
+    if (parts.size() == 1) {
+      const std::vector<double> powers = harmonics_of(each.wave, each.wave.profile.size() / 3);
+      const auto finer = std::max_element(powers.begin() + 1, powers.end());
+      if (*finer >= strong_part) parts.push_back({static_cast<std::size_t>(finer - powers.begin()) + 1, *finer});
+    }
+    const double power = mean_square(each.wave.profile);
+    for (const WavePart& part : parts)
+      found.emplace_back(part.share * power, static_cast<double>(part.number) * each.wave.waves);
+  }
+  std::ranges::stable_sort(found, std::greater(), [](const auto& each) { return each.first; });
+  if (found.size() > most_waves_found) found.resize(most_waves_found);
+  std::vector<glm::dvec2> waves;
+  for (const auto& each : found) waves.push_back(each.second);
+  return waves;
+}
+
+void FittedWaves::part_slow_waves() {
+  if (!(mean_square(found_.rest) > least_parted * all_)) return;
+  bool few = false;
+  std::size_t bins = 0;
+  for (const FoundWave& each : found_.waves) {
+    few = few || glm::length(each.wave.waves * whole_.size) < few_periods_together;
+    bins = std::max(bins, each.wave.profile.size());
+  }
+  if (!few) return;
+  const std::vector<glm::dvec2> waves = may_be_waves();
+  if (waves.size() < 2) return;
+  StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_together));
+  some.forces = rest_at(some.places, std::move(some.forces));
+  for (std::size_t i = 0; i < some.places.size(); ++i) some.forces[i] += found_.trend.at(some.places[i]);
+  for (const FoundWave& each : found_.waves) add_wave(each.wave, 1, some);
+  HarmonicFit fit = fit_harmonics(some.places, some.forces, waves, whole_.size, bins);
+  if (fit.left > much_less * fit.left_there) return;
+  const FoundWaves before = found_;
+  const double left_before = mean_square(found_.rest);
+  found_.waves.clear();
+  for (FoldedWave& each : fit.waves) found_.waves.push_back({std::move(each), 0, {1}});
+  found_.trend = fit.line;
+  update_rest();
+  for (int turn = 0; turn < 2; ++turn)
+    for (FoundWave& each : found_.waves) {
+      add_to_rest(each.wave, 1);
+      each.wave = folded(whole_.places, found_.rest, each.wave.waves, each.wave.profile.size());
+      add_to_rest(each.wave, -1);
+    }
+  if (mean_square(found_.rest) >= left_before) found_ = before;
+}
+
+void FittedWaves::fit_together(bool slow) {
+  const int turns = slow ? 4 : 3;
+  std::size_t most = 0;
+  for (const FoundWave& each : found_.waves) most = std::max(most, each.wave.profile.size());
+  const auto at_places = [&](std::size_t a_part) {
+    StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / (a_part * most)));
+    some.forces = rest_at(some.places, std::move(some.forces));
+    return some;
+  };
+  StillForces some = at_places(few_places_a_part);
+  for (int turn = 0; turn < turns; ++turn) {
+    if (turn + 1 == turns) some = at_places(places_a_part);
+    fit_trend(some);
+    for (FoundWave& each : found_.waves) {
+      const std::size_t bins = each.wave.profile.size();
+      add_wave(each.wave, 1, some);
+      const glm::dvec2 waves = better_fitting(some.places, some.forces, each.wave.waves, bins / 4);
+      each.wave = folded(some.places, some.forces, waves, bins);
+      add_wave(each.wave, -1, some);
+    }
+    if (!slow && mean_square(some.forces) < negligible_rest * all_) turn = std::max(turn, turns - 2);
+  }
+  update_rest();
+  for (FoundWave& each : found_.waves) {
+    add_to_rest(each.wave, 1);
+    each.wave = folded(whole_.places, found_.rest, each.wave.waves, each.wave.profile.size());
+    add_to_rest(each.wave, -1);
+  }
+}
+
+void FittedWaves::add_wave(const FoldedWave& wave, double times, StillForces& still) {
+  for (std::size_t i = 0; i < still.places.size(); ++i) still.forces[i] += times * wave.at(still.places[i]);
+}
+
+void FittedWaves::add_to_rest(const FoldedWave& wave, double times) {
+  for (std::size_t i = 0; i < whole_.places.size(); ++i) found_.rest[i] += times * wave.at(whole_.places[i]);
+}
+
+StillForces FittedWaves::every(std::size_t step) const {
+  StillForces some{whole_.side, whole_.centre, whole_.size, {}, {}};
+  for (std::size_t i = 0; i < whole_.places.size(); i += step)
+    some.places.push_back(whole_.places[i]), some.forces.push_back(whole_.forces[i]);
+  return some;
+}
+
+void FittedWaves::fit_trend(StillForces& rest) {
+  std::vector<glm::dvec2> slow, forces = rest.forces;
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += found_.trend.at(rest.places[i]);
+  for (const FoundWave& each : found_.waves) {
+    if (!is_slow(each.wave.waves)) continue;
+    slow.push_back(each.wave.waves);
+    // Beyond the harmonics that are fitted with it.
+    for (const std::size_t part : each.parts)
+      if (part > harmonics_beside) slow.push_back(static_cast<double>(part) * each.wave.waves);
+    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += each.wave.at(rest.places[i]);
+  }
+  const LinearForce before = found_.trend;
+  found_.trend = slow.empty() ? linear_force(rest.places, forces) : linear_beside(rest.places, forces, slow);
+  const LinearForce more{before.mean - found_.trend.mean, before.by_x - found_.trend.by_x,
+                         before.by_y - found_.trend.by_y};
+  for (std::size_t i = 0; i < forces.size(); ++i) rest.forces[i] += more.at(rest.places[i]);
+}
+
+bool FittedWaves::is_slow(glm::dvec2 waves) const { return glm::length(waves * whole_.size) < slow_periods; }
+
+void FittedWaves::keep_local(const StillForces& window, const std::vector<glm::dvec2>& forces,
+                             const Fundamental& fundamental) {
+  FoldedWave wave = folded(window.places, forces, fundamental.waves,
+                           most_bins(2 * parts_of_a_wave * fundamental.multiple, forces.size() / 4));
+  found_.share = wave.explained;
+  const double power = mean_square(wave.profile);
+  found_.waves.push_back({std::move(wave), power, fundamental.parts});
+  found_.local = true;
+}
+
+void FittedWaves::settle_shared_harmonics() {
+  for (FoundWave& one : found_.waves)
+    for (FoundWave& other : found_.waves) {
+      const SharedHarmonic shared = shared_harmonic(one, other, whole_.size);
+      if (shared.of_one == 0 || !belongs_to_other(one, other, shared)) continue;
+      for (FoundWave* each : {&one, &other}) add_to_rest(each->wave, 1);
+      take_harmonic_off(one.wave, shared.of_one);
+      add_to_rest(one.wave, -1);
+      other.wave = folded(whole_.places, found_.rest, other.wave.waves, other.wave.profile.size());
+      add_to_rest(other.wave, -1);
+      for (FoundWave* each : {&one, &other}) each->power = mean_square(each->wave.profile);
+    }
+}
+
+FoundWaves FittedWaves::finished() {
+  if (found_.local) return std::move(found_);
+  drop_parts_that_are_gone();
+  settle_shared_harmonics();
+  const double rest = mean_square(found_.rest);
+  double waves = 0;
+  for (const FoundWave& each : found_.waves) waves += each.power;
+  found_.share = waves + rest > 0 ? waves / (waves + rest) : 0;
+  if (found_.lattice) found_.share = std::max(found_.share, found_.lattice->share);
+  std::ranges::stable_sort(found_.waves, std::greater(), &FoundWave::power);
+  return std::move(found_);
+}
+
+}  // namespace wale

@@ -1,0 +1,45 @@
+// Two sines along one direction, read as themselves and with their shares of the mean square.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "compiler/read/relief.hpp"
+#include "tests/standard/standard.hpp"
+
+namespace wale::sums_test {
+namespace {
+
+TEST(Sums, OfAFineWaveOnACoarseOneAreTheseTwo) {
+  struct Sum {
+    double coarse, fine;  // mm
+    double of_fine;       // amplitude, of the coarse one's
+    double phase;         // rad, of the fine one
+  };
+  // Over few periods a common multiple fits by chance: 39.1 mm is nearly nine times 4.1 mm. And harmonics meet: the
+  // third of 3 mm is the 25th of 25 mm.
+  constexpr Sum sums[] = {{39.1, 4.1, 1, 5},     {35.91, 11, 0.7, 1},  {20.95, 7.77, 1, 3.93}, {15.8, 2.48, 1, 4.485},
+                          {25, 3, 0.7, 2.894},   {24, 5, 0.4, 5.3},    {12, 1, 1, 1},          {16, 1, 0.7, 2},
+                          {9.74, 2, 1, 5.95},    {2, 0.7, 0.7, 1.216}, {3.86, 0.5, 0.4, 3.82}, {5, 0.7, 0.7, 1.645},
+                          {5.9, 2.4, 0.5, 3.39}, {27, 13, 0.5, 0.7},   {30.69, 6.57, 1, 2},    {5, 0.6, 1, 1.193}};
+  for (const Sum& sum : sums) {
+    const std::string force = "force = vector(1 N * sin(2 * pi * x / " + std::to_string(sum.coarse) + " mm) + " +
+                              std::to_string(sum.of_fine) + " N * sin(2 * pi * x / " + std::to_string(sum.fine) +
+                              " mm + " + std::to_string(sum.phase) + "), 0 N)";
+    const Relief relief =
+        static_force(Bank(standard::material("material m { physical {\n    " + force + "\n} }", "m"))).relief;
+    ASSERT_EQ(relief.waves.size(), 2u) << force;
+    auto waves = relief.waves;
+    std::ranges::sort(waves, {}, &ReliefWave::period);
+    const double square = sum.of_fine * sum.of_fine, of_fine = square / (1 + square);
+    EXPECT_NEAR(waves[0].period, 1e-3 * sum.fine, 5e-3 * 1e-3 * sum.fine) << force;
+    EXPECT_NEAR(waves[1].period, 1e-3 * sum.coarse, 5e-3 * 1e-3 * sum.coarse) << force;
+    EXPECT_NEAR(waves[0].share, of_fine, 0.02) << force;
+    EXPECT_NEAR(waves[1].share, 1 - of_fine, 0.02) << force;
+  }
+}
+
+}  // namespace
+}  // namespace wale::sums_test
