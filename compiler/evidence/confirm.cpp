@@ -127,7 +127,10 @@ std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceRead
     const bool as_meant = !record.basis.summand && (material.scales_a_texture || !material.force ||
                                                     changes((*material.force)[0]) || changes((*material.force)[1]));
     // That a program pushes nowhere has a warning of its own, with this cause.
-    if (outside.empty() && !as_meant && !stands_outside(record, found))
+    const bool never_pushes = std::ranges::any_of(diagnostics.all(), [&](const Diagnostic& each) {
+      return each.code == Code::never_pushes && each.span == solved.force_span;
+    });
+    if (outside.empty() && !as_meant && !never_pushes)
       report_difference(record, correction->told, *percept.asked, correction->why, asked->place(), diagnostics);
     changed = true;
   }
