@@ -200,14 +200,15 @@ void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const S
     return each.asked && each.record.extractor == Extractor::wall_stiffness;
   });
   std::string message;
-  std::string help = walled ? "its wall stands outside of the patch: move the face inside, as `firm(face: 5 mm)` does, "
-                              "or take a larger patch"
-                            : "look for a length in m instead of mm, or for a size of 0";
+  std::string help =
+      walled ? "its wall stands outside of the patch, or in its rim: move the face inside, as `firm(face: 5 mm)` does, "
+               "or take a larger patch"
+             : "look for a length in m instead of mm, or for a size of 0";
   if (measured.max_newton >= least) {
     message =
         fmt::format("`{}` pushes only in the rim of its patch, with up to {:.3g} N, where heights fade; inside, {}",
                     solved.name, measured.max_newton, proved ? "its force is 0" : "no force was found");
-    help = "look for heights that add up to the same height everywhere, or for a place outside the patch";
+    if (!walled) help = "look for heights that add up to the same height everywhere, or for a place outside the patch";
   } else if (bound.newton == 0) {
     message = fmt::format("`{}` never pushes: its force is 0 at every place of its patch, {}, and at every velocity",
                           solved.name, where);
@@ -324,15 +325,20 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
     return std::nullopt;
   }
   const GradingHand hand = normal_hand(module.declarations());
+  // Whether a value of this material was reported as hardly meant.
+  const auto doubted = [&] {
+    return !material->doubts.empty() || std::any_of(diagnostics.all().begin() + static_cast<std::ptrdiff_t>(said),
+                                                    diagnostics.all().end(), [](const Diagnostic& each) {
+                                                      return each.code == Code::under_resolution ||
+                                                             each.code == Code::beyond_soft_range;
+                                                    });
+  };
   // An argument that was hardly meant, and is reported, may be why a force is strange; it is said once.
   if (material->doubts.empty()) {
     const auto is_fine = [](const Diagnostic& each) { return each.code == Code::under_resolution; };
     const bool fine = std::ranges::any_of(diagnostics.all(), is_fine);
     // A period that was given as one is compared with device and patch already.
-    const bool compared =
-        std::any_of(diagnostics.all().begin() + static_cast<std::ptrdiff_t>(said), diagnostics.all().end(),
-                    [&](const Diagnostic& each) { return is_fine(each) || each.code == Code::beyond_soft_range; });
-    if ((compared || !warn_of_cycles(*material, solved.device, diagnostics)) &&
+    if ((doubted() || !warn_of_cycles(*material, solved.device, diagnostics)) &&
         !warn_of_no_number(*material, solved.device, diagnostics)) {
       if (!fine) warn_of_jumps(solved, *material, diagnostics);
       warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
@@ -342,7 +348,7 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
     warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   }
   warn_of_a_device_that_gives_less(solved, diagnostics);
-  if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), diagnostics)) {
+  if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), doubted(), diagnostics)) {
     PatchProgram confirmed = finished.program->description();
     confirmed.fates = *std::move(fates);
     finished.program = *Program::load(std::move(confirmed));  // it differs in fates from a program that was loaded

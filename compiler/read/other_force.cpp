@@ -97,7 +97,7 @@ glm::dvec2 beyond_entry(Bank& own, Force felt, const Hand& hand) {
 
 /// What a hand that came from elsewhere feels at rest. If that holds the hand back on the way that it came, with no
 /// more than it did on that way, it is friction's.
-double by_memory(const Bank& bank) {
+double by_memory(const Bank& bank, double& rehearsed) {
   const PatchProgram& program = bank.program().description();
   if (!remembers_anything(program) || remembers_time_only(program)) return 0;
   const glm::dvec2 half = half_without_rim(bank);
@@ -117,6 +117,7 @@ double by_memory(const Bank& bank) {
       hand = on_tour(number, seconds, half, presses);
       if (now == 0) memory.enter(own, hand);
       felt = tick(own, memory, hand);
+      rehearsed = std::max(rehearsed, double{glm::length(felt)});
       if (seconds < tour - stopping || now % some_ticks != 0 || hand.velocity == glm::vec2(0)) continue;
       way = glm::normalize(glm::dvec2(hand.velocity));
       held = std::max(held, -glm::dot(beyond_entry(own, felt, hand), way));
@@ -160,7 +161,9 @@ OtherForce other_force(const Bank& bank, const std::vector<std::vector<Force>>& 
   for (const std::vector<Force>& forces : felt)
     found.slowly = std::max(found.slowly, swings ? change_of_mean(forces, rate) : change_of(forces));
   if (found.slowly < left_of_a_swing * std::max(sway.amplitude, vibration.amplitude)) found.slowly = 0;
-  found.remembered = by_memory(bank);
+  for (const std::vector<Force>& forces : felt)
+    for (const Force& force : forces) found.rehearsed = std::max(found.rehearsed, double{glm::length(force)});
+  found.remembered = by_memory(bank, found.rehearsed);
   // A swing that begins when the hand comes is elsewhere in its period for a hand that came before.
   const double swinging = 2 * (sway.amplitude + vibration.amplitude);
   if (found.remembered < plainly_more * (held + swinging)) found.remembered = 0;

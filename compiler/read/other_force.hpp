@@ -12,7 +12,9 @@ struct OtherForce {
   double slowly = 0;      ///< on a hand that holds still: it changes slower than a sway, or once
   double remembered = 0;  ///< on a hand that has been elsewhere before; no friction is so large
   double moving = 0;      ///< on a hand at 0.25 m/s somewhere in the patch, where nothing else resists
+  double rehearsed = 0;   ///< the largest force found on all these hands
 
+  /// The largest that no other cue reads.
   double largest() const;
 };
 

@@ -72,28 +72,13 @@ ForceReading times_as_strong(ForceReading found, double times) {
   if (still.face) still.face->stiffness *= times, still.face->preload *= times;
   Relief& relief = still.relief;
   OpposingForce& opposing = found.opposing;
-  for (double* each : {&relief.amplitude,
-                       &relief.maximum,
-                       &relief.rms,
-                       &relief.mean,
-                       &found.stiffness,
-                       &found.stiffness_across,
-                       &opposing.friction,
-                       &opposing.friction_across,
-                       &opposing.damping,
-                       &opposing.damping_across,
-                       &opposing.scatter,
-                       &opposing.aside,
-                       &found.breakaway,
-                       &found.inertia.greatest,
-                       &found.inertia.across,
-                       &found.sway.amplitude,
-                       &found.vibration.amplitude,
-                       &found.other.button,
-                       &found.other.slowly,
-                       &found.other.remembered,
-                       &found.other.moving,
-                       &found.at_rest})
+  for (double* each :
+       {&relief.amplitude,          &relief.maximum,          &relief.rms,           &relief.mean,
+        &found.stiffness,           &found.stiffness_across,  &opposing.friction,    &opposing.friction_across,
+        &opposing.damping,          &opposing.damping_across, &opposing.scatter,     &opposing.aside,
+        &found.breakaway,           &found.inertia.greatest,  &found.inertia.across, &found.sway.amplitude,
+        &found.vibration.amplitude, &found.other.button,      &found.other.slowly,   &found.other.remembered,
+        &found.other.moving,        &found.other.rehearsed})
     *each *= times;
   found.constant *= times;
   if (found.wall)

@@ -145,8 +145,6 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
     found.breakaway = breakaway_of(bank, found.opposing.friction);
     found.inertia = inertia(bank);
     const std::vector<std::vector<Force>> felt = felt_at_rest(bank);
-    for (const std::vector<Force>& forces : felt)
-      for (const Force& force : forces) found.at_rest = std::max(found.at_rest, double{glm::length(force)});
     tell_swings(bank, felt, found.sway, found.vibration);
     at_first = only_at_first(bank, felt, found);
     found.other =

@@ -29,7 +29,6 @@ struct ForceReading {
   Swing sway;            ///< slower than 10 Hz
   Swing vibration;
   OtherForce other;
-  double at_rest = 0;  ///< N: the largest force found on hands that hold still for some seconds; 0 if it cannot change
 
   Principal stiffnesses() const { return {stiffness, stiffness_across, stiffness_axis}; }
   const Relief& relief() const { return still.relief; }

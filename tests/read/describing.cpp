@@ -214,8 +214,14 @@ TEST(DescribingForces, WhatGoesByTimeAloneHasNoMemoryAndOneLargestForce) {
   EXPECT_NEAR(slow.bound.found.newton, 1, 1e-3);
   EXPECT_EQ(slow.other.remembered, 0);
   const Description rubbed = described(
-      "state trail : length = 0 mm in -50 mm .. 50 mm\ntrail' = (x - trail) / 1 s\nforce = vector(-20 N/m * trail, 0 N)");
+      "state trail : length = 0 mm in -50 mm .. 50 mm\ntrail' = (x - trail) / 1 s\nforce = vector(-20 N/m * trail, 0 "
+      "N)");
   EXPECT_EQ(rubbed.no_texture, "its force depends on its memory, so it has no single texture");
+  // A soft bristle gives most where the hand has come from afar.
+  const Description soft = described("force = sticky(0.5 N, 6 N/m)");
+  EXPECT_GT(soft.other.remembered, 0.1);
+  EXPECT_GE(soft.force.max_newton, soft.other.remembered - 1e-4);
+  EXPECT_GE(soft.bound.found.newton, soft.force.max_newton - 1e-4);
 }
 
 TEST(DescribingForces, ASquareWaveOfOneNewtonReadsOneNewtonAtAnyRate) {
