@@ -20,9 +20,11 @@
 #include "compiler/parse/parse.hpp"
 #include "compiler/prove/force_bound.hpp"
 #include "compiler/prove/reachable.hpp"
+#include "compiler/solve/formula_mistakes.hpp"
 #include "compiler/solve/plausible.hpp"
 #include "compiler/solve/solve.hpp"
 #include "compiler/text/readable.hpp"
+#include "compiler/text/sampled_rate.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale {
@@ -166,6 +168,12 @@ ForceBound bound_inside(const Bank& bank) {
   return force_bound(bank.program(), domain);
 }
 
+/// "0.0031 N at most", "less than 0.0001 N": a force (N) that is too small to be felt.
+std::string at_most(double newton) {
+  constexpr double told = 1e-4;
+  return newton < told ? readable("less than {:.4f} N", told) : readable("{:.2g} N at most", newton);
+}
+
 /// Warns of a material whose force is nothing that the device can command, for every hand and all parameters, or for
 /// every hand inside the patch's rim, unless it says so itself.
 void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const SolvedMaterial& solved,
@@ -192,36 +200,28 @@ void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const S
     return each.asked && each.record.extractor == Extractor::wall_stiffness;
   });
   std::string message;
-  std::string help = walled ? "its wall stands outside of the patch: move the face inside, as `firm(face: 5 mm)` does, "
-                              "or take a larger patch"
-                            : "look for a length in m instead of mm, or for a size of 0";
+  std::string help =
+      walled ? "its wall stands outside of the patch, or in its rim: move the face inside, as `firm(face: 5 mm)` does, "
+               "or take a larger patch"
+             : "look for a length in m instead of mm, or for a size of 0";
   if (measured.max_newton >= least) {
     message =
         fmt::format("`{}` pushes only in the rim of its patch, with up to {:.3g} N, where heights fade; inside, {}",
                     solved.name, measured.max_newton, proved ? "its force is 0" : "no force was found");
-    help = "look for heights that add up to the same height everywhere, or for a place outside the patch";
+    if (!walled) help = "look for heights that add up to the same height everywhere, or for a place outside the patch";
   } else if (bound.newton == 0) {
     message = fmt::format("`{}` never pushes: its force is 0 at every place of its patch, {}, and at every velocity",
                           solved.name, where);
   } else if (proved) {
-    message = fmt::format("`{}` never pushes: its force is {:.2g} N at most on its patch, {}, and {}", solved.name,
-                          bound.newton, where, needed);
+    message = fmt::format("`{}` never pushes: its force is {} on its patch, {}, and {}", solved.name,
+                          at_most(bound.newton), where, needed);
     help = "look for forces that cancel, or for a size near 0";
   } else {
-    message = fmt::format("`{}` seems never to push: the largest force found on its patch, {}, is {:.2g} N, and {}",
-                          solved.name, where, newton, needed);
+    message = fmt::format("`{}` seems never to push: any force found on its patch, {}, is {}, and {}", solved.name,
+                          where, at_most(newton), needed);
     help = "look for forces that cancel, or for a feature far smaller than an encoder count";
   }
   diagnostics.report({.code = Code::never_pushes, .span = solved.force_span, .message = message, .help = help});
-}
-
-/// "comes out as one of 300 Hz", of a rate (Hz) at or above half of the loop's.
-std::string what_comes_out(double rate, double loop) {
-  constexpr double same = 1e-4;  // of the loop's rate
-  const double sampled = rate_when_sampled(rate, loop);
-  if (sampled < same * loop) return "comes out as a force that stays the same";
-  if (sampled > (0.5 - same) * loop) return "comes out as two forces in turn, which may be equal";
-  return fmt::format("comes out as one of {:.4g} Hz", sampled);
 }
 
 /// Warns of rates that the loop cannot follow, at the parameters' defaults and at the ends of their ranges.
@@ -232,8 +232,8 @@ void warn_of_fast_rates(const Bank& bank, const SolvedMaterial& solved, Diagnost
   const auto report = [&](const std::string& which, double rate) {
     diagnostics.report({.code = Code::too_fast_for_loop,
                         .span = solved.force_span,
-                        .message = fmt::format("{} of {:.4g} Hz {}: `{}` computes {:.4g} forces a second", which, rate,
-                                               what_comes_out(rate, loop), program.device.name, loop),
+                        .message = fmt::format("{} of {:.4g} Hz comes out as {}: `{}` computes {:.4g} forces a second",
+                                               which, rate, what_comes_out(rate, loop), program.device.name, loop),
                         .help = fmt::format("choose a rate below {:.4g} Hz", loop / 2)});
   };
   if (const double rate = fastest_own_rate(bank); rate >= most) return report("a rate", rate);
@@ -314,6 +314,7 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   if (!material) return std::nullopt;
   diagnostics.renew_budget();
   diagnostics.allow_text(sources[source].text.size());
+  const std::size_t said = diagnostics.all().size();
   FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics);
   const SolvedMaterial& solved = finished.solved;
   if (!finished.program || solved.device.shaker) return std::move(finished.program);  // the latter has no force
@@ -324,18 +325,30 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
     return std::nullopt;
   }
   const GradingHand hand = normal_hand(module.declarations());
+  // Whether a value of this material was reported as hardly meant.
+  const auto doubted = [&] {
+    return !material->doubts.empty() || std::any_of(diagnostics.all().begin() + static_cast<std::ptrdiff_t>(said),
+                                                    diagnostics.all().end(), [](const Diagnostic& each) {
+                                                      return each.code == Code::under_resolution ||
+                                                             each.code == Code::beyond_soft_range;
+                                                    });
+  };
   // An argument that was hardly meant, and is reported, may be why a force is strange; it is said once.
   if (material->doubts.empty()) {
     const auto is_fine = [](const Diagnostic& each) { return each.code == Code::under_resolution; };
     const bool fine = std::ranges::any_of(diagnostics.all(), is_fine);
-    if (!fine) warn_of_jumps(solved, *material, diagnostics);
-    warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
-    warn_of_no_force(bank, *material, solved, measured, diagnostics);
+    // A period that was given as one is compared with device and patch already.
+    if ((doubted() || !warn_of_cycles(*material, solved.device, diagnostics)) &&
+        !warn_of_no_number(*material, solved.device, diagnostics)) {
+      if (!fine) warn_of_jumps(solved, *material, diagnostics);
+      warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
+      warn_of_no_force(bank, *material, solved, measured, diagnostics);
+    }
     if (!fine) warn_of_fast_rates(bank, solved, diagnostics);
     warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   }
   warn_of_a_device_that_gives_less(solved, diagnostics);
-  if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), diagnostics)) {
+  if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), doubted(), diagnostics)) {
     PatchProgram confirmed = finished.program->description();
     confirmed.fates = *std::move(fates);
     finished.program = *Program::load(std::move(confirmed));  // it differs in fates from a program that was loaded

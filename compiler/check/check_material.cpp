@@ -43,7 +43,9 @@ class MaterialChecker {
     material_.layers.documentation = node_.documentation;
     if (surroundings_.diagnostics.error_count() == errors_before_) {
       const std::size_t said = surroundings_.diagnostics.all().size();
-      check_usage(material_, checker_.record(), surroundings_);
+      material_.cycles = checker_.record().cycles;
+      for (const CheckedAngle& each : check_usage(material_, checker_.record(), surroundings_))
+        material_.cycles.push_back({each.angle, true, each.span});
       keep_doubts(said);
     }
     material_.carriers = std::move(checker_.record().carriers);
@@ -51,6 +53,7 @@ class MaterialChecker {
     material_.states = std::move(checker_.record().states);
     material_.periods = checker_.record().periods;
     material_.rates = checker_.record().rates;
+    material_.operands = checker_.record().operands;
     return std::move(material_);
   }
 

@@ -54,8 +54,13 @@ class AngleReader {
     if (const auto value = far_and_whole(angle.angle)) return degrees(angle.angle, *value);
     constexpr int most_summands = 64;
     summands_left_ = most_summands;
+    turns_ = false;
     read_sum(angle.angle);
+    if (turns_) turning_.push_back(angle);
   }
+
+  /// The angles that a multiple of pi is a factor of, and which are therefore meant to turn.
+  const std::vector<CheckedAngle>& turning() const { return turning_; }
 
  private:
   /// What one summand of an angle is made of.
@@ -111,6 +116,7 @@ class AngleReader {
     }
     Factors factors;
     read_product(id, false, factors);
+    turns_ = turns_ || factors.radians;
     if (factors.radians) return;
     if (factors.degrees) return in_degrees(*factors.degrees);
     if (factors.phase && factors.others == 0)
@@ -185,6 +191,8 @@ class AngleReader {
   std::set<std::pair<SourceId, std::uint32_t>> reported_;
   Span place_;
   int summands_left_ = 0;
+  bool turns_ = false;  // of the angle that is read
+  std::vector<CheckedAngle> turning_;
 };
 
 /// Warns of a value outside the range that a function states for it.
@@ -199,6 +207,16 @@ void check_usual(const CheckedUsual& usual, const CheckedMaterial& material, con
   const std::string bare = typeable("{:.6g}", *value);
   const bool is_bare = surroundings.sources.text(literal) == bare;
   const Span span = is_bare ? literal : usual.span;
+  if (std::isinf(usual.high)) {
+    surroundings.diagnostics.report(
+        Advice(usual.low == 0 ? std::string("leave out the minus; for a force the other way put it before the function")
+                              : readable("give a value of {:.6g}{} or more", usual.low, suffix))
+            .fact("low", usual.low, unit)
+            .about(Code::beyond_soft_range, span,
+                   readable("`{}` is {}{}, and it is usually {:.6g}{} or more", usual.name, bare, suffix, usual.low,
+                            suffix)));
+    return;
+  }
   surroundings.diagnostics.report(
       Advice(in_percent ? fmt::format("percentages have their sign: write `{} %`", bare)
                         : readable("give a value from {:.6g}{} to {:.6g}{}", usual.low, suffix, usual.high, suffix))
@@ -213,12 +231,14 @@ void check_usual(const CheckedUsual& usual, const CheckedMaterial& material, con
 
 }  // namespace
 
-void check_usage(const CheckedMaterial& material, const CallRecord& record, const Surroundings& surroundings) {
+std::vector<CheckedAngle> check_usage(const CheckedMaterial& material, const CallRecord& record,
+                                      const Surroundings& surroundings) {
   AngleReader angles(material, record, surroundings);
   for (const CheckedAngle& each : record.angles) angles.read(each);
   std::set<std::pair<SourceId, std::uint32_t>> said;
   for (const CheckedUsual& each : record.usual)
     if (said.emplace(each.span.source, each.span.begin).second) check_usual(each, material, surroundings);
+  return angles.turning();
 }
 
 }  // namespace wale

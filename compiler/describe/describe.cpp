@@ -54,7 +54,11 @@ std::vector<std::string> dependences(const PatchProgram& program) {
            {"time", {Input::time}},
            {"the button", {Input::button}}})
     if (any(each.inputs)) found.emplace_back(each.words);
-  if (!program.states.empty() || !program.grids.empty()) found.emplace_back("its memory");
+  if (remembers_time_only(program)) {
+    if (std::ranges::find(found, "time") == found.end()) found.emplace_back("time");
+  } else if (remembers_anything(program)) {
+    found.emplace_back("its memory");
+  }
   return found;
 }
 
@@ -134,9 +138,9 @@ void describe_bounds(Description& description, const Program& program) {
 }
 
 /// What is called the largest force is the largest of all searches: with these parameters on this patch, and of any.
-void settle_largest(Description& description, const Bank& bank) {
+void settle_largest(Description& description, const Bank& bank, const ForceReading& read) {
   float& most = description.force.max_newton;
-  most = std::max(most, static_cast<float>(description.grade.largest_newton));
+  most = std::max({most, static_cast<float>(description.grade.largest_newton), static_cast<float>(read.other.rehearsed)});
   LargestForce& found = description.bound.found;
   const auto first = bank.registers().begin() + bank.program().description().first_parameter();
   const glm::vec2 half = 0.5f * glm::vec2(bank.size().width, bank.size().height), at = glm::abs(found.hand.position);
@@ -177,12 +181,16 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
     in_parallel(tasks.size(), work);
   else
     work(0, 1);
-  settle_largest(description, bank);
+  settle_largest(description, bank, found);
   description.no_texture = why_no_texture(program, description.force);
   description.percepts = recorded_percepts(bank, found, declarations);
   description.fates = fates_at(bank, found, declarations);
   if (texture == Texture::left_out) return;
   tell_settings(description.percepts, bank, found, declarations);
+  if (description.limit_matters) {
+    const auto speed = static_cast<float>(normal_hand(declarations).speed());
+    for (std::size_t i = 0; i < program.parameters.size(); ++i) description.cuts.push_back(cut_ranges(bank, i, speed));
+  }
   describe_extracted(description, bank, found, declarations);
   settle_stiffness(description);
   if (description.percepts.empty()) description.no_percept = why_no_percept(description, program, declarations);

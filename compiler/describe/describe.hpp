@@ -8,6 +8,7 @@
 #include "compiler/describe/level_intervals.hpp"
 #include "compiler/evidence/percept_reading.hpp"
 #include "compiler/grade/grade.hpp"
+#include "compiler/measure/cut_force.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/prove/force_bound.hpp"
 #include "compiler/prove/prove.hpp"
@@ -108,7 +109,9 @@ struct Description {
   Interval asked;                     ///< of both components before that limit, N, as far as proved
   Grade grade;                        ///< how stable the loop is
   std::vector<Parameter> parameters;  ///< with the values that are described
-  std::vector<State> states;          ///< a vector is two states, "p.x" and "p.y"
+  /// For each parameter, where the device's limit cuts the force; empty if the limit does not matter.
+  std::vector<std::vector<CutRange>> cuts;
+  std::vector<State> states;  ///< a vector is two states, "p.x" and "p.y"
   std::vector<Grid> memories;
   bool shows_relief = false, shows_colour = false;
   std::vector<Mark> marks;

@@ -129,7 +129,8 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
     if (all[i].size.directed() && std::abs(all[i].size.greatest) >= leasts[i]) description.directed.push_back(all[i]);
   if (glm::length(found.constant) >= least_force) description.constant_push = found.constant;
   const auto counting = [](double force) { return force >= least_force ? force : 0; };
-  description.other = {counting(found.other.button), counting(found.other.slowly), counting(found.other.remembered)};
+  description.other = {counting(found.other.button), counting(found.other.slowly), counting(found.other.remembered),
+                       counting(found.other.moving)};
   description.aside = counting(found.opposing.aside);
   const double unread = std::abs(cues[CueKind::other_force].value_or(0));
   if (unread > std::max(description.other.largest(), description.aside)) description.unread = unread;

@@ -47,7 +47,11 @@ std::string standing_line(const Grade& grade, const DeviceProfile& device) {
     return words + (device.damping > 0
                         ? readable("; the damping of `{}` is assumed ({:.3g})", device.name, device.damping)
                         : readable("; the damping of `{}` is not known", device.name));
-  words += readable("; `{}` has {:.3g}, which leaves a margin of {:.3g}", device.name, device.damping, *grade.margin());
+  // Of less than a thousandth of the damping, nobody knows the sign.
+  constexpr double least_margin = 1e-3;
+  const double margin = std::abs(*grade.margin()) < least_margin * device.damping ? 0 : *grade.margin();
+  words += readable("; `{}` has {:.3g}, which leaves {}", device.name, device.damping,
+                    margin == 0 ? std::string("no margin") : readable("a margin of {:.3g}", margin));
   if (grade.standing == Standing::stable_in_the_hand || grade.standing == Standing::unstable)
     words += readable(", and a hand adds {:.3g}", grade.hand_damping);
   return words;

@@ -216,6 +216,7 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   other("button", description.other.button);
   other("slowly", description.other.slowly);
   other("remembered", description.other.remembered);
+  other("moving", description.other.moving);
   other("aside", description.aside);
   other("unread", description.unread);
 }
@@ -253,7 +254,12 @@ nlohmann::ordered_json to_json(const Description& description) {
     add_force(json, description);
   }
   auto& parameters = json["parameters"] = nlohmann::ordered_json::array();
-  for (const auto& parameter : description.parameters) parameters.push_back(to_json(parameter));
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    auto& each = parameters.emplace_back(to_json(description.parameters[i]));
+    if (i < description.cuts.size())
+      for (const CutRange& cut : description.cuts[i])
+        each[cut.above ? "cut_from_si" : "cut_up_to_si"] = figure(cut.value);
+  }
   add_memory_and_marks(json, description);
   json["patch"] = {{"width_m", figure(description.patch.width)},
                    {"height_m", figure(description.patch.height)},

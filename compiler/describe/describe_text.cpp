@@ -133,6 +133,13 @@ std::string settings_text(const std::vector<DescribedPercept>& percepts, const s
                              reads[1], reads[2]);
 }
 
+/// "from 10 N on, `sandpaper` cuts the force".
+std::string cut_text(const CutRange& cut, const Parameter& parameter, const DeviceProfile& device) {
+  const std::string value =
+      readable("{:.3g}{}{}", cut.value / parameter.unit_in_si, parameter.unit.empty() ? "" : " ", parameter.unit);
+  return readable("{}, `{}` cuts the force", cut.above ? "from " + value + " on" : "up to " + value, device.name);
+}
+
 void write_parameters(std::string& text, const Description& description) {
   const std::vector<Parameter>& parameters = description.parameters;
   text += "\nparameters\n";
@@ -148,6 +155,10 @@ void write_parameters(std::string& text, const Description& description) {
     if (usual)
       text += fmt::format("  {:<{}} {:<12} usually {}\n", "", width, "",
                           range_text(parameter, parameter.soft_low, parameter.soft_high));
+    const auto number = static_cast<std::size_t>(&parameter - parameters.data());
+    if (number < description.cuts.size())
+      for (const CutRange& cut : description.cuts[number])
+        text += fmt::format("  {:<{}} {:<12} {}\n", "", width, "", cut_text(cut, parameter, description.device));
   }
 }
 
@@ -260,6 +271,8 @@ std::string other_forces(const Description& description) {
     text += readable("  up to {:.3g} N that comes with time, which no percept tells\n", other.slowly);
   if (other.remembered > 0)
     text += readable("  up to {:.3g} N by where the hand has been, which no percept tells\n", other.remembered);
+  if (other.moving > 0)
+    text += readable("  up to {:.3g} N on a hand at 250 mm/s, which no percept tells\n", other.moving);
   if (description.aside > 0)
     text += readable("  {:.3g} N aside on a hand at 200 mm/s, which no percept tells\n", description.aside);
   if (description.unread > 0) text += readable("  up to {:.3g} N that no percept tells\n", description.unread);

@@ -107,7 +107,8 @@ BandShares band_shares(const Bank& bank, const ForceReading& found, const Solved
 
 std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceReading& found,
                                                const SolvedMaterial& solved, const CheckedMaterial& material,
-                                               const Declarations& declarations, Diagnostics& diagnostics) {
+                                               const Declarations& declarations, bool doubted,
+                                               Diagnostics& diagnostics) {
   std::vector<FateRecord> fates = solved.fates;
   bool changed = false;
   for (std::size_t i = 0; i < solved.percepts.size(); ++i) {
@@ -119,6 +120,8 @@ std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceRead
     if (!percept.asked || asked == material.percepts.end() || fate == fates.end()) continue;
     const auto correction = correct_fate(*fate, bank, i, *percept.asked, found, declarations);
     if (!correction) continue;
+    changed = true;
+    if (doubted && correction->told.size == 0) continue;
     const std::vector<OutsideRange> outside = outside_ranges(record, correction->told);
     for (const OutsideRange& each : outside) report_outside(record, each, asked->place(), diagnostics);
     // A force that is switched or swells while it is felt reads as its author meant; a constant factor has its own
@@ -127,9 +130,11 @@ std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceRead
     const bool as_meant = !record.basis.summand && (material.scales_a_texture || !material.force ||
                                                     changes((*material.force)[0]) || changes((*material.force)[1]));
     // That a program pushes nowhere has a warning of its own, with this cause.
-    if (outside.empty() && !as_meant && !stands_outside(record, found))
+    const bool never_pushes = std::ranges::any_of(diagnostics.all(), [&](const Diagnostic& each) {
+      return each.code == Code::never_pushes && each.span == solved.force_span;
+    });
+    if (outside.empty() && !as_meant && !never_pushes)
       report_difference(record, correction->told, *percept.asked, correction->why, asked->place(), diagnostics);
-    changed = true;
   }
   return changed ? std::optional(std::move(fates)) : std::nullopt;
 }

@@ -17,9 +17,12 @@ BandShares band_shares(const Bank& bank, const ForceReading& found, const Solved
 
 /// Compares what a material asks for with what its finished program reads. Warns of levels that people would notice to
 /// be others (W0425), unless the device limits them, and of quantities outside what their maps were measured with
-/// (W0407). The fates of both become *approximated*: nothing if none of them changes.
+/// (W0407). The fates of both become *approximated*: nothing if none of them changes. If the material is `doubted`,
+/// since a warning says already which value was hardly meant, a level of which nothing is left has no warning of its
+/// own.
 std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceReading& found,
                                                const SolvedMaterial& solved, const CheckedMaterial& material,
-                                               const Declarations& declarations, Diagnostics& diagnostics);
+                                               const Declarations& declarations, bool doubted,
+                                               Diagnostics& diagnostics);
 
 }  // namespace wale

@@ -160,7 +160,10 @@ bool stands_outside(const PerceptRecord& record, const ForceReading& found) {
 
 std::string cause_of_difference(const PerceptRecord& record, const PerceptReading& reading, const ForceReading& found,
                                 const Declarations& declarations) {
-  if (stands_outside(record, found)) return "its wall stands outside of the patch";
+  if (stands_outside(record, found))
+    return record.extractor == Extractor::wall_damping
+               ? "no wall is in the patch for it to damp: add one that pushes back, as `firm(1000 N/m)` does"
+               : "its wall stands outside of the patch";
   if (record.extractor == Extractor::lateral_force) {
     const Relief& relief = found.relief();
     const PeriodBand band = band_of(read_as(record), declarations);
@@ -169,6 +172,9 @@ std::string cause_of_difference(const PerceptRecord& record, const PerceptReadin
                       relief.within(band) < least_of_relief * relief.amplitude ? "all" : "a part",
                       1e3 * record.period_low, 1e3 * record.period_high);
   }
+  if (record.extractor == Extractor::vibration && found.sway.amplitude >= least_force &&
+      found.vibration.amplitude < least_force)
+    return readable("it goes slower than {:.0f} Hz, which is a sway and no vibration", slowest_vibration);
   if (record.alone) return "the device or the shape of the force changes it";
   if (!record.basis.summand) return "its force is changed after it was solved";
   return reading.size < reading.aimed ? "another force takes from it" : "another force adds to it";

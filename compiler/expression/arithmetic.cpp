@@ -224,6 +224,8 @@ Value raised(ExpressionReading& reading, const Value& base, const Value& exponen
                                     .fact("expected", names.words({}))
                                     .fact("found", names.words(exponent.dimension)));
   const auto value = constant_value(reading.terms, exponent.x);
+  const bool whole = value && *value == std::floor(*value);
+  if (!whole) reading.record.operands.push_back({base.x, "a fractional power", reading.calls.blame(base.span)});
   if (value)
     if (const auto result = known_power(reading.terms, base, exponent, *value, span)) return *result;
   if (!base.dimension.plain()) {

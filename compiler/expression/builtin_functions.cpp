@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "compiler/text/readable.hpp"
@@ -32,6 +33,9 @@ bool BuiltinCall::plain(std::size_t i) const {
 
 Value BuiltinCall::mismatched(std::size_t a, std::size_t b) const {
   const auto sides = reading.dimension_names().side_by_side(value(a).dimension, value(b).dimension);
+  const Dimension mass = reading.names->dimension("mass"), force = reading.names->dimension("force");
+  const bool weighs = (value(a).dimension == mass && value(b).dimension == force) ||
+                      (value(a).dimension == force && value(b).dimension == mass);
   reading.calls.say(
       {.code = Code::mismatched_dimensions,
        .span = actuals[b].span,
@@ -40,7 +44,8 @@ Value BuiltinCall::mismatched(std::size_t a, std::size_t b) const {
        .label = reading.dimension_names().unit_beside(value(a).dimension, value(b).dimension),
        .expected = sides[0],
        .found = sides[1],
-       .help = "the arguments must have the same dimension"});
+       .help =
+           weighs ? "a mass is no force: on earth 100 g weigh 0.98 N" : "the arguments must have the same dimension"});
   return failed();
 }
 
@@ -97,6 +102,17 @@ Value of_plain(const BuiltinCall& call, Operation operation, double before = 1, 
   return call.scalar(after == 1 ? x : scaled(call, x, after));
 }
 
+/// Keeps what a function of no negative numbers is taken of, for a warning.
+void keep_operand(const BuiltinCall& call, const char* words) {
+  call.reading.record.operands.push_back({call.value(0).x, words, call.reading.calls.blame(call.actuals[0].span)});
+}
+
+Value logarithm(const BuiltinCall& call, double after) {
+  const Value result = of_plain(call, Operation::log2, 1, after);
+  if (!result.failed()) keep_operand(call, "the logarithm");
+  return result;
+}
+
 Value absolute(const BuiltinCall& call) {
   if (!call.number(0)) return call.failed();
   return call.scalar(call.terms().apply(Operation::absolute, call.value(0).x, call.span), call.value(0).dimension);
@@ -110,6 +126,7 @@ Value square_root(const BuiltinCall& call) {
         Code::wrong_dimension, call.actuals[0].span,
         fmt::format("the root of {} has no dimension", call.reading.dimension_names().words(call.value(0).dimension)),
         "", "divide it by a quantity of its own dimension first");
+  keep_operand(call, "the root");
   return call.scalar(call.terms().apply(Operation::square_root, call.value(0).x, call.span), *root);
 }
 
@@ -187,12 +204,17 @@ Value within(const BuiltinCall& call) {
       call.value(0).dimension);
 }
 
-/// `usual(…)`: the value itself. `check_usage` warns if it is known and outside the range of the two others.
+/// `usual(…)`: the value itself. `check_usage` warns if it is known and outside the range of the two others, the second
+/// of which may be missing.
 Value usual(const BuiltinCall& call) {
-  if (!call.number(0) || !call.number(1) || !call.number(2)) return call.failed();
-  for (const std::size_t bound : {1, 2})
-    if (call.value(bound).dimension != call.value(0).dimension) return call.mismatched(bound, 0);
-  const auto low = constant_value(call.terms(), call.value(1).x), high = constant_value(call.terms(), call.value(2).x);
+  const std::size_t given = call.actuals[2].given ? 3 : 2;
+  for (std::size_t i = 0; i < given; ++i) {
+    if (!call.number(i)) return call.failed();
+    if (call.value(i).dimension != call.value(0).dimension) return call.mismatched(i, 0);
+  }
+  const auto low = constant_value(call.terms(), call.value(1).x);
+  const auto high = given == 3 ? constant_value(call.terms(), call.value(2).x)
+                               : std::optional(std::numeric_limits<double>::infinity());
   if (low && high)
     call.reading.record.usual.push_back(
         {.name = std::string(call.reading.surroundings.sources.text(call.actuals[0].span)),
@@ -256,6 +278,8 @@ Value lattice(const BuiltinCall& call) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (call.actuals[i].given && !call.plain(i)) return call.failed();
     place[i] = call.actuals[i].given ? call.value(i).x : call.terms().literal(0, call.span);
+    if (call.actuals[i].given)
+      call.reading.record.cycles.push_back({place[i], false, call.reading.calls.blame(call.actuals[i].span)});
   }
   return call.scalar(call.terms().apply(Operation::hash, place[0], place[1], place[2], call.span));
 }
@@ -288,9 +312,9 @@ const std::vector<Builtin>& builtins() {
       {"cos", {"angle"}, 1, [](Call call) { return of_angle(call, Operation::cosine); }},
       {"atan2", {"y", "x"}, 2, arctangent},
       {"exp", {"value"}, 1, [](Call call) { return of_plain(call, Operation::exp2, log2_e); }},
-      {"log", {"value"}, 1, [](Call call) { return of_plain(call, Operation::log2, 1, ln_2); }},
-      {"log2", {"value"}, 1, [](Call call) { return of_plain(call, Operation::log2); }},
-      {"log10", {"value"}, 1, [](Call call) { return of_plain(call, Operation::log2, 1, log10_2); }},
+      {"log", {"value"}, 1, [](Call call) { return logarithm(call, ln_2); }},
+      {"log2", {"value"}, 1, [](Call call) { return logarithm(call, 1); }},
+      {"log10", {"value"}, 1, [](Call call) { return logarithm(call, log10_2); }},
       {"normal", {"value"}, 1, [](Call call) { return of_plain(call, Operation::normal); }},
       {"lattice", {"a", "b", "c"}, 1, lattice},
       {"min", {"a", "b"}, 2, [](Call call) { return extreme(call, Operation::minimum); }},
@@ -300,7 +324,7 @@ const std::vector<Builtin>& builtins() {
       {"dot", {"a", "b"}, 2, dot},
       {"normalise", {"vector"}, 1, normalise},
       {"within", {"value", "low", "high"}, 3, within},
-      {"usual", {"value", "low", "high"}, 3, usual},
+      {"usual", {"value", "low", "high"}, 2, usual},
       {"grad", {"height"}, 1, gradient, true},
       {"peak", {"value"}, 1, peak, true},
       {"hold", {"value", "ceiling"}, 2, hold},

@@ -85,6 +85,20 @@ struct CheckedRate {
   Span span;
 };
 
+/// A value that goes through cycles with the place: an angle, or the place in a noise.
+struct CheckedCycle {
+  TermId value = 0;
+  bool turns = false;  ///< an angle, whose cycle is 2 pi; otherwise it is 1
+  Span span;
+};
+
+/// What a root or a logarithm is taken of.
+struct CheckedOperand {
+  TermId value = 0;
+  const char* words = "";
+  Span span;
+};
+
 /// A material whose every expression has a meaning and a dimension. Vectors are pairs of terms, quantities in SI.
 struct CheckedMaterial {
   std::string name;
@@ -102,6 +116,8 @@ struct CheckedMaterial {
   std::vector<CheckedMemory> memories;
   std::vector<CheckedPeriod> periods;
   std::vector<CheckedRate> rates;
+  std::vector<CheckedCycle> cycles;
+  std::vector<CheckedOperand> operands;
   std::optional<std::array<TermId, 2>> force;
   std::optional<TermId> relief;  ///< the look of the surface, if there is one
   bool relief_is_length = false;

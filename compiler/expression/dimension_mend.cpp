@@ -139,6 +139,27 @@ std::optional<Advice> inverse_mend(const ExpressionReading& reading, const Synta
       .fix(replace(tree.span(expr), meant, {}, false));
 }
 
+/// The dimensions of a mass and of a force, which are mistaken for each other: "200 g weigh 1.96 N".
+std::optional<Advice> weight_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
+                                  const Dimension& expected, const Dimension& found) {
+  const Declarations& declarations = reading.surroundings.declarations;
+  if (found != declarations.dimension("mass") || expected != declarations.dimension("force")) return std::nullopt;
+  constexpr double standard_gravity = 9.80665;  // m/s^2
+  const auto* literal = std::get_if<NumberLiteral>(&tree.expr(expr));
+  double mass = literal ? literal->value : 0;
+  if (literal)
+    for (const SuffixFactor& part : tree.suffix(*literal)) {
+      const Unit* unit = declarations.units.find(part.name.text);
+      if (!unit) return std::nullopt;
+      mass *= std::pow(unit->factor, part.divides ? -part.exponent : part.exponent);
+    }
+  if (!(mass > 0)) return Advice(readable("a mass is no force: 1 kg weighs {:.3g} N", standard_gravity));
+  const std::string meant = typeable("{:.3g} N", mass * standard_gravity);
+  return Advice(fmt::format("a mass is no force: for the weight of {} write `{}`",
+                            reading.surroundings.sources.text(tree.span(expr)), meant))
+      .fix(replace(tree.span(expr), meant, {}, false));
+}
+
 /// `Ns` and `Nmm`: two units without the space between them.
 std::optional<std::string> parted_units(std::string_view word, const Declarations& declarations) {
   for (std::size_t cut = 1; cut < word.size(); ++cut)
@@ -247,6 +268,7 @@ Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, 
   }
   if (auto inverse = is_literal ? inverse_mend(reading, tree, expr, expected, found) : std::nullopt)
     return *std::move(inverse);
+  if (auto weight = weight_mend(reading, tree, expr, expected, found)) return *std::move(weight);
   if (auto fraction = fraction_mend(reading, tree, expr, expected, found)) return *std::move(fraction);
   if (is_literal) return fmt::format("write {}, in {}", with_article(reading.dimension_names().words(expected)), unit);
   std::vector<ProductName> factors;

@@ -57,6 +57,8 @@ struct CallRecord {
   std::vector<CheckedRate> rates;
   std::vector<CheckedAngle> angles;
   std::vector<CheckedUsual> usual;
+  std::vector<CheckedCycle> cycles;
+  std::vector<CheckedOperand> operands;
   std::vector<std::unique_ptr<const Field>> fields;  ///< fields to which values point
 
   /// Stores a field for the life of the record, since values point to it.

@@ -58,6 +58,4 @@ double fastest_own_rate(const Bank& bank) {
   return fastest;
 }
 
-double rate_when_sampled(double rate, double samples) { return std::abs(rate - samples * std::round(rate / samples)); }
-
 }  // namespace wale

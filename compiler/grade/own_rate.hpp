@@ -9,7 +9,4 @@ namespace wale {
 /// there is none. Rates that change with the hand, the time or memory are not found, and neither are overtones.
 double fastest_own_rate(const Bank& bank);
 
-/// The rate, in Hz, of the wave of `rate` after it is sampled `samples` times a second: between 0 and half of that.
-double rate_when_sampled(double rate, double samples);
-
 }  // namespace wale

@@ -131,15 +131,47 @@ CutForce cut_force(const Bank& bank, float speed) {
   return cut;
 }
 
+std::vector<CutRange> cut_ranges(const Bank& bank, std::size_t parameter, float speed) {
+  constexpr int looks = 8, halvings = 7;  // an eighth of the range in 128 parts: a thousandth of it
+  const Parameter& facts = bank.program().description().parameters[parameter];
+  const auto first = bank.registers().begin() + bank.program().description().first_parameter();
+  std::vector<float> values(first, first + static_cast<std::ptrdiff_t>(bank.program().description().parameters.size()));
+  const auto value_at = [&](double share) {
+    return static_cast<float>(facts.low + share * (double{facts.high} - facts.low));
+  };
+  const auto is_cut = [&](double share) {
+    values[parameter] = value_at(share);
+    return cut_force(Bank(bank.program(), values, bank.size()), speed).asked > 0;
+  };
+  bool cut[looks + 1];
+  for (int i = 0; i <= looks; ++i) cut[i] = is_cut(static_cast<double>(i) / looks);
+  // Between a value that is cut and its neighbour that is not.
+  const auto border = [&](double inside, double outside) {
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      (is_cut(middle) ? inside : outside) = middle;
+    }
+    return value_at(inside);
+  };
+  std::vector<CutRange> ranges;
+  if (std::ranges::all_of(cut, [](bool each) { return each; })) return ranges;
+  constexpr double step = 1.0 / looks;
+  int last = 0, begin = looks;
+  while (cut[last]) ++last;
+  while (cut[begin]) --begin;
+  if (last > 0) ranges.push_back({false, border((last - 1) * step, last * step)});
+  if (begin < looks) ranges.push_back({true, border((begin + 1) * step, begin * step)});
+  return ranges;
+}
+
 FateRecord fate_of_force(FateRecord force, const Bank& bank, float speed) {
   const CutForce cut = cut_force(bank, speed);
   force.fate = cut.asked > 0 ? Fate::saturated : Fate::kept;
   force.reason = "by the material's formulas, not found from a level";
   if (cut.asked > 0)
-    force.reason =
-        readable("by the material's formulas, which ask for {} along x or y, and `{}` gives {:.3g} N",
-                 std::isfinite(cut.asked) ? readable("up to {:.3g} N", cut.asked) : "more than any number",
-                 bank.program().description().device.name, cut.given);
+    force.reason = readable("by the material's formulas, which ask for {} along x or y, and `{}` gives {:.3g} N",
+                            std::isfinite(cut.asked) ? readable("up to {:.3g} N", cut.asked) : "more than any number",
+                            bank.program().description().device.name, cut.given);
   return force;
 }
 

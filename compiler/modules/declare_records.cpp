@@ -139,12 +139,17 @@ void RecordReader::reject(Code code, Span span, std::string message, Advice advi
 void RecordReader::report_keys() {
   if (rejected_) return;
   const std::vector<std::string> known(asked_.begin(), asked_.end());
+  // A setting that is there already is not the one that was meant.
+  std::vector<std::string> absent;
+  for (const std::string& each : known)
+    if (std::ranges::none_of(record.settings, [&](const Setting& setting) { return setting.key.text == each; }))
+      absent.push_back(each);
   for (const auto& setting : record.settings) {
     if (read_.contains(&setting)) continue;
     report(Code::unknown_setting, setting.key.span,
            fmt::format("a {} has no setting `{}`", record.keyword.text, setting.key.text),
-           did_you_mean(setting.key.span, setting.key.text, known, fmt::format("it has: {}", fmt::join(known, ", "))));
-    if (const auto meant = nearest_spelling(setting.key.text, known)) missing_.erase(*meant);
+           did_you_mean(setting.key.span, setting.key.text, absent, fmt::format("it has: {}", fmt::join(known, ", "))));
+    if (const auto meant = nearest_spelling(setting.key.text, absent)) missing_.erase(*meant);
   }
   for (const auto& [key, example] : missing_)
     report(Code::missing_setting, record.name.span,

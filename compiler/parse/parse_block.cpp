@@ -43,7 +43,9 @@ Setting Parser::setting() {
   if (at(TokenKind::equals) || at(TokenKind::colon)) {
     const Token& next = token(at_ + 1);
     complain(fmt::format("a setting has no {} after its name", shown(here())), "a value",
-             fmt::format("write `{} {}`", setting.key.text, spelling(next)), drop_here());
+             fmt::format("write `{} {}`", setting.key.text, spelling(next)),
+             // Before a parenthesis it may be a formula whose setting has lost its name.
+             next.kind == TokenKind::left_parenthesis ? std::vector<Fix>{} : drop_here());
     advance();
   }
   setting.items.push_back(setting_item());

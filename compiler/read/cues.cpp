@@ -113,7 +113,9 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::grain:
     case CueKind::orientation:
     case CueKind::push_axis:
-    case CueKind::regularity: return CueKind::amplitude;
+    case CueKind::regularity:
+    case CueKind::crest:
+    case CueKind::abruptness: return CueKind::amplitude;
     case CueKind::stiffness_across:
     case CueKind::stiffness_axis: return CueKind::stiffness;
     case CueKind::viscosity_across:

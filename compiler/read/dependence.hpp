@@ -15,4 +15,7 @@ bool depends_on_place(const PatchProgram& program);
 /// Whether one tick may change the result of a later one.
 bool remembers_anything(const PatchProgram& program);
 
+/// Whether all that is remembered goes by time alone, as the phase of a vibration does, whatever the hand does.
+bool remembers_time_only(const PatchProgram& program);
+
 }  // namespace wale

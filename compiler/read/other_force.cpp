@@ -7,13 +7,14 @@
 
 #include "compiler/measure/hands.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/relief_figures.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "wale/memory.hpp"
 
 namespace wale {
 namespace {
 
-constexpr std::size_t hands_pressing = 64;
+constexpr std::size_t hands_pressing = 64, hands_moving = 1024;
 constexpr double slow_window = 4;         // s: long enough that a sway has no mean in it
 constexpr double slow_step = 0.5;         // s
 constexpr double left_of_a_swing = 0.03;  // of its amplitude, in a mean over that window
@@ -96,9 +97,9 @@ glm::dvec2 beyond_entry(Bank& own, Force felt, const Hand& hand) {
 
 /// What a hand that came from elsewhere feels at rest. If that holds the hand back on the way that it came, with no
 /// more than it did on that way, it is friction's.
-double by_memory(const Bank& bank) {
+double by_memory(const Bank& bank, double& rehearsed) {
   const PatchProgram& program = bank.program().description();
-  if (!remembers_anything(program)) return 0;
+  if (!remembers_anything(program) || remembers_time_only(program)) return 0;
   const glm::dvec2 half = half_without_rim(bank);
   const bool presses = reads(program, {Input::button});
   const double rate = program.device.rate;
@@ -116,6 +117,7 @@ double by_memory(const Bank& bank) {
       hand = on_tour(number, seconds, half, presses);
       if (now == 0) memory.enter(own, hand);
       felt = tick(own, memory, hand);
+      rehearsed = std::max(rehearsed, double{glm::length(felt)});
       if (seconds < tour - stopping || now % some_ticks != 0 || hand.velocity == glm::vec2(0)) continue;
       way = glm::normalize(glm::dvec2(hand.velocity));
       held = std::max(held, -glm::dot(beyond_entry(own, felt, hand), way));
@@ -130,7 +132,25 @@ double by_memory(const Bank& bank) {
 
 }  // namespace
 
-double OtherForce::largest() const { return std::max({button, slowly, remembered}); }
+double OtherForce::largest() const { return std::max({button, slowly, remembered, moving}); }
+
+double force_on_moving(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  if (remembers_anything(program) ||
+      !reads(program, {Input::velocity_x, Input::velocity_y, Input::raw_velocity_x, Input::raw_velocity_y}))
+    return 0;
+  std::vector<Hand> hands = hands_at_rest(hands_moving, glm::vec2(half_without_rim(bank)));
+  std::vector<Force> resting(hands.size()), moving(hands.size());
+  tick_all(bank, hands, resting);
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    const double angle = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0));
+    hands[i].velocity = hands[i].raw_velocity = glm::vec2(swiftest * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+  tick_all(bank, hands, moving);
+  std::vector<double> sizes(hands.size());
+  for (std::size_t i = 0; i < hands.size(); ++i) sizes[i] = glm::length(moving[i] - resting[i]);
+  return percentile(sizes, percentile_of_amplitude);
+}
 
 OtherForce other_force(const Bank& bank, const std::vector<std::vector<Force>>& felt, const Swing& sway,
                        const Swing& vibration, double held) {
@@ -141,7 +161,9 @@ OtherForce other_force(const Bank& bank, const std::vector<std::vector<Force>>& 
   for (const std::vector<Force>& forces : felt)
     found.slowly = std::max(found.slowly, swings ? change_of_mean(forces, rate) : change_of(forces));
   if (found.slowly < left_of_a_swing * std::max(sway.amplitude, vibration.amplitude)) found.slowly = 0;
-  found.remembered = by_memory(bank);
+  for (const std::vector<Force>& forces : felt)
+    for (const Force& force : forces) found.rehearsed = std::max(found.rehearsed, double{glm::length(force)});
+  found.remembered = by_memory(bank, found.rehearsed);
   // A swing that begins when the hand comes is elsewhere in its period for a hand that came before.
   const double swinging = 2 * (sway.amplitude + vibration.amplitude);
   if (found.remembered < plainly_more * (held + swinging)) found.remembered = 0;

@@ -11,9 +11,16 @@ struct OtherForce {
   double button = 0;      ///< on a hand that presses the button
   double slowly = 0;      ///< on a hand that holds still: it changes slower than a sway, or once
   double remembered = 0;  ///< on a hand that has been elsewhere before; no friction is so large
+  double moving = 0;      ///< on a hand at 0.25 m/s somewhere in the patch, where nothing else resists
+  double rehearsed = 0;   ///< the largest force found on all these hands
 
+  /// The largest that no other cue reads.
   double largest() const;
 };
+
+/// The force on hands that move, beyond that on resting ones at the same places: its 99th percentile, N. 0 of a program
+/// that remembers or does not look at the motion.
+double force_on_moving(const Bank& bank);
 
 /// Rehearses hands that press the button, hold still, and come back to rest from a tour of the patch. `felt` are the
 /// forces on hands that hold still (`felt_at_rest`), with their swings; `held` (N) is what friction holds a resting

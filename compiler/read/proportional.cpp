@@ -77,7 +77,8 @@ ForceReading times_as_strong(ForceReading found, double times) {
         &found.stiffness,           &found.stiffness_across,  &opposing.friction,    &opposing.friction_across,
         &opposing.damping,          &opposing.damping_across, &opposing.scatter,     &opposing.aside,
         &found.breakaway,           &found.inertia.greatest,  &found.inertia.across, &found.sway.amplitude,
-        &found.vibration.amplitude, &found.other.button,      &found.other.slowly,   &found.other.remembered})
+        &found.vibration.amplitude, &found.other.button,      &found.other.slowly,   &found.other.remembered,
+        &found.other.moving,        &found.other.rehearsed})
     *each *= times;
   found.constant *= times;
   if (found.wall)

@@ -93,6 +93,14 @@ void tell_trend(const Bank& bank, ForceReading& found, glm::dvec2 at_first) {
     found.stiffness = found.stiffness_across = 0, found.stiffness_axis = {0, 0};
 }
 
+/// What resists a moving hand in a part of the patch only is no law of motion, which strokes through the middle show.
+void tell_force_on_moving(const Bank& bank, ForceReading& found) {
+  const OpposingForce& opposing = found.opposing;
+  const bool resisted = std::abs(opposing.damping) >= least_damping || std::abs(opposing.friction) >= least_force ||
+                        opposing.scatter >= least_force || opposing.aside >= least_force || found.wall;
+  if (!resisted) found.other.moving = force_on_moving(bank);
+}
+
 /// How much more the force pushes a hand that has just come and rests than it does in the mean over time, and over slow
 /// motion to and fro: a sway begins somewhere in its period, and a sign has a value at rest. N.
 glm::dvec2 only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& felt, const ForceReading& found) {
@@ -160,6 +168,7 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   // What damps the hand in a wall is the wall's.
   if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping)
     found.opposing = opposing_force(bank, &*found.wall);
+  if (wanted.moving) tell_force_on_moving(bank, found);
   return found;
 }
 

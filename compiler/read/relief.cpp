@@ -111,7 +111,11 @@ class ReliefReader {
       sizes.push_back(glm::length(glm::clamp(whole_.forces[i], -limit_, limit_)));
     }
     found_.largest = percentile(sizes, percentile_of_amplitude);
-    found_.cut_off = static_cast<double>(cut) > least_cut * static_cast<double>(relief_.size()) && cut < relief_.size();
+    // What pushes everywhere alike has no law beyond what is felt of it.
+    const LinearForce& line = found_.trend;
+    const bool slopes = glm::length(line.by_x) * whole_.size.x + glm::length(line.by_y) * whole_.size.y > limit_;
+    found_.cut_off =
+        static_cast<double>(cut) > least_cut * static_cast<double>(relief_.size()) && (cut < relief_.size() || slopes);
   }
 
   /// Fits features anew to forces without waves.
@@ -264,16 +268,22 @@ StaticForce static_force(const Bank& bank) {
   if (depends_on_place(bank.program().description())) {
     ReliefReader reader(field, bank.size());
     const double most = bank.program().description().device.most();
-    const auto unlimited = reader.reaches(most) ? without_limit(bank) : std::nullopt;
-    if (!unlimited) return reader.read();
-    // What saturates is neither a bump nor the end of a wall. A texture alone is told as it is felt.
-    const StillField whole = [&](std::span<const glm::dvec2> places) {
-      std::vector<glm::dvec2> forces = forces_at(unlimited->bank, places);
-      for (glm::dvec2& force : forces) force *= unlimited->scale;
-      return forces;
-    };
-    StaticForce found = ReliefReader(whole, bank.size(), most).read();
-    return found.cut_off ? found : reader.read();
+    if (!reader.reaches(most)) return reader.read();
+    for (const int times : {1, 2}) {
+      const auto unlimited = without_limit(bank, times);
+      if (!unlimited) break;
+      // What saturates is neither a bump nor the end of a wall. A texture alone is told as it is felt.
+      const StillField whole = [&](std::span<const glm::dvec2> places) {
+        std::vector<glm::dvec2> forces = forces_at(unlimited->bank, places);
+        for (glm::dvec2& force : forces) force *= unlimited->scale;
+        return forces;
+      };
+      ReliefReader without(whole, bank.size(), most);
+      if (times == 1 && without.reaches(most * unlimited->scale)) continue;
+      StaticForce found = without.read();
+      return found.cut_off ? found : reader.read();
+    }
+    return reader.read();
   }
   StaticForce found;
   const glm::dvec2 middle{0};

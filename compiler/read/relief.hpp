@@ -34,6 +34,9 @@ struct Relief {
   double regularity = 0;       ///< 0 .. 1: the share of its mean square that repeats
   double steepness = 0;        ///< 1/m: the 99th percentile of its change with position, over its amplitude
   double crest = 0;            ///< the maximum of the strongest waveform over its root mean square; 0 without a wave
+  /// How suddenly the strongest waveform changes: the largest change within a 16th of a period, against that of a sine
+  /// of the same maximum. 1 of a sine, 0.64 of a triangle, 5.1 where it jumps from end to end; 0 without a wave.
+  double abruptness = 0;
   /// The waves, strongest first. A wave whose parts have a small common multiple is listed by its parts.
   std::vector<ReliefWave> waves;
 

@@ -56,6 +56,18 @@ struct Distribution {
   }
 };
 
+/// The largest change of a waveform within a 16th of its period, against that of a sine with this maximum.
+double abruptness_of(const std::vector<glm::dvec2>& profile, double most) {
+  constexpr double parts = 16;
+  const auto count = profile.size();
+  const auto apart = std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(count) / parts));
+  double change = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    change = std::max(change, glm::length(profile[(i + apart) % count] - profile[i]));
+  const double turned = std::numbers::pi * static_cast<double>(apart) / static_cast<double>(count);
+  return change / (2 * most * std::sin(turned));
+}
+
 /// Tells the figures of one relief.
 class ReliefFigures {
  public:
@@ -170,6 +182,7 @@ class ReliefFigures {
         sign = now;
       }
     relief_.crest = most / std::sqrt(squares / static_cast<double>(each.wave.profile.size()));
+    relief_.abruptness = abruptness_of(each.wave.profile, most);
     relief_.transitions = changes / each.wave.period();
   }
 

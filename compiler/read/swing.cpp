@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -60,6 +61,18 @@ double size_within(const Spectrum& spectrum, const std::vector<float>& fade, std
   const auto rank = sizes.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size()));
   std::nth_element(sizes.begin(), rank, sizes.end());
   return *rank;
+}
+
+/// A size (N) that counts from the mean of the forces, or half of the way between those farthest apart if that is
+/// hardly less: ticks that fall unequally on the halves of a wave move its mean, and no force is larger for that.
+double without_unequal_halves(double size, const std::vector<Force>& forces) {
+  constexpr double hardly_less = 0.85;
+  glm::dvec2 least(HUGE_VAL), most(-HUGE_VAL);
+  for (const Force& force : forces)
+    least = glm::min(least, glm::dvec2(force)), most = glm::max(most, glm::dvec2(force));
+  const double half = 0.5 * std::max(most.x - least.x, most.y - least.y);
+  const bool along_one = std::min(most.x - least.x, most.y - least.y) < no_swing;
+  return along_one && half > hardly_less * size ? std::min(half, size) : size;
 }
 
 /// The swing within some lines of a power spectrum; none if its strongest line does not stand out, as those of a drift.
@@ -141,12 +154,13 @@ std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
 
 void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway, Swing& vibration) {
   std::vector<std::complex<float>> busiest;
+  const std::vector<Force>* at_busiest = nullptr;
   double most = 0;
   for (const std::vector<Force>& forces : felt) {
     const std::vector<std::complex<float>> changes = without_drift(forces);
     double squares = 0;
     for (const auto& each : changes) squares += std::norm(each);
-    if (squares > most) most = squares, busiest = changes;
+    if (squares > most) most = squares, busiest = changes, at_busiest = &forces;
   }
   const auto ticks = static_cast<double>(busiest.size());
   if (busiest.empty() || std::sqrt(2 * most / ticks) <= no_swing) return;
@@ -181,6 +195,7 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
   for (std::size_t i = 1; i < powers.size(); ++i) (i < first_fast ? slower : faster) += powers[i];
   const bool alone = !(sway.frequency > 0) && slower < beats_of_ticks * faster;
   vibration.amplitude = size_within(spectrum, fade, alone ? 1 : first_fast, powers.size());
+  if (slower < beats_of_ticks * faster) vibration.amplitude = without_unequal_halves(vibration.amplitude, *at_busiest);
 }
 
 }  // namespace wale

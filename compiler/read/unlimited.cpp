@@ -19,7 +19,7 @@ std::vector<Instruction>::iterator last_writer(std::vector<Instruction>& code, R
 
 }  // namespace
 
-std::optional<Unlimited> without_limit(const Bank& bank) {
+std::optional<Unlimited> without_limit(const Bank& bank, int times) {
   PatchProgram program = bank.program().description();
   if (program.vibrates()) return std::nullopt;
   // Every force must end in a limit of at most the device's. A force over a second's ticks is so small that the limit
@@ -33,12 +33,15 @@ std::optional<Unlimited> without_limit(const Bank& bank) {
     const Instruction limited{static_cast<std::uint8_t>(Operation::limit), output.value, output.value, output.ceiling,
                               0};
     *limit = limited;
-    program.tick.insert(limit, smaller);
+    auto at = program.tick.insert(limit, smaller);
+    const Instruction again{static_cast<std::uint8_t>(Operation::multiply), output.value, output.value,
+                            static_cast<RegisterNumber>(Input::seconds_per_tick), 0};
+    for (int i = 1; i < times; ++i) at = program.tick.insert(at + 1, again);
   }
   std::vector<float> parameters;
   for (std::size_t i = 0; i < program.parameters.size(); ++i)
     parameters.push_back(bank.registers()[program.first_parameter() + i]);
-  const double ticks = program.device.rate;
+  const double ticks = std::pow(program.device.rate, times);
   Result<Program> loaded = Program::load(std::move(program));
   if (!loaded) return std::nullopt;
   return Unlimited{Bank(*loaded, parameters, bank.size()), ticks};

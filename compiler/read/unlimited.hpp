@@ -13,8 +13,9 @@ struct Unlimited {
   double scale = 1;  ///< the forces of `bank` times this are those that the formulas ask for, N
 };
 
-/// Nothing if the program has no such form, which does not happen to a program of the compiler.
-std::optional<Unlimited> without_limit(const Bank& bank);
+/// The forces of the bank become as much smaller as the device's ticks in a second, `times` over: a stronger force
+/// meets the limit still. Nothing if the program has no such form, which does not happen to a program of the compiler.
+std::optional<Unlimited> without_limit(const Bank& bank, int times = 1);
 
 /// Whether a force is at the device's limit `most` (N) along x or y, so that its law may ask for more.
 bool at_limit(glm::dvec2 force, double most);

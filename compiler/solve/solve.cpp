@@ -12,6 +12,7 @@
 #include "compiler/solve/solve_percepts.hpp"
 #include "compiler/solve/vibration.hpp"
 #include "compiler/text/readable.hpp"
+#include "compiler/text/sampled_rate.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale {
@@ -326,14 +327,14 @@ class Solver {
     for (const CheckedRate& rate : material_.rates)
       if (const auto frequency = constant_value(*open_terms_, rate.frequency, &material_.parameters);
           frequency && *frequency > most)
-        report(
-            Code::under_resolution, rate.span,
-            readable("a frequency of {:.4g} Hz is more than half of the {:.4g} ticks a second of `{}`, so it is felt "
-                     "as a slower one",
-                     *frequency, device_->profile.rate, device_->profile.name),
-            Advice(readable("make it {:.4g} Hz or less", most))
-                .fact("frequency", *frequency, "Hz")
-                .fact("most", most, "Hz"));
+        report(Code::under_resolution, rate.span,
+               readable("a frequency of {:.4g} Hz is more than half of the {:.4g} ticks a second of `{}`, so it comes "
+                        "out as {}",
+                        *frequency, device_->profile.rate, device_->profile.name,
+                        what_comes_out(*frequency, device_->profile.rate)),
+               Advice(readable("make it {:.4g} Hz or less", most))
+                   .fact("frequency", *frequency, "Hz")
+                   .fact("most", most, "Hz"));
   }
 
   /// Warns of periods of less than two encoder counts, which become noise at the handle.

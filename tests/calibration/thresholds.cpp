@@ -55,6 +55,8 @@ TEST(ShippedThresholds, AreNormalisedToOne) {
       {"Kocsis et al. 2013, abstract", {0.05, z75}},
       {"Kocsis et al. 2013, abstract", {0.076, z75}},
       {"Skinner et al. 2013, abstract", {0.11, z75}},
+      {"an estimate of this project, after Tan 1992", {0.22, z75}},
+      {"an estimate of this project, after Tan 1992", {0.56, z75}},
   };
   const Declared declared("");
   std::size_t found = 0;

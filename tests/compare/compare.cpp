@@ -51,6 +51,29 @@ TEST(Compare, AmplitudesDifferByTheirRatioOverTheWeberFraction) {
   EXPECT_EQ(comparison.plainest(), amplitude);
 }
 
+TEST(Compare, WaveformsOfOnePeriodAndSizeAreToldApart) {
+  const Cues sine = cues("force = vector(1 N * sin(2 pi * x / 4 mm), 0 N)");
+  const Cues square = cues("force = vector(if fract(x / 4 mm) < 0.5 then 1 N else -1 N, 0 N)");
+  const Cues saw = cues("force = vector(2 N * (fract(x / 4 mm) - 0.5), 0 N)");
+  const Cues triangle = cues("force = vector(4 N * abs(fract(x / 4 mm) - 0.5) - 1 N, 0 N)");
+  EXPECT_NEAR(sine[CueKind::crest].value_or(0), std::numbers::sqrt2, 0.03);
+  EXPECT_NEAR(triangle[CueKind::crest].value_or(0), std::sqrt(3.0), 0.04);
+  EXPECT_EQ(compare(sine, square).verdict, Verdict::apart);
+  EXPECT_EQ(compare(saw, triangle).verdict, Verdict::apart) << "they have the same crest";
+  // The estimates are made so that these two are just told apart: d' is 0.95 of their criterion.
+  const Comparison just = compare(sine, triangle);
+  EXPECT_NEAR(cue(just, CueKind::crest)->noticeable.value_or(0), 0.95, 0.15);
+  EXPECT_NEAR(cue(just, CueKind::abruptness)->noticeable.value_or(0), 0.95, 0.15);
+}
+
+TEST(Compare, DampingBeyondAFaceIsToldApartWithoutAWall) {
+  const Cues soft = cues("force = crisp(2 N s/m)"), hard = cues("force = crisp(8 N s/m)");
+  // Moving in at 0.25 m/s.
+  EXPECT_NEAR(soft[CueKind::other_force].value_or(0), 0.5, 0.01);
+  EXPECT_NEAR(hard[CueKind::other_force].value_or(0), 2, 0.04);
+  EXPECT_EQ(compare(soft, hard).verdict, Verdict::apart);
+}
+
 TEST(Compare, BeyondWhatWasComparedAThresholdIsExtrapolated) {
   Cues a{"a", "sandpaper", {}}, b{"b", "sandpaper", {}};
   a[CueKind::amplitude] = 3, b[CueKind::amplitude] = 4, a[CueKind::mass] = 0.1, b[CueKind::mass] = 0.2;

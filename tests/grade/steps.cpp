@@ -8,6 +8,7 @@
 #include <random>
 
 #include "compiler/grade/own_rate.hpp"
+#include "compiler/text/sampled_rate.hpp"
 #include "tests/grade/grading.hpp"
 
 namespace wale::grade_steps_test {

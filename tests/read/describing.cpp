@@ -180,5 +180,59 @@ TEST(DescribingForces, HaveAPerceptForEachCarrier) {
   EXPECT_EQ(description.texture->kind, "grating");
 }
 
+TEST(DescribingForces, FromWhichValueOnTheDeviceCutsIsSearched) {
+  struct Case {
+    const char* statements;
+    bool above;
+    double value, range;
+  };
+  for (const Case& each : {
+           Case{"param a = 2 N in 0 N .. 30 N\nforce = vector(a * sin(2 * pi * x / 4 mm), 0 N)", true, 10, 30},
+           Case{"param a = 20 N in 0 N .. 30 N\nforce = vector(a * sin(2 * pi * x / 4 mm), 0 N)", true, 10, 30},
+           // 10 N at the patch's edge, 80 mm from its middle.
+           Case{"param k = 50 N/m in 10 N/m .. 400 N/m\nforce = vector(-k * x, 0 N)", true, 125, 390},
+           Case{"param gap = 4 in 1 .. 9\nforce = vector(30 N / gap * sin(2 * pi * x / 3 mm), 0 N)", false, 3, 8},
+       }) {
+    const Description description = described(each.statements);
+    ASSERT_EQ(description.cuts.size(), 1u) << each.statements;
+    ASSERT_EQ(description.cuts[0].size(), 1u) << each.statements;
+    EXPECT_EQ(description.cuts[0][0].above, each.above) << each.statements;
+    EXPECT_NEAR(description.cuts[0][0].value, each.value, 0.01 * each.range) << each.statements;
+  }
+  EXPECT_NE(description_text(described("param a = 2 N in 0 N .. 30 N\nforce = vector(a * sin(2 * pi * x / 4 mm), 0 N)"))
+                .find("from 10 N on, `sandpaper` cuts the force"),
+            std::string::npos);
+  for (const auto& ranges : described("param a = 2 N in 0 N .. 9 N\nforce = vector(a, 0 N)").cuts)
+    EXPECT_TRUE(ranges.empty());
+}
+
+TEST(DescribingForces, WhatGoesByTimeAloneHasNoMemoryAndOneLargestForce) {
+  const Description shaking = described("active 2 W\nforce = vibrate(0.5 N)");
+  EXPECT_EQ(shaking.no_texture, "its force depends on time, so it has no single texture");
+  const Description slow = described("active 2 W\nforce = vector(1 N * sin(2 * pi * phase(0.2 Hz)), 0 N)");
+  EXPECT_NEAR(slow.force.max_newton, 1, 1e-3);
+  EXPECT_NEAR(slow.bound.found.newton, 1, 1e-3);
+  EXPECT_EQ(slow.other.remembered, 0);
+  const Description rubbed = described(
+      "state trail : length = 0 mm in -50 mm .. 50 mm\ntrail' = (x - trail) / 1 s\nforce = vector(-20 N/m * trail, 0 "
+      "N)");
+  EXPECT_EQ(rubbed.no_texture, "its force depends on its memory, so it has no single texture");
+  // A soft bristle gives most where the hand has come from afar.
+  const Description soft = described("force = sticky(0.5 N, 6 N/m)");
+  EXPECT_GT(soft.other.remembered, 0.1);
+  EXPECT_GE(soft.force.max_newton, soft.other.remembered - 1e-4);
+  EXPECT_GE(soft.bound.found.newton, soft.force.max_newton - 1e-4);
+}
+
+TEST(DescribingForces, ASquareWaveOfOneNewtonReadsOneNewtonAtAnyRate) {
+  // 900 Hz is no multiple of most of these, so that one half of the wave has more ticks than the other.
+  for (const char* rate : {"45", "60", "75", "100", "120", "150"}) {
+    const Description description = described(std::string("active 2 W\nforce = vector(if fract(") + rate +
+                                              " Hz * time) < 0.5 then 1 N else -1 N, 0 N)");
+    ASSERT_TRUE(percept(description, "vibration")) << rate;
+    EXPECT_NEAR(percept(description, "vibration")->amplitude, 1, 0.03) << rate;
+  }
+}
+
 }  // namespace
 }  // namespace wale::describing_test

@@ -67,8 +67,8 @@ ShapeReading shape_of(const Program& program) {
   const auto carrier = [&](const char* percept) {
     return carrier_of(found, *declarations().percepts.find(percept), declarations());
   };
-  return {found.relief().crest, found.relief().regularity, carrier("sharpness"), carrier("crispness"),
-          carrier("bumpiness")};
+  return {found.relief().crest, found.relief().abruptness, found.relief().regularity,
+          carrier("sharpness"), carrier("crispness"),      carrier("bumpiness")};
 }
 
 std::array<std::optional<double>, cue_count> differences_of(const Program& a, const Program& b) {

@@ -14,7 +14,7 @@ Reading reading_of(const Program& program);
 
 /// What is read of the shape of a program's force beyond `Cue`; nothing for a carrier that it does not have. SI.
 struct ShapeReading {
-  double crest = 0, regularity = 0;
+  double crest = 0, abruptness = 0, regularity = 0;
   std::optional<double> sharpness, crispness, bumpiness;
 };
 ShapeReading shape_of(const Program& program);

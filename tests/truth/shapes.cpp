@@ -90,6 +90,21 @@ ShapeCase crest(Chance& chance) {
   return {one(chance, form, period).finished().source, form.crest, size_error * form.crest};
 }
 
+/// The largest change within a 16th of a period, against that of a sine.
+ShapeCase abruptness(Chance& chance) {
+  constexpr double apart = 1.0 / 16;
+  constexpr int steps = 4096;
+  const Form form = any_form(chance);
+  double most = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double t = static_cast<double>(i) / steps;
+    most = std::max(most, std::abs(form.wave.force(std::fmod(t + apart, 1.0)) - form.wave.force(t)));
+  }
+  const double expected = most / (2 * std::sin(pi * apart));
+  double period = 0;
+  return {one(chance, form, period).finished().source, expected, size_error * expected};
+}
+
 /// How suddenly a force changes, over its size; of a force that jumps it is no number.
 ShapeCase sharpness(Chance& chance) {
   Form form = any_form(chance);
@@ -148,6 +163,7 @@ ShapeCase bumpiness(Chance& chance) {
 const std::vector<ShapeClass>& shape_classes() {
   static const std::vector<ShapeClass> all{
       {"crest", crest, [](const ShapeReading& found) { return found.crest; }},
+      {"abruptness", abruptness, [](const ShapeReading& found) { return found.abruptness; }},
       {"sharpness", sharpness, [](const ShapeReading& found) { return found.sharpness.value_or(0); }, 22},
       {"regularity", regularity, [](const ShapeReading& found) { return found.regularity; }},
       {"half regular", half_regular, [](const ShapeReading& found) { return found.regularity; }, 22},
