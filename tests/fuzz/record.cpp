@@ -46,11 +46,11 @@ Sample make_sample() {
   Stage stage(joystick);
   PatchProgram program = example::program();
   program.device = sandpaper();
-  stage.place(*Program::load(program));
-  const auto act = [&](const Progress& now) {
+  Patch patch = *stage.add(*Program::load(program));
+  const auto act = [&](const Now& now) {
     if (now.ticks_run != 90) return;
-    demand(stage.set("amplitude", 1).has_value());
-    demand(stage.replace(0, *Program::load(program)).has_value());
+    demand(patch.set("amplitude", 1).has_value());
+    demand(patch.replace(*Program::load(program)).has_value());
   };
   const auto ran =
       stage.run({.seconds = 0.12, .virtual_time = true, .progress = act, .record_to = RecordTo{file, "x"}});

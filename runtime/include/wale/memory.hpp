@@ -42,6 +42,11 @@ class Memory {
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   void enter(Bank& bank, const Hand& hand) noexcept;
 
+  /// Copies values from another memory of the same program: cells from number `first` on, at most `most`, and with the
+  /// first cells the states. Returns how many cells it copied. Real-time: allocates nothing, takes no lock, makes no
+  /// system call, does not throw.
+  std::size_t copy_from(const Memory& other, std::size_t first, std::size_t most) noexcept;
+
   const Program& program() const { return program_; }
   /// The states' values, in the order of `description().states`.
   std::span<const float> states() const { return states_; }
