@@ -4,19 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "compiler/check/follow_on.hpp"
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
 #include "compiler/evidence/confirm.hpp"
 #include "compiler/grade/grade.hpp"
+#include "compiler/grade/own_rate.hpp"
+#include "compiler/grade/sought_force.hpp"
 #include "compiler/measure/cut_force.hpp"
 #include "compiler/measure/hands.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/parse/parse.hpp"
+#include "compiler/prove/force_bound.hpp"
+#include "compiler/prove/reachable.hpp"
 #include "compiler/solve/plausible.hpp"
 #include "compiler/solve/solve.hpp"
+#include "compiler/text/readable.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale {
@@ -31,13 +37,13 @@ void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material,
   const Energy energy = energy_of(bank, hand);
   if (!energy.active() || (material.active_watt > 0 && energy.watt() <= material.active_watt)) return;
   const double watt = std::max(energy.watt(), least_declared_watt);
-  const std::string mend = fmt::format("active {:.2g} W", std::ceil(watt * 100) / 100);
+  const std::string mend = typeable("active {:.2g} W", std::ceil(watt * 100) / 100);
   diagnostics.report({.code = Code::undeclared_energy,
                       .span = material.force_span,
-                      .message = fmt::format("`{}` gives energy to the hand, up to {:.2g} W at an ordinary pace: {}",
-                                             material.name, energy.watt(), energy.reasons.front()),
+                      .message = readable("`{}` gives energy to the hand, up to {:.2g} W at an ordinary pace: {}",
+                                          material.name, energy.watt(), energy.reasons.front()),
                       .help = material.active_watt > 0
-                                  ? fmt::format("it declares {:.2g} W; write `{}`", material.active_watt, mend)
+                                  ? readable("it declares {:.2g} W; write `{}`", material.active_watt, mend)
                                   : fmt::format("write `{}` in its physical block", mend)});
 }
 
@@ -47,14 +53,21 @@ void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostic
   if (device.active_watt == 0 || material.active_watt <= device.active_watt) return;
   diagnostics.report({.code = Code::more_than_device_gives,
                       .span = material.force_span,
-                      .message = fmt::format("`{}` declares {:.2g} W, but `{}` gives a program at most {:.2g} W",
-                                             material.name, material.active_watt, device.name, device.active_watt),
+                      .message = readable("`{}` declares {:.2g} W, but `{}` gives a program at most {:.2g} W",
+                                          material.name, material.active_watt, device.name, device.active_watt),
                       .help = "the runtime holds back the rest; declare less, or choose another device"});
 }
 
-/// Reports a texture without slope, which cannot push; a height that only jumps has none either.
+/// Reports a texture without slope, which cannot push; a height that only jumps has none either. If an argument was
+/// hardly meant, that is why: the error takes the place of the warning.
 void report_flat_height(const SolvedMaterial& solved, const CheckedMaterial& material, Diagnostics& diagnostics) {
-  const auto jump = find_jump(material, solved.device);
+  if (!material.doubts.empty()) {
+    Diagnostic doubt = material.doubts.front();
+    doubt.code = Code::flat_height;
+    doubt.message = "this height is flat inside the patch, and a flat height gives no force: " + doubt.message;
+    return diagnostics.report(std::move(doubt));
+  }
+  const auto jump = find_level(material, solved.device) ? std::nullopt : find_jump(material, solved.device);
   diagnostics.report(
       {.code = Code::flat_height,
        .span = jump ? jump->span : solved.force_span,
@@ -140,22 +153,101 @@ void warn_of_jumps(const SolvedMaterial& solved, const CheckedMaterial& material
        .help = "let it rise over a distance, as `smoothstep(x / 1 mm)` does, or begin and end at the same height"});
 }
 
-/// Warns of a material whose force is zero for every hand, unless it says so itself.
+/// The force of a program for all its parameters, at rest or moving, inside its patch's rim: what is proved and found.
+ForceBound bound_inside(const Bank& bank) {
+  const PatchSize size = bank.size();
+  const auto either_way = [](float most) { return Interval::between(-most, most); };
+  Domain domain = reachable_domain(bank.program());
+  domain[Input::x] = either_way(size.width / 2 - size.rim);
+  domain[Input::y] = either_way(size.height / 2 - size.rim);
+  domain[Input::patch_half_width] = Interval::of(size.width / 2);
+  domain[Input::patch_half_height] = Interval::of(size.height / 2);
+  domain[Input::patch_rim] = Interval::of(size.rim);
+  return force_bound(bank.program(), domain);
+}
+
+/// Warns of a material whose force is nothing that the device can command, for every hand and all parameters, or for
+/// every hand inside the patch's rim, unless it says so itself.
 void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const SolvedMaterial& solved,
                       const Measured& measured, Diagnostics& diagnostics) {
   const auto is_zero = [&](TermId id) { return solved.terms[id].known(); };
   const bool says_so = is_zero(solved.force[0]) && is_zero(solved.force[1]);
   const auto& asked = material.percepts;
   const bool asks_for_none = std::ranges::any_of(asked, [](const AskedPercept& each) { return each.level == 0; });
-  if (measured.max_newton > 0 || says_so || asks_for_none || depends_on_the_moment(bank.program().description()) ||
+  // A percept that was asked for, and of which cancelling forces leave nothing, has a warning of its own (W0425).
+  const double least = asked.empty() ? 0.5 * solved.device.force_step() : std::numeric_limits<double>::min();
+  if (measured.less_rim >= least || says_so || asks_for_none || depends_on_the_moment(bank.program().description()) ||
       !solved.states.empty() || !solved.memories.empty())
     return;
-  diagnostics.report({.code = Code::never_pushes,
-                      .span = solved.force_span,
-                      .message = fmt::format("`{}` never pushes: its force is 0 at every place of its patch, {:.0f} mm "
-                                             "by {:.0f} mm, and at every velocity",
-                                             solved.name, 1e3 * solved.patch_width, 1e3 * solved.patch_height),
-                      .help = "look for a length in m instead of mm, or for a size of 0"});
+  const double sought = sought_force(bank, least);
+  if (sought >= least) return;
+  const ForceBound bound = bound_inside(bank);
+  if (bound.found.newton >= least) return;
+  const bool proved = bound.newton < least;
+  const double newton = std::max({static_cast<double>(measured.less_rim), sought, bound.found.newton});
+  const std::string where = fmt::format("{:.0f} mm by {:.0f} mm", 1e3 * solved.patch_width, 1e3 * solved.patch_height);
+  const std::string needed =
+      fmt::format("`{}` gives no less than {:.2g} N", solved.device.name, solved.device.force_step());
+  const bool walled = std::ranges::any_of(solved.percepts, [](const SolvedPercept& each) {
+    return each.asked && each.record.extractor == Extractor::wall_stiffness;
+  });
+  std::string message;
+  std::string help = walled ? "its wall stands outside of the patch: move the face inside, as `firm(face: 5 mm)` does, "
+                              "or take a larger patch"
+                            : "look for a length in m instead of mm, or for a size of 0";
+  if (measured.max_newton >= least) {
+    message =
+        fmt::format("`{}` pushes only in the rim of its patch, with up to {:.3g} N, where heights fade; inside, {}",
+                    solved.name, measured.max_newton, proved ? "its force is 0" : "no force was found");
+    help = "look for heights that add up to the same height everywhere, or for a place outside the patch";
+  } else if (bound.newton == 0) {
+    message = fmt::format("`{}` never pushes: its force is 0 at every place of its patch, {}, and at every velocity",
+                          solved.name, where);
+  } else if (proved) {
+    message = fmt::format("`{}` never pushes: its force is {:.2g} N at most on its patch, {}, and {}", solved.name,
+                          bound.newton, where, needed);
+    help = "look for forces that cancel, or for a size near 0";
+  } else {
+    message = fmt::format("`{}` seems never to push: the largest force found on its patch, {}, is {:.2g} N, and {}",
+                          solved.name, where, newton, needed);
+    help = "look for forces that cancel, or for a feature far smaller than an encoder count";
+  }
+  diagnostics.report({.code = Code::never_pushes, .span = solved.force_span, .message = message, .help = help});
+}
+
+/// "comes out as one of 300 Hz", of a rate (Hz) at or above half of the loop's.
+std::string what_comes_out(double rate, double loop) {
+  constexpr double same = 1e-4;  // of the loop's rate
+  const double sampled = rate_when_sampled(rate, loop);
+  if (sampled < same * loop) return "comes out as a force that stays the same";
+  if (sampled > (0.5 - same) * loop) return "comes out as two forces in turn, which may be equal";
+  return fmt::format("comes out as one of {:.4g} Hz", sampled);
+}
+
+/// Warns of rates that the loop cannot follow, at the parameters' defaults and at the ends of their ranges.
+void warn_of_fast_rates(const Bank& bank, const SolvedMaterial& solved, Diagnostics& diagnostics) {
+  constexpr double rounding = 1e-5;
+  const PatchProgram& program = bank.program().description();
+  const double loop = program.device.rate, most = 0.5 * loop * (1 - rounding);
+  const auto report = [&](const std::string& which, double rate) {
+    diagnostics.report({.code = Code::too_fast_for_loop,
+                        .span = solved.force_span,
+                        .message = fmt::format("{} of {:.4g} Hz {}: `{}` computes {:.4g} forces a second", which, rate,
+                                               what_comes_out(rate, loop), program.device.name, loop),
+                        .help = fmt::format("choose a rate below {:.4g} Hz", loop / 2)});
+  };
+  if (const double rate = fastest_own_rate(bank); rate >= most) return report("a rate", rate);
+  if (program.states.empty() && !depends_on_the_moment(program)) return;
+  std::vector<float> values;
+  for (const Parameter& parameter : program.parameters) values.push_back(parameter.value);
+  for (std::size_t i = 0; i < program.parameters.size(); ++i)
+    for (const float end : {program.parameters[i].low, program.parameters[i].high}) {
+      std::vector<float> set = values;
+      set[i] = end;
+      const double rate = fastest_own_rate(Bank(bank.program(), set, bank.size()));
+      if (rate >= most)
+        return report(fmt::format("with `{}` at the end of its range, a rate", program.parameters[i].name), rate);
+    }
 }
 
 /// "`a`, `b` and 3 more": at most eight names.
@@ -231,15 +323,17 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
     report_flat_height(solved, *material, diagnostics);
     return std::nullopt;
   }
+  const GradingHand hand = normal_hand(module.declarations());
   // An argument that was hardly meant, and is reported, may be why a force is strange; it is said once.
-  if (!material->doubted) {
+  if (material->doubts.empty()) {
     const auto is_fine = [](const Diagnostic& each) { return each.code == Code::under_resolution; };
-    if (std::ranges::none_of(diagnostics.all(), is_fine)) warn_of_jumps(solved, *material, diagnostics);
+    const bool fine = std::ranges::any_of(diagnostics.all(), is_fine);
+    if (!fine) warn_of_jumps(solved, *material, diagnostics);
     warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
     warn_of_no_force(bank, *material, solved, measured, diagnostics);
+    if (!fine) warn_of_fast_rates(bank, solved, diagnostics);
+    warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   }
-  const GradingHand hand = normal_hand(module.declarations());
-  warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   warn_of_a_device_that_gives_less(solved, diagnostics);
   if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), diagnostics)) {
     PatchProgram confirmed = finished.program->description();

@@ -8,6 +8,7 @@
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/characters.hpp"
+#include "compiler/text/readable.hpp"
 #include "compiler/typed_number.hpp"
 
 namespace wale {
@@ -83,14 +84,14 @@ std::optional<Dimension> dimension_of(const Declarations& known, const Parameter
 /// "from 1 mm to 5 mm": bounds in SI as text in the parameter's own unit.
 std::string range_text(const Parameter& parameter, double low, double high) {
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
-  return fmt::format("from {:.6g}{} to {:.6g}{}", low / parameter.unit_in_si, unit, high / parameter.unit_in_si, unit);
+  return readable("from {:.6g}{} to {:.6g}{}", low / parameter.unit_in_si, unit, high / parameter.unit_in_si, unit);
 }
 
 /// The values of a parameter, and the option with its default.
 Expected expected_of(const std::string& option, const Parameter& parameter) {
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
   return {"a value " + range_text(parameter, parameter.low, parameter.high),
-          fmt::format("{} \"{}={:.4g}{}\"", option, parameter.name, parameter.value / parameter.unit_in_si, unit)};
+          typeable("{} \"{}={:.4g}{}\"", option, parameter.name, parameter.value / parameter.unit_in_si, unit)};
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "compiler/text/readable.hpp"
+
 namespace wale {
 namespace {
 
@@ -51,10 +53,10 @@ std::optional<double> seconds_in(std::string_view unit) {
 std::string bounds_of(const NumberRange& range) {
   const bool has_least = std::isfinite(range.least), has_most = std::isfinite(range.most);
   if (has_least && has_most && !range.above_least)
-    return fmt::format("a number from {:.6g} to {:.6g}", range.least, range.most);
+    return readable("a number from {:.6g} to {:.6g}", range.least, range.most);
   std::string bounds = "a number";
-  if (has_least) bounds += fmt::format(" {} {:.6g}", range.above_least ? "above" : "of at least", range.least);
-  if (has_most) bounds += fmt::format("{} at most {:.6g}", has_least ? " and" : " of", range.most);
+  if (has_least) bounds += readable(" {} {:.6g}", range.above_least ? "above" : "of at least", range.least);
+  if (has_most) bounds += readable("{} at most {:.6g}", has_least ? " and" : " of", range.most);
   return bounds;
 }
 
@@ -81,7 +83,7 @@ Result<double> read_number(const std::string& option, const std::string& text, c
   if (number && std::isfinite(*number) && *number <= range.most &&
       (range.above_least ? *number > range.least : *number >= range.least))
     return *number;
-  return unexpected(option, text, bounds_of(range), fmt::format("{:.6g}", range.example));
+  return unexpected(option, text, bounds_of(range), typeable("{:.6g}", range.example));
 }
 
 Result<double> read_duration(const std::string& option, const std::string& text, const DurationRange& range) {
@@ -95,9 +97,9 @@ Result<double> read_duration(const std::string& option, const std::string& text,
   }
   return unexpected(option, text,
                     fmt::format("a duration above 0{}, in s, ms, min or h{}",
-                                std::isfinite(range.most) ? fmt::format(" and of at most {:.6g} s", range.most) : "",
+                                std::isfinite(range.most) ? readable(" and of at most {:.6g} s", range.most) : "",
                                 range.endless ? ", or inf" : ""),
-                    fmt::format("\"{:.6g} s\"", range.example));
+                    typeable("\"{:.6g} s\"", range.example));
 }
 
 }  // namespace wale

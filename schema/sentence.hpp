@@ -2,16 +2,32 @@
 
 #include <sstream>
 #include <string>
+#include <type_traits>
 
+#include "schema/as_people_write.hpp"
 #include "schema/result.hpp"
 
 namespace wale {
+
+/// A part of a sentence: quantities as people write them; counts of bytes, registers or instructions with their digits
+/// together, since a programmer searches for them; anything else as it is.
+template <typename Part>
+decltype(auto) in_sentence(const Part& part) {
+  if constexpr (std::is_arithmetic_v<Part> && !std::is_same_v<Part, bool> && !std::is_same_v<Part, char>) {
+    std::ostringstream number;
+    number << part;
+    return as_people_write(number.str(), static_cast<double>(part),
+                           std::is_integral_v<Part> ? Digits::together : Digits::grouped);
+  } else {
+    return (part);
+  }
+}
 
 /// Joins all `parts`, each as a stream prints it.
 template <typename... Parts>
 std::string sentence(const Parts&... parts) {
   std::ostringstream text;
-  (text << ... << parts);
+  (text << ... << in_sentence(parts));
   return text.str();
 }
 

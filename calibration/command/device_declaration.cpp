@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "compiler/text/readable.hpp"
+
 namespace wale::command {
 namespace {
 
@@ -42,8 +44,8 @@ std::string identified_text(const Identified& found) {
     const MotorAnswer& answer = found.motors[motor];
     const char* name = motor == 0 ? "x" : "y";
     if (answer.moves)
-      text += fmt::format("the {} motor moves the axis {}, from {:.2g} N on\n", name, in_words(*answer.moves),
-                          answer.newton);
+      text +=
+          readable("the {} motor moves the axis {}, from {:.2g} N on\n", name, in_words(*answer.moves), answer.newton);
     else
       text += fmt::format("the {} motor: {}\n", name, answer.problem);
   }

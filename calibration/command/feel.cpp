@@ -29,6 +29,7 @@
 #include "compiler/declarations/declared_devices.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/solve/level_scale.hpp"
+#include "compiler/text/readable.hpp"
 #include "runtime/device/built_for.hpp"
 #include "schema/spelling.hpp"
 
@@ -256,7 +257,7 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
     tabled = table->finish();
   }
   if (static_cast<std::size_t>(result.ticks_run) > result.record.ticks.size())
-    say(fmt::format("the last {:.4g} s are measured", measured_seconds));
+    say(readable("the last {:.4g} s are measured", measured_seconds));
   RunManner manner = felt.manner();
   manner.versions = versions;
   const FeltReport report = felt_report(bank, result, bank.program().description().device, std::move(manner));

@@ -7,6 +7,7 @@
 
 #include "calibration/feel/hand_motion.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "compiler/text/readable.hpp"
 #include "runtime/device/built_for.hpp"
 #include "runtime/device/wait_for_device.hpp"
 #include "wale/simulated.hpp"
@@ -77,7 +78,7 @@ Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& 
     if (!opened) return std::move(opened.error());
     const DeviceProfile& profile = program.device;
     std::string hand =
-        profile.has_position() ? options.hand : fmt::format("at an assumed {:g} m/s", profile.shaker->exploring_speed);
+        profile.has_position() ? options.hand : readable("at an assumed {:g} m/s", profile.shaker->exploring_speed);
     return FeltDevice{*std::move(opened), nullptr, "simulated", std::move(hand), options.virtual_time};
   }
   auto opened = open_device(*device.connections, chosen,

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/read/wall.hpp"
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
 #include "schema/visible_text.hpp"
@@ -102,6 +104,20 @@ std::optional<double> needed_seconds(const PatchProgram& program, const Felt& fe
   return std::ceil(settling + margin * static_cast<double>(least_crossings) / pace);
 }
 
+bool needs_wall(const PerceptRecord& percept) {
+  return percept.extractor == Extractor::wall_stiffness || percept.extractor == Extractor::wall_damping;
+}
+
+/// "press along 180 deg at -20 mm, 0 mm": the motion of a hand into a wall.
+std::string pressing_into(const WallFace& wall) {
+  constexpr double half_turn = 180;
+  const double angle = std::atan2(wall.inward.y, wall.inward.x) * half_turn / std::numbers::pi;
+  // The place of the face that is nearest to the middle.
+  const glm::dvec2 place = glm::dot(wall.place, wall.inward) * wall.inward;
+  return fmt::format("press along {} deg at {} mm, {} mm", with_decimals(angle, 0), with_decimals(1e3 * place.x, 0),
+                     with_decimals(1e3 * place.y, 0));
+}
+
 /// What a map makes of the force, or why it makes nothing of it, for each percept.
 std::string levels_text(const FeltReport& report) {
   const Felt& felt = report.felt;
@@ -112,17 +128,18 @@ std::string levels_text(const FeltReport& report) {
       text += fmt::format("  {:<12} no level: {}\n", level.name, in_words(level.back.error()));
       continue;
     }
-    const float size = felt.vibration ? felt.vibration->acceleration.p99 : felt.force_rubbing.p99;
-    const float aimed = std::min(level.predicted_amplitude, static_cast<float>(report.device.most()));
-    text += readable("  delivered    {:.3f} of {:.3f} {}{}\n", size, aimed, felt.vibration ? "m/s^2" : "N",
-                     aimed > 0 ? readable(" ({:.0f} %)", 100 * size / aimed) : "");
+    const float aimed = report.aimed[i];
+    text += readable("  delivered    {:.4g} of {:.4g} {}{}\n", level.size, aimed, report.units[i],
+                     aimed > 0 ? readable(" ({:.0f} %)", 100 * level.size / aimed) : "");
     text += fmt::format("  {:<12} {:.2f}, as its map reads that {}{}\n", level.name, level.back->level,
-                        felt.vibration ? "shaking" : "force",
+                        felt.vibration           ? "shaking"
+                        : report.units[i] == "N" ? "force"
+                                                 : "size",
                         report.asked[i] >= 0 ? fmt::format(" (asked: {:.2f})", report.asked[i]) : "");
   }
   if (report.levels.empty())
     text += felt.vibration ? "  percepts     none that a map reads: it does not vibrate\n"
-                           : "  percepts     none that a map reads: its force has no texture\n";
+                           : "  percepts     none that a map reads\n";
   if (!report.needed_seconds) return text;
   if (*report.needed_seconds <= longest_proposed_run)
     return text +
@@ -183,8 +200,16 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
                                      .vibrates = device.shaker.has_value()});
   report.needed_seconds = needed_seconds(program, report.felt, report.seconds, settling);
   report.levels = levels_back(bank, report.felt, least_crossings);
-  for (const auto& level : report.levels) {
-    const auto& parameter = program.percepts[level.percept].parameter;
+  for (auto& level : report.levels) {
+    const PerceptRecord& percept = program.percepts[level.percept];
+    // The device's limit cuts only carriers in the unit of its output.
+    const bool limited = percept.unit == (device.shaker ? "m/s^2" : "N");
+    report.units.push_back(percept.unit);
+    report.aimed.push_back(limited ? std::min(level.predicted_amplitude, static_cast<float>(device.most()))
+                                   : level.predicted_amplitude);
+    if (!level.back && level.back.error().mend.empty() && percept.alone && needs_wall(percept))
+      if (const auto wall = wall_face(bank)) level.back.error().mend = "--hand \"" + pressing_into(*wall) + "\" does";
+    const auto& parameter = percept.parameter;
     report.asked.push_back(parameter ? bank.registers()[program.first_parameter() + *parameter] : -1);
   }
   return report;
@@ -280,8 +305,9 @@ std::string felt_json(const FeltReport& report) {
     if (const auto& back = report.levels[i].back)
       entry = {{"level", back->level},
                {"magnitude", back->magnitude},
-               {"delivered", felt.vibration ? felt.vibration->acceleration.p99 : felt.force_rubbing.p99},
-               {"aimed", std::min(report.levels[i].predicted_amplitude, static_cast<float>(report.device.most()))}};
+               {"delivered", report.levels[i].size},
+               {"aimed", report.aimed[i]},
+               {"unit", report.units[i]}};
     else
       entry = {{"refused", in_words(report.levels[i].back.error())}};
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];

@@ -33,7 +33,10 @@ struct FeltReport {
   Felt felt;
   float predicted_amplitude = 0;  ///< N, of a pad m/s^2; 0 when no percept of the program predicts one
   std::vector<LevelBack> levels;
-  std::vector<double> asked;  ///< for each of `levels` the level asked for; negative if none was
+  // For each of `levels`:
+  std::vector<double> asked;       ///< the level asked for; negative if none was
+  std::vector<float> aimed;        ///< the carrier's size that the program aims at, as far as the device gives it
+  std::vector<std::string> units;  ///< the carrier's unit
   /// s: about how long such a run must be for the hand to cross the texture often enough, if it did not; infinite if it
   /// crossed nothing.
   std::optional<double> needed_seconds;

@@ -10,6 +10,7 @@
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"
+#include "compiler/text/readable.hpp"
 #include "runtime/device/built_for.hpp"
 #include "schema/visible_text.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 
 /// A value in a parameter's own unit: "1.5 N".
 std::string in_its_unit(const Parameter& parameter, double value) {
-  return fmt::format("{:.6g}{}{}", value / parameter.unit_in_si, parameter.unit.empty() ? "" : " ", parameter.unit);
+  return readable("{:.6g}{}{}", value / parameter.unit_in_si, parameter.unit.empty() ? "" : " ", parameter.unit);
 }
 
 }  // namespace
@@ -99,9 +100,9 @@ std::string MaterialWatch::apply_settings(const PatchProgram& now) {
     } else {
       const float used = std::clamp(static_cast<float>(*meant), parameter->low, parameter->high);
       if (used != static_cast<float>(*meant))
-        said = fmt::format("`--set {}` is outside {:.6g} .. {} now: {} is used", setting,
-                           parameter->low / parameter->unit_in_si, in_its_unit(*parameter, parameter->high),
-                           in_its_unit(*parameter, used));
+        said = readable("`--set {}` is outside {:.6g} .. {} now: {} is used", setting,
+                        parameter->low / parameter->unit_in_si, in_its_unit(*parameter, parameter->high),
+                        in_its_unit(*parameter, used));
       if (const auto set = patch_.set(name, used); !set) said = in_words(set.error());
     }
     if (std::exchange(said_of_settings_[setting], said) != said && !said.empty())

@@ -21,7 +21,19 @@ std::vector<Fix> as_percentage(const Declared<MaterialDecl>& declared, const Per
   if (!node.value || !(level > most_meant_as_level && level <= 100)) return {};
   const auto* literal = std::get_if<NumberLiteral>(&declared.tree->expr(*node.value));
   if (!literal || literal->suffix.count > 0) return {};
-  return {replace(declared.tree->span(*node.value), fmt::format("{:.4g}", level / 100), {}, false)};
+  return {replace(declared.tree->span(*node.value), typeable("{:.4g}", level / 100), {}, false)};
+}
+
+/// What stands before the size in a call of a percept's function: "height, amplitude: ", or nothing if it comes first.
+std::string before_carrier(const Declarations& declarations, const std::string& function, const std::string& argument) {
+  const auto* declared = declarations.functions.find(function);
+  std::string before;
+  if (!declared) return before;
+  for (const FormalParameter& each : declared->node->parameters) {
+    if (each.name.text == argument) return before.empty() ? before : fmt::format("{}{}: ", before, argument);
+    if (!each.default_value) before += fmt::format("{}, ", each.name.text);
+  }
+  return {};
 }
 
 /// The value of a level or a tolerance, a constant without a unit. Of `0.6 mm` the number was meant.
@@ -42,8 +54,8 @@ std::optional<double> plain_level(const Declared<MaterialDecl>& declared, ExprId
       });
       if (is_size) {
         diagnostic.help =
-            fmt::format("levels go from 0 to 1; for {0} write `{1}({2}{0})` in a physical block", text, function,
-                        percept.argument() == "amplitude" && function != "vibrate" ? "height, amplitude: " : "");
+            fmt::format("levels go from 0 to 1; for {} write `{}({}{})` in a physical block", text, function,
+                        before_carrier(surroundings.declarations, function, percept.argument()), text);
         surroundings.diagnostics.report(std::move(diagnostic));
         continue;
       }
@@ -137,8 +149,8 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
     return report(
         Code::level_out_of_range, asked.span, readable("the level {:.4g} is outside 0 .. 1", asked.level),
         Advice(asked.level > most_meant_as_level && asked.level <= 100
-                   ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`", node.name.text,
-                                 asked.level, asked.level / 100)
+                   ? typeable("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`", node.name.text,
+                              asked.level, asked.level / 100)
                    : fmt::format("give a level from 0 to 1, where 1 is the reference stimulus of `{}`", node.name.text))
             .fact("low", 0)
             .fact("high", 1)

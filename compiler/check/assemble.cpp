@@ -227,7 +227,7 @@ class Assembler {
     if (weight > largest_weight)
       report(Code::value_out_of_range, span,
              readable("expected a weight of at most {}, found {:.6g}", largest_weight, weight),
-             weight <= 100 ? fmt::format("1 is the material as it is; for a share write `{:.6g} %`", weight)
+             weight <= 100 ? typeable("1 is the material as it is; for a share write `{:.6g} %`", weight)
                            : "1 is the material as it is");
     else
       report(Code::value_out_of_range, span,

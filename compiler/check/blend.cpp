@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "compiler/expression/formal_use.hpp"
+
 namespace wale {
 
 namespace {
@@ -196,9 +198,9 @@ void Blender::add_textures(Superposition& sum) {
   const auto height = blended_height(textures);
   if (!function || !height) return;
   std::vector<Actual> actuals(function->node->parameters.size());
-  for (std::size_t i = 0; i < actuals.size(); ++i)
-    if (function->node->parameters[i].name.text == "height")
-      actuals[i] = {.value = *height, .span = span_, .given = true};
+  const auto of_height = height_of(*function->node);
+  if (!of_height) return;
+  actuals[*of_height] = {.value = *height, .span = span_, .given = true};
   Scope scope;
   scope.hand = true;
   const Value force = checker_.call_with(*function, std::move(actuals), scope, span_);

@@ -21,7 +21,8 @@ class MaterialChecker {
         surroundings_(surroundings),
         checker_(surroundings, material_.terms, material_.tables),
         whole_(whole),
-        errors_before_(surroundings.diagnostics.error_count()) {}
+        errors_before_(surroundings.diagnostics.error_count()),
+        said_before_(surroundings.diagnostics.all().size()) {}
 
   CheckedMaterial check() {
     constexpr std::size_t terms_of_a_statement = 16;  // about; only for reserving memory
@@ -40,12 +41,16 @@ class MaterialChecker {
     if (!node_.physical_span && node_.derived_from)
       material_.layers.physical = sources.text(tree_.span(*node_.derived_from));
     material_.layers.documentation = node_.documentation;
-    if (surroundings_.diagnostics.error_count() == errors_before_)
-      material_.doubted = check_usage(material_, checker_.record(), surroundings_) || checker_.record().doubted;
+    if (surroundings_.diagnostics.error_count() == errors_before_) {
+      const std::size_t said = surroundings_.diagnostics.all().size();
+      check_usage(material_, checker_.record(), surroundings_);
+      keep_doubts(said);
+    }
     material_.carriers = std::move(checker_.record().carriers);
     material_.open_spans = checker_.record().open_spans;
     material_.states = std::move(checker_.record().states);
     material_.periods = checker_.record().periods;
+    material_.rates = checker_.record().rates;
     return std::move(material_);
   }
 
@@ -156,7 +161,15 @@ class MaterialChecker {
   CheckedMaterial material_;
   ExpressionChecker checker_;
   bool whole_;
+  /// Keeps what `check_usage` has said from that place on, and the exchanged arguments that were reported before.
+  void keep_doubts(std::size_t usage) {
+    const auto& all = surroundings_.diagnostics.all();
+    for (std::size_t i = std::min(said_before_, all.size()); i < all.size(); ++i)
+      if (i >= usage || all[i].code == Code::swapped_arguments) material_.doubts.push_back(all[i]);
+  }
+
   std::size_t errors_before_;
+  std::size_t said_before_;
 };
 
 }  // namespace

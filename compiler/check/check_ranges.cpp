@@ -3,6 +3,7 @@
 
 #include "compiler/check/check_statements.hpp"
 #include "compiler/diagnostics/fix.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -14,11 +15,11 @@ void StatementChecker::warn_of_percent(const ParamStatement& node) {
   if (!value || !high || value->suffix.count != 1 || high->suffix.count > 0 || !(high->value > 1)) return;
   if (tree().suffix(*value).front().name.text != "%") return;
   const Span span = tree().span(node.range->high);
-  report(Code::beyond_soft_range, span,
-         fmt::format("the default of `{}` is in percent, and its range reaches {:.6g} %", node.name.text,
-                     100 * high->value),
-         Advice(fmt::format("write `{} %`", surroundings_.sources.text(span)))
-             .fix(insert_after(span, " %", fmt::format("write `{} %`", surroundings_.sources.text(span)), false)));
+  report(
+      Code::beyond_soft_range, span,
+      readable("the default of `{}` is in percent, and its range reaches {:.6g} %", node.name.text, 100 * high->value),
+      Advice(fmt::format("write `{} %`", surroundings_.sources.text(span)))
+          .fix(insert_after(span, " %", fmt::format("write `{} %`", surroundings_.sources.text(span)), false)));
 }
 
 /// Whether the default lacks the unit that the range has. That is one error, and not one for each end of the range.

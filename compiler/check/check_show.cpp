@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "compiler/check/check_statements.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -155,12 +156,12 @@ void ShowChecker::colour(const SyntaxTree& tree, const Call& call) {
     const auto known = constant_value(material_.terms, value.x);
     if (known && !(*known >= 0 && *known <= 1) && !std::exchange(doubted, true))
       report(Code::beyond_soft_range, value.span,
-             fmt::format("`{}` is {:.4g}, and the parts of a colour go from 0 to 1",
-                         i == 0   ? "red"
-                         : i == 1 ? "green"
-                                  : "blue",
-                         *known),
-             *known > 1 && *known <= 255 ? fmt::format("if it goes to 255, write `{:.3g}`", *known / 255)
+             readable("`{}` is {:.4g}, and the parts of a colour go from 0 to 1",
+                      i == 0   ? "red"
+                      : i == 1 ? "green"
+                               : "blue",
+                      *known),
+             *known > 1 && *known <= 255 ? typeable("if it goes to 255, write `{:.3g}`", *known / 255)
                                          : "give a number from 0 to 1");
   }
   material_.colour = parts;

@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "compiler/text/readable.hpp"
+
 namespace wale {
 
 namespace {
@@ -29,7 +31,7 @@ const Word* declared_word(const PhysicalStatement& statement) {
 
 /// "3.25 mm", "0.5".
 std::string with_unit(double value, const std::string& unit) {
-  return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
+  return readable("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
 }  // namespace
@@ -78,7 +80,9 @@ void StatementChecker::operator()(const HeightStatement& node) {
     report(Code::wrong_type, value.span,
            fmt::format("a height must be a number at each place, not {}", type_words(value.type)),
            value.type == Value::Type::field ? "take its value at a place: name it with `let`, then write `name(hand)`"
-                                            : "write it in terms of `x` and `y`, as in `grating(x, period: 2.5 mm)`");
+           : value.type == Value::Type::vector && value.dimension == declarations().dimension("force")
+               ? fmt::format("a force is no height; write `force {} = …`", node.name.text)
+               : "write it in terms of `x` and `y`, as in `grating(x, period: 2.5 mm)`");
     return declare_failed(node.name);
   }
   const Dimension length = declarations().dimension("length");

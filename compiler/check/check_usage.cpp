@@ -7,6 +7,7 @@
 #include <set>
 
 #include "compiler/diagnostics/fix.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -27,6 +28,17 @@ bool is_turn_in_radians(double value) {
   constexpr double parts_of_pi = 6, largest = 8 * std::numbers::pi, written = 1e-3;
   const double parts = std::abs(value) / std::numbers::pi * parts_of_pi;
   return std::abs(value) <= largest && parts > 0.5 && std::abs(parts - std::round(parts)) < written * parts;
+}
+
+/// Whether it is one number in Hz or in a multiple of it: "30 Hz". Of `2 pi * 30 Hz`, which is one number too once it
+/// is computed, nobody knows what it counts; and of 377 Hz, the whole turns of which are already in radians.
+bool counts_turns(std::string_view text, double value) {
+  if (!text.ends_with("Hz")) return false;
+  text.remove_suffix(2);
+  const std::size_t unit = text.find_first_not_of("0123456789.eE+-_");
+  if (unit == 0 || (unit != text.npos && text.substr(unit).find_first_of("0123456789*/()") != text.npos)) return false;
+  const double turns = value / turn;
+  return turns < 1 || std::abs(turns - std::round(turns)) > 1e-4 * turns;
 }
 
 class AngleReader {
@@ -75,14 +87,14 @@ class AngleReader {
     const Term& term = terms_[angle];
     if (term.kind == TermKind::parameter)
       return report(place_,
-                    fmt::format("angles are in radians, and `{}` reaches {:.6g}, which is {:.3g} turns",
-                                material_.parameters[term.index].name, value, std::abs(value) / turn),
+                    readable("angles are in radians, and `{}` reaches {:.6g}, which is {:.3g} turns",
+                             material_.parameters[term.index].name, value, std::abs(value) / turn),
                     "give it and its range in degrees, as in `45 deg in 0 deg .. 90 deg`", {});
     const Span span = own_place(angle);
     const std::string text(surroundings_.sources.text(span));
     const bool is_bare = text == fmt::format("{}", std::abs(value)) || text == fmt::format("{}", value);
-    report(span, fmt::format("angles are in radians: {:.6g} of them are {:.3g} turns", value, std::abs(value) / turn),
-           fmt::format("for degrees write `{:.6g} deg`", value),
+    report(span, readable("angles are in radians: {:.6g} of them are {:.3g} turns", value, std::abs(value) / turn),
+           typeable("for degrees write `{:.6g} deg`", value),
            is_bare ? std::vector{insert_after(span, " deg", fmt::format("write `{} deg`", text), false)}
                    : std::vector<Fix>{});
   }
@@ -113,14 +125,14 @@ class AngleReader {
     const double value = terms_[literal].value;
     if (makes_degrees(value))
       return report(own_place(literal), "angles are in radians, and this one is turned into degrees before",
-                    fmt::format("leave out the factor of {:.3g}, or use it for what is printed only", value), {});
+                    readable("leave out the factor of {:.3g}, or use it for what is printed only", value), {});
     const char* meant = std::abs(value) == 180 ? "pi" : "2 pi";
     const Span span = own_place(literal);
     const bool is_bare = surroundings_.sources.text(span) == fmt::format("{}", std::abs(value));
     report(span,
-           fmt::format("angles are in radians, and {:.6g} seems to be {} in degrees", value,
-                       std::abs(value) == 180 ? "half a turn" : "a turn"),
-           fmt::format("write `{}` instead of `{:.6g}`", meant, std::abs(value)),
+           readable("angles are in radians, and {:.6g} seems to be {} in degrees", value,
+                    std::abs(value) == 180 ? "half a turn" : "a turn"),
+           typeable("write `{}` instead of `{:.6g}`", meant, std::abs(value)),
            is_bare ? std::vector{replace(span, meant, {}, false)} : std::vector<Fix>{});
   }
 
@@ -132,7 +144,7 @@ class AngleReader {
     const Term& term = terms_[id];
     const bool is_operation = term.kind == TermKind::operation;
     if (term.known()) {
-      factors.hertz = factors.hertz || surroundings_.sources.text(term.span).ends_with("Hz");
+      factors.hertz = factors.hertz || counts_turns(surroundings_.sources.text(term.span), term.value);
       if (!divides && (is_turn_in_degrees(term.value) || makes_degrees(term.value))) factors.degrees = id;
       if (!divides && is_turn_in_radians(term.value)) factors.radians = true;
       if (!is_turn_in_degrees(term.value) && std::abs(term.value) != 1) ++factors.others;
@@ -145,6 +157,9 @@ class AngleReader {
       factors.phase = true;
     } else if (term.kind == TermKind::input && term.input() == Input::time && !divides) {
       factors.time = true;
+    } else if (term.kind == TermKind::parameter && !divides && term.index < material_.parameters.size() &&
+               material_.parameters[term.index].unit.ends_with("Hz")) {
+      factors.hertz = true;
     } else {
       ++factors.others;
     }
@@ -178,33 +193,32 @@ void check_usual(const CheckedUsual& usual, const CheckedMaterial& material, con
   if (!value || (*value >= usual.low && *value <= usual.high)) return;
   const std::string unit = surroundings.declarations.names().unit(usual.dimension);
   const std::string suffix = unit.empty() ? "" : " " + unit;
-  const bool in_percent = unit.empty() && usual.high == 1 && *value > 1 && *value <= 100;
-  const std::string bare = fmt::format("{:.6g}", *value);
   const Span literal = material.terms[usual.value].span;
+  const bool has_percent = surroundings.sources.text(literal).find('%') != std::string_view::npos;
+  const bool in_percent = unit.empty() && usual.high == 1 && *value > 1 && *value <= 100 && !has_percent;
+  const std::string bare = typeable("{:.6g}", *value);
   const bool is_bare = surroundings.sources.text(literal) == bare;
   const Span span = is_bare ? literal : usual.span;
   surroundings.diagnostics.report(
       Advice(in_percent ? fmt::format("percentages have their sign: write `{} %`", bare)
-                        : fmt::format("give a value from {:.6g}{} to {:.6g}{}", usual.low, suffix, usual.high, suffix))
+                        : readable("give a value from {:.6g}{} to {:.6g}{}", usual.low, suffix, usual.high, suffix))
           .fix(in_percent && is_bare ? std::vector{insert_after(span, " %", fmt::format("write `{} %`", bare), false)}
                                      : std::vector<Fix>{})
           .fact("low", usual.low, unit)
           .fact("high", usual.high, unit)
           .about(Code::beyond_soft_range, span,
-                 fmt::format("`{}` is {}{}, outside its usual range, {:.6g} .. {:.6g}{}", usual.name, bare, suffix,
-                             usual.low, usual.high, suffix)));
+                 readable("`{}` is {}{}, outside its usual range, {:.6g} .. {:.6g}{}", usual.name, bare, suffix,
+                          usual.low, usual.high, suffix)));
 }
 
 }  // namespace
 
-bool check_usage(const CheckedMaterial& material, const CallRecord& record, const Surroundings& surroundings) {
-  const std::size_t before = surroundings.diagnostics.all().size();
+void check_usage(const CheckedMaterial& material, const CallRecord& record, const Surroundings& surroundings) {
   AngleReader angles(material, record, surroundings);
   for (const CheckedAngle& each : record.angles) angles.read(each);
   std::set<std::pair<SourceId, std::uint32_t>> said;
   for (const CheckedUsual& each : record.usual)
     if (said.emplace(each.span.source, each.span.begin).second) check_usual(each, material, surroundings);
-  return surroundings.diagnostics.all().size() > before;
 }
 
 }  // namespace wale

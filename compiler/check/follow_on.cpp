@@ -30,6 +30,13 @@ class Places {
   std::map<SourceId, std::set<std::uint32_t>> begins_;
 };
 
+/// The first byte of the line in which a span begins.
+std::pair<SourceId, std::size_t> line_of(Span span, const SourceSet& sources) {
+  const std::string_view text = sources[span.source].text;
+  const std::size_t newline = span.begin == 0 ? std::string_view::npos : text.rfind('\n', span.begin - 1);
+  return {span.source, newline == std::string_view::npos ? 0 : newline + 1};
+}
+
 /// A declaration: its name and its span.
 struct Stretch {
   Word name;
@@ -109,6 +116,8 @@ Diagnostics without_follow_ons(const Diagnostics& diagnostics, const std::vector
   if (!diagnostics.has_errors()) return diagnostics;
   Places errors, unread;
   std::set<std::string> unread_words;
+  // By line, the first place that cannot be read: it is why the rest of the line is not what was meant.
+  std::map<std::pair<SourceId, std::size_t>, std::uint32_t> first_unread;
   std::set<SourceId> lacking;  // files that lack an import, which may declare any name
   for (const Diagnostic& each : diagnostics.all()) {
     if (severity_of(each.code) != Severity::error) continue;
@@ -116,6 +125,8 @@ Diagnostics without_follow_ons(const Diagnostics& diagnostics, const std::vector
     if (each.code == Code::unknown_import) lacking.insert(each.span.source);
     if (!is_unread(each)) continue;
     unread.add(each.span);
+    const auto [first, is_new] = first_unread.emplace(line_of(each.span, sources), each.span.begin);
+    if (!is_new) first->second = std::min(first->second, each.span.begin);
     add_words(each.span, sources, unread_words);
   }
   std::multimap<std::string, Span> failed;
@@ -136,6 +147,10 @@ Diagnostics without_follow_ons(const Diagnostics& diagnostics, const std::vector
       return std::ranges::any_of(torn_records, [&](const Span& record) {
         return each.span.source == record.source && record.begin <= each.span.begin && each.span.begin <= record.end;
       });
+    const auto unread_line = first_unread.find(line_of(each.span, sources));
+    if (unread_line != first_unread.end() && severity_of(each.code) == Severity::error &&
+        (!is_unread(each) || each.span.begin > unread_line->second))
+      return true;
     if (each.code != Code::unknown_name && each.code != Code::unknown_unit) return false;
     const std::string name = subject(each);
     if (unread_words.contains(name)) return true;

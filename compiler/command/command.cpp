@@ -283,6 +283,12 @@ CheckedModule known_here(const FileRequest& request) {
   return module;
 }
 
+std::shared_ptr<const Declarations> declarations_of(const OpenedFile& opened, const Choice& choice) {
+  if (opened.module) return {std::shared_ptr<const Declarations>(), &opened.module->declarations()};
+  const auto here = std::make_shared<const CheckedModule>(known_here(choice.request()));
+  return {here, &here->declarations()};
+}
+
 OrStatus<std::vector<Program>> programs_of(OpenedFile& opened, const Choice& choice, bool all) {
   if (opened.program) return std::vector{*opened.program};
   std::vector<std::string> names{choice.material};

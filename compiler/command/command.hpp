@@ -123,6 +123,10 @@ OrStatus<OpenedFile> open(const Choice& choice);
 /// printed.
 std::shared_ptr<const CommonModules> declared_everywhere();
 
+/// What an opened file knows: the percepts, maps and devices that it and its imports declare, besides those that every
+/// file knows and the devices of `--devices`. A patch program has none of its own. `opened` must outlive it.
+std::shared_ptr<const Declarations> declarations_of(const OpenedFile& opened, const Choice& choice);
+
 /// What a file in the current folder knows without an import: what every file knows, and the devices of the request.
 /// Errors in these are printed.
 CheckedModule known_here(const FileRequest& request);

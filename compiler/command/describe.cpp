@@ -70,14 +70,14 @@ int describe_fates(const DescribeOptions& options) {
       print_diagnostics(stderr, opened->diagnostics, opened->sources);
       return refused;
     }
-  const std::shared_ptr<const CommonModules> common = declared_everywhere();
+  const auto declarations = declarations_of(*opened, choice);
   std::vector<DeviceFates> all;
   std::set<std::string> used;
   for (const std::string& material : names)
-    for (const std::string& device : opened->module->declarations().devices.spellings()) {
+    for (const std::string& device : declarations->devices.spellings()) {
       FileRequest request = choice.request();
       request.device = device;
-      auto fates = fates_on(*opened, request, material, options.settings, common->declarations, used);
+      auto fates = fates_on(*opened, request, material, options.settings, *declarations, used);
       if (!fates) return refuse(fates.error());
       all.push_back(*std::move(fates));
     }
@@ -125,12 +125,12 @@ int describe(const DescribeOptions& options) {
   if (const auto status = describe_exports(*opened, options)) return *status;
   const auto programs = programs_of(*opened, options.choice, true);
   if (!programs) return programs.status();
-  const std::shared_ptr<const CommonModules> common = declared_everywhere();
+  const auto declarations = declarations_of(*opened, options.choice);
   std::vector<Description> descriptions;
   for (const auto& program : *programs) {
     const auto parameters = chosen_parameters(program, options.settings);
     if (!parameters) return refuse(parameters.error());
-    descriptions.push_back(wale::describe(Bank(program, *parameters, program.default_size()), common->declarations));
+    descriptions.push_back(wale::describe(Bank(program, *parameters, program.default_size()), *declarations));
     if (const Description& last = descriptions.back(); last.coarseness > 1)
       print_error("wale: {}\n", coarseness_note(last.material, last.coarseness));
   }

@@ -12,6 +12,7 @@
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/preview/preview.hpp"
+#include "compiler/text/readable.hpp"
 #include "compiler/typed_number.hpp"
 
 namespace wale::command {
@@ -43,31 +44,33 @@ Result<SectionChoice> section_of(const PreviewOptions& options, PatchSize size) 
                    .mend = "for example, `--along 30`, 30 degrees to the left of x",
                    .place = {.name = "--along"}};
     section.along = *angle * std::numbers::pi / 180;
-    section.name = fmt::format("{:.4g}°", *angle);
+    section.name = typeable("{:.4g}°", *angle);
   }
   if (!options.at) return section;
   const glm::dvec2 place(options.at->position);
   if (std::abs(place.x) > size.width / 2 || std::abs(place.y) > size.height / 2)
     return Error{.code = Code::value_out_of_range,
-                 .sentence = fmt::format("this place is outside the patch, {:.4g} mm by {:.4g} mm around its centre",
-                                         1e3 * size.width, 1e3 * size.height),
+                 .sentence = readable("this place is outside the patch, {:.4g} mm by {:.4g} mm around its centre",
+                                      1e3 * size.width, 1e3 * size.height),
                  .place = {.name = "--at"}};
   section.at = place;
   return section;
 }
 
 int preview(const PreviewOptions& options) {
-  const auto programs = load_programs(options.choice, false);
+  auto opened = open(options.choice);
+  if (!opened) return opened.status();
+  const auto programs = programs_of(*opened, options.choice, false);
   if (!programs) return programs.status();
   const Program& program = programs->front();
   const auto parameters = chosen_parameters(program, options.settings);
   if (!parameters) return refuse(parameters.error());
-  const auto common = common_modules();
+  const auto declarations = declarations_of(*opened, options.choice);
   const Bank bank(program, *parameters, program.default_size());
   const auto section = section_of(options, bank.size());
   if (!section) return refuse(section.error());
   const auto drawing =
-      draw_preview(bank, preview_text(bank, common->declarations), common->declarations, {*section, options.seconds});
+      draw_preview(bank, preview_text(bank, *declarations), *declarations, {*section, options.seconds});
   if (!drawing) return refuse(drawing.error());
   if (!drawing->has_text)
     print_error("wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");

@@ -23,6 +23,18 @@ double exerts(const CueFacts& facts, const Declarations& declarations) {
   return found;
 }
 
+bool is_direction(CueKind kind) {
+  return kind == CueKind::orientation || kind == CueKind::push_axis || kind == CueKind::stiffness_axis ||
+         kind == CueKind::viscosity_axis || kind == CueKind::friction_axis || kind == CueKind::mass_axis;
+}
+
+/// A cue's value in a material. Across its axis, what is alike in all directions has its one size.
+std::optional<double> value_of(CueKind kind, const Cues& cues) {
+  const auto whole = whole_of(kind);
+  const bool across = whole && cue_table()[static_cast<std::size_t>(kind)].exerts;
+  return across && !cues[kind] ? cues[*whole] : cues[kind];
+}
+
 Verdict verdict_of(const std::optional<double>& plainest, bool unknown) {
   if (plainest && *plainest >= 1) return Verdict::apart;
   return unknown ? Verdict::unknown : Verdict::alike;
@@ -45,12 +57,17 @@ Comparer::Comparer(const Declarations& declarations, const std::string& device) 
 }
 
 /// The difference in just noticeable differences; empty if no publication gives a threshold.
-std::optional<double> Comparer::noticeable(const CueFacts& facts, std::optional<double> a,
-                                           std::optional<double> b) const {
-  // If only one material has a period or an orientation, the other cues of that texture tell the two apart.
-  if (!facts.exerts && (!a || !b)) return 0;
+std::optional<double> Comparer::noticeable(const CueFacts& facts, const Cues& of_a, const Cues& of_b) const {
+  const std::optional<double> a = value_of(facts.kind, of_a), b = value_of(facts.kind, of_b);
+  const auto whole = whole_of(facts.kind);
+  if (!facts.exerts && (!a || !b)) {
+    // If only one material has a texture, its other cues tell the two apart. If both have one, and only one of them has
+    // a period or a direction, they differ, and nobody has measured how plainly.
+    const bool both = whole && of_a[*whole] && of_b[*whole];
+    return both && (a || b) ? std::nullopt : std::optional(0.0);
+  }
   const double x = a.value_or(0), y = b.value_or(0);
-  if (facts.kind == CueKind::orientation) {
+  if (is_direction(facts.kind)) {
     const double turned = std::remainder(x - y, std::numbers::pi);
     return std::abs(turned) < same * std::numbers::pi ? std::optional(0.0) : std::nullopt;
   }
@@ -61,7 +78,7 @@ std::optional<double> Comparer::noticeable(const CueFacts& facts, std::optional<
 template <typename Visit>
 void Comparer::each_cue(const Cues& a, const Cues& b, Visit visit) const {
   for (const CueFacts& facts : cue_table())
-    if (a[facts.kind] || b[facts.kind]) visit(facts, noticeable(facts, a[facts.kind], b[facts.kind]));
+    if (a[facts.kind] || b[facts.kind]) visit(facts, noticeable(facts, a, b));
 }
 
 Comparison Comparer::compare(const Cues& a, const Cues& b) const {
@@ -69,10 +86,12 @@ Comparison Comparer::compare(const Cues& a, const Cues& b) const {
   bool unknown = false;
   const Sizes of_a = sizes_of(a, speed_), of_b = sizes_of(b, speed_);
   each_cue(a, b, [&](const CueFacts& facts, std::optional<double> noticeable) {
-    CueDifference found{facts.kind, a[facts.kind], b[facts.kind], noticeable, nullptr, Evidence::estimated, {}};
+    CueDifference found{
+        facts.kind, value_of(facts.kind, a), value_of(facts.kind, b), noticeable, nullptr, Evidence::estimated, {}};
     const Discrimination& people = people_[static_cast<std::size_t>(facts.kind)];
-    // Equal cues need no threshold.
-    if (noticeable != 0.0) found.threshold = people.threshold(found.a.value_or(0), found.b.value_or(0));
+    // Equal cues need no threshold, and a direction has none.
+    const bool compared = facts.exerts || (found.a && found.b);
+    if (noticeable != 0.0 && compared) found.threshold = people.threshold(found.a.value_or(0), found.b.value_or(0));
     if (found.threshold) {
       found.evidence = people.evidence(*found.threshold);
       found.outside = found.threshold->unmet(found.a.value_or(0), found.b.value_or(0), of_a, of_b);
@@ -99,9 +118,10 @@ void Comparer::add_recalled(const Cues& a, const Cues& b, std::set<const Thresho
   for (const CueFacts& facts : cue_table()) {
     const Discrimination& people = people_[static_cast<std::size_t>(facts.kind)];
     if (!people.may_be_recalled() || (!a[facts.kind] && !b[facts.kind])) continue;
-    const std::optional<double> apart = noticeable(facts, a[facts.kind], b[facts.kind]);
+    const std::optional<double> apart = noticeable(facts, a, b);
     if (!apart || *apart == 0) continue;
-    const Threshold* threshold = people.threshold(a[facts.kind].value_or(0), b[facts.kind].value_or(0));
+    const Threshold* threshold =
+        people.threshold(value_of(facts.kind, a).value_or(0), value_of(facts.kind, b).value_or(0));
     if (threshold->recalled()) thresholds.insert(threshold);
   }
 }

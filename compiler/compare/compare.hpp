@@ -61,7 +61,7 @@ class Comparer {
  private:
   template <typename Visit>
   void each_cue(const Cues& a, const Cues& b, Visit visit) const;
-  std::optional<double> noticeable(const CueFacts& facts, std::optional<double> a, std::optional<double> b) const;
+  std::optional<double> noticeable(const CueFacts& facts, const Cues& of_a, const Cues& of_b) const;
 
   std::vector<Discrimination> people_;  ///< by `CueKind`
   std::optional<double> speed_;         ///< mean speed of the hand `normal` as it strokes, m/s

@@ -24,8 +24,8 @@ const CueFacts& facts_of(CueKind kind) { return cue_table()[static_cast<std::siz
 /// "2.5 mm", "1.93 N", "45 degrees", "none": three significant digits, and `more`.
 std::string cue_text(CueKind kind, const std::optional<double>& value, int more = 0) {
   if (!value) return "none";
-  if (kind == CueKind::period) return with_digits(1e3 * *value, 3 + more) + " mm";
-  if (kind == CueKind::orientation) {
+  if (std::string_view(facts_of(kind).unit) == "m") return with_digits(1e3 * *value, 3 + more) + " mm";
+  if (std::string_view(facts_of(kind).unit) == "rad") {
     // 180 degrees is the same as 0: a texture has no front.
     const double unit = std::pow(10, -more);
     const double rounded = std::round(*value * 180 / std::numbers::pi / unit) * unit;
@@ -79,8 +79,8 @@ void write_cues(std::string& text, const ComparisonMatrix& matrix, std::size_t f
     text += fmt::format("  {:<20} {:<{}}  {:<{}}  {}", facts_of(cue.kind).name, of_a, width, of_b, width,
                         noticeable_text(cue.noticeable));
     if (cue.threshold)
-      text += fmt::format("  ({:.2g} at d' = 1, {}: {})", cue.threshold->weber,
-                          threshold_words(*cue.threshold, cue.evidence, cue.outside), cue.threshold->source);
+      text += readable("  ({:.2g} at d' = 1, {}: {})", cue.threshold->weber,
+                       threshold_words(*cue.threshold, cue.evidence, cue.outside), cue.threshold->source);
     text += '\n';
   }
   text += fmt::format("  {}\n", verdict_text(comparison));

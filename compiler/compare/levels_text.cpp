@@ -10,6 +10,7 @@
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/text/json_text.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -53,15 +54,15 @@ std::string proposal_text(const LevelProposal& proposal) {
   }
   text += "  apart: just noticeable differences at d' = 1 from the level before";
   for (const Threshold* each : thresholds)
-    text += fmt::format(";\n  Weber fraction {:.2g} ({}, {})", each->weber, each->source, threshold_conditions(*each));
+    text += readable(";\n  Weber fraction {:.2g} ({}, {})", each->weber, each->source, threshold_conditions(*each));
   text +=
       fmt::format("\n  {} by {} ({})\n", proposal.carrier, proposal.map->source, evidence_word(proposal.map_evidence));
   text += fmt::format("  told apart side by side: {} levels{}\n", proposal.most,
                       proposal.most > count ? "; `--side-by-side` proposes them" : "");
   if (const Threshold* found = proposal.recognition)
-    text += fmt::format("  recognised alone: about {:.0f} ({:.2g} within {}: {}, {})\n", std::round(found->recognised),
-                        found->recognised, found->valid ? found->valid->written : "an unknown range", found->source,
-                        recognition_word(proposal));
+    text += readable("  recognised alone: about {:.0f} ({:.2g} within {}: {}, {})\n", std::round(found->recognised),
+                     found->recognised, found->valid ? found->valid->written : "an unknown range", found->source,
+                     recognition_word(proposal));
   else
     text += "  recognised alone: unknown; nobody has published it for this cue. Expect far fewer than side by side\n";
   if (proposal.recognition && count > proposal.recognised())

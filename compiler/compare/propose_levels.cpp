@@ -139,8 +139,10 @@ Result<LevelProposal> propose_levels(const std::string& name, const std::string&
   const double high = std::min({std::max(measured[0], measured[1]), most_level, 1.0});
   const double from = scale.size_of(low), to = scale.size_of(high);
   if (!(low < high) || !std::isfinite(from) || !std::isfinite(to))
-    return Error{Code::percept_unrealised, fmt::format("`{}` renders no {} within the range that was measured ({})",
-                                                       device, percept.name, choice.map->source)};
+    return Error{
+        Code::percept_unrealised,
+        fmt::format("`{}` renders no {} within the range that {} ({})", device, percept.name,
+                    choice.map->valid_assumed ? "is assumed for its map" : "was measured", choice.map->source)};
 
   LevelProposal proposal;
   proposal.most = stairs(scale, from, to, apart, most_levels).size();

@@ -95,9 +95,11 @@ std::string DimensionNames::unit(const Dimension& dimension) const {
   const auto is_base = [](const Dimension& unit, std::size_t i) {
     return is_single(unit) && unit.twelfths[i] == Dimension::unit_exponent;
   };
+  // The power of one base unit, 1/m, is plain by itself.
   for (const bool single_too : {false, true})
     for (const bool both : {false, true})
       for (const auto& named : units) {
+        if (is_single(dimension)) continue;
         if (!single_too && is_single(named.dimension)) continue;
         const auto steps = steps_between(named.dimension, dimension);
         if (!steps || (steps->times && steps->over) != both || !may_be_told(steps->times) || !may_be_told(steps->over))

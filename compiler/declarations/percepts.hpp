@@ -54,7 +54,10 @@ struct Percept {
   double near_threshold = 0;     ///< level below which the percept is near or below threshold
 
   Extractor extractor = Extractor::none;
-  SizeRange period;   ///< the periods that the extractor reads, m
+  SizeRange period;  ///< the periods that the extractor reads, m
+  /// The least differences of a relief's share in `period` from 1 that count, of a relief that repeats and of one that
+  /// does not.
+  double least_share = 0, least_irregular_share = 0;
   std::string cue;    ///< the cue whose threshold tells two carriers apart; empty if there is none
   double exerts = 1;  ///< the force of a carrier of size 1, in N over the carrier's unit
   std::string documentation;
@@ -101,7 +104,7 @@ struct Map {
   bool valid_assumed = false;            ///< that range is assumed, not published
   std::vector<Condition> conditions;     ///< other conditions of the measurement: "period", 0.7 mm .. 10 mm
   LawUncertainty uncertainty;
-  StimulusDomain domain;                 ///< the stimuli that it was measured with
+  StimulusDomain domain;  ///< the stimuli that it was measured with
   Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
   bool tied = true;  ///< tied to the percept's reference stimulus; otherwise it can order stimuli but not set levels
   std::string device;
@@ -166,16 +169,27 @@ struct Threshold {
   std::vector<std::string> unmet(double a, double b, const Sizes& of_a, const Sizes& of_b) const;
 };
 
+/// What the cases of a rule are classes of.
+enum class Classified {
+  none,        ///< for the reader: nothing that is printed
+  surface,     ///< a relief that repeats or does not, by its kind: "grating", "perlin"
+  texture,     ///< a texture that repeats, by what people call it
+  size,        ///< the elements of such a texture, by how they are felt
+  confidence,  ///< a surface, by how sure people are that it is a texture
+};
+
 /// A classification of stimuli: the first case whose conditions hold.
 struct Rule {
   struct Case {
     std::string label;  ///< "moguls"
+    std::string says;   ///< "something between a texture and single features": what is printed; may be empty
     std::string kind;   ///< "perlin": the kind of surface that it is for; empty for any
     std::vector<Condition> conditions;
     std::optional<double> confidence, spread;  ///< mean and standard deviation of ratings, 0 .. 1
     Span span;
   };
   std::string name;
+  Classified classified = Classified::none;
   std::vector<Case> cases;
   Evidence evidence = Evidence::estimated;
   std::string device;

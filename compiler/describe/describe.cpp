@@ -17,6 +17,7 @@
 #include "compiler/measure/rehearsal.hpp"
 #include "compiler/read/cues.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/text/readable.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
@@ -57,18 +58,50 @@ std::vector<std::string> dependences(const PatchProgram& program) {
   return found;
 }
 
-/// Why no texture is described, in a line; empty if one is.
+/// Why the program has no texture of its own, in a line; empty if it has one.
 std::string why_no_texture(const PatchProgram& program, const Measured& force) {
   if (std::ranges::find(program.percepts, Extractor::lateral_force, &PerceptRecord::extractor) !=
       program.percepts.end())
     return {};
   if (force.max_newton == 0) return "it does not push";
   const auto found = dependences(program);
-  if (found.empty()) return "its force depends on the position in a way that no percept's map covers";
+  if (found.empty())
+    return depends_on_place(program) ? "its force depends on the position and has no relief"
+                                     : "its force is the same everywhere";
   std::string text;
   for (std::size_t i = 0; i < found.size(); ++i)
     text += (i == 0 ? "" : i + 1 == found.size() ? " and " : ", ") + found[i];
   return fmt::format("its force depends on {}, so it has no single texture", text);
+}
+
+/// "roughness from 0.7 mm to 10 mm, …": the periods of the percepts of textures.
+std::string bands_in_words(const Declarations& declarations) {
+  std::string text;
+  declarations.percepts.each([&](const std::string& name, const Percept& percept) {
+    if (percept.extractor != Extractor::lateral_force || !percept.has_reference) return;
+    const auto [low, high] = percept.period;
+    const std::string to = std::isfinite(high) ? readable(" to {:.3g} mm", 1e3 * high) : "";
+    text += readable("{}{} from {:.3g} mm{}", text.empty() ? "" : ", ", name, 1e3 * low, to);
+  });
+  return text;
+}
+
+/// Why nothing that people name was read, in a line.
+std::string why_no_percept(const Description& description, const PatchProgram& program,
+                           const Declarations& declarations) {
+  if (description.force.max_newton == 0) return "it does not push";
+  if (description.texture && description.texture->force.amplitude > 0)
+    return description.texture->force.period > 0
+               ? readable("its texture has a period of {:.3g} mm ({})", 1e3 * description.texture->force.period,
+                          bands_in_words(declarations))
+               : "its texture has no period that a map covers";
+  constexpr double just_below = 1 - 1e-5;  // single precision rounds
+  if (description.limit_matters && description.force.max_newton >= just_below * program.device.most() &&
+      depends_on_place(program))
+    return readable("`{}` cuts its force, and a force that is cut has no size that a map covers",
+                    description.device.name);
+  const std::string why = why_no_texture(program, description.force);
+  return why.empty() ? "no map covers what it does" : why;
 }
 
 /// The measured force.
@@ -83,10 +116,44 @@ Measured measured(const Bank& bank, const Declarations& declarations) {
 
 /// The proved bounds of the force.
 void describe_bounds(Description& description, const Program& program) {
+  constexpr float lasting = 1e9f;    // s, thirty years: a time at which formulas still give numbers
+  constexpr double rounding = 1e-6;  // of a ceiling
   description.bound = force_bound(program);
-  const Proof proof = prove(program);
+  Domain domain = whole_domain(program.description());
+  domain[Input::time] = Interval::between(0, lasting);
+  Proof proof = prove(program, domain);
+  for (const std::size_t axis : {0, 1}) {
+    Interval& asked = proof.unlimited[axis];
+    // A force that a limit cuts is as large as the limit, so a smaller bound shows that the limit cuts none.
+    const double most = description.bound.axis_newton[axis];
+    if (most < proof.ceiling[axis].low * (1 - rounding) && most < asked.largest())
+      asked = Interval::between(static_cast<float>(-most), static_cast<float>(most), asked.maybe_nan);
+  }
   description.limit_matters = proof.limit_matters(0) || proof.limit_matters(1);
   description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
+}
+
+/// What is called the largest force is the largest of all searches: with these parameters on this patch, and of any.
+void settle_largest(Description& description, const Bank& bank) {
+  float& most = description.force.max_newton;
+  most = std::max(most, static_cast<float>(description.grade.largest_newton));
+  LargestForce& found = description.bound.found;
+  const auto first = bank.registers().begin() + bank.program().description().first_parameter();
+  const glm::vec2 half = 0.5f * glm::vec2(bank.size().width, bank.size().height), at = glm::abs(found.hand.position);
+  if (found.size == bank.size() && std::equal(found.parameters.begin(), found.parameters.end(), first) &&
+      at.x <= half.x && at.y <= half.y)
+    most = std::max(most, static_cast<float>(found.newton));
+  // The bound is proved; a sum of squares in floats may be above it by rounding.
+  most = std::min(most, static_cast<float>(description.bound.newton));
+  found.newton = std::max(found.newton, static_cast<double>(most));
+}
+
+/// A face cannot be stiffer than the steepest slope of the force, which is exact; a face is fitted to samples.
+void settle_stiffness(Description& description) {
+  const Grade& grade = description.grade;
+  if (!description.wall || grade.jumps || grade.standing == Standing::not_analysed) return;
+  double& stiffness = description.wall->face.stiffness;
+  stiffness = std::min(stiffness, grade.stiffness);
 }
 
 /// The force, the stability of the loop, and the percepts and the texture that the force shows.
@@ -110,12 +177,15 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
     in_parallel(tasks.size(), work);
   else
     work(0, 1);
-  description.no_percept = why_no_texture(program, description.force);
+  settle_largest(description, bank);
+  description.no_texture = why_no_texture(program, description.force);
   description.percepts = recorded_percepts(bank, found, declarations);
   description.fates = fates_at(bank, found, declarations);
   if (texture == Texture::left_out) return;
   tell_settings(description.percepts, bank, found, declarations);
   describe_extracted(description, bank, found, declarations);
+  settle_stiffness(description);
+  if (description.percepts.empty()) description.no_percept = why_no_percept(description, program, declarations);
 }
 
 /// The shaking of a pad.

@@ -35,10 +35,10 @@ struct DescribedPercept {
   double level = 0, magnitude = 0;  ///< of that size, by the map
   LawUncertainty uncertainty;       ///< of the map
   LevelIntervals intervals;         ///< of the level, by that uncertainty
-  bool near_threshold = false;  ///< near or below the threshold of feeling
-  bool extracted = false;       ///< the program has no record of it: only its force tells
-  bool saturated = false;       ///< the device pushes less than the percept needs
-  bool alone = true;            ///< no other force pushes; otherwise a run cannot read the level back
+  bool near_threshold = false;      ///< near or below the threshold of feeling
+  bool extracted = false;           ///< the program has no record of it: only its force tells
+  bool saturated = false;           ///< the device pushes less than the percept needs
+  bool alone = true;                ///< no other force pushes; otherwise a run cannot read the level back
   /// What it reads where its level is at the least, in the middle and at the most: of a level that is a parameter.
   struct Setting {
     double asked = 0, reads = 0;
@@ -67,6 +67,7 @@ struct DescribedTexture {
   /// What the hand meets of the strongest wave, if that is too fine for the device's encoder.
   std::optional<ReliefWave> encoder_pattern;
   std::string texture_class, size_class;  ///< "flat texture", "moguls"; empty without a texture or a rule
+  std::string felt_as;                    ///< of the size class: "separate features"; empty for a texture like others
   /// how sure people are that it is a texture: "high", "low", or the stimulus that they rated
   std::string confidence;
   std::optional<double> confidence_mean, confidence_spread;  ///< of ratings 0 .. 1, if they were published
@@ -84,8 +85,20 @@ struct Description {
     WallFace face;
     WallDepth depth;
   };
-  std::optional<Wall> wall;          ///< the stiffest, if a reading found one
-  std::string no_percept;            ///< why no percept is of a texture, in a line; empty if one is
+  std::optional<Wall> wall;  ///< the stiffest, if a reading found one
+  /// What resists differently along its axis and across it: "stiffness", N/m.
+  struct Directed {
+    const char* name;
+    const char* unit;
+    Principal size;
+  };
+  std::vector<Directed> directed;
+  glm::dvec2 constant_push{0};       ///< N: everywhere alike
+  OtherForce other;                  ///< what no cue explains
+  double aside = 0;                  ///< N: on a hand at 0.2 m/s, square to its way
+  double unread = 0;                 ///< N: on a hand at rest or on its way, with no other cause here
+  std::string no_percept;            ///< why there is no percept, in a line; empty if there is one
+  std::string no_texture;            ///< why there is no texture, in a line; empty if there is one
   std::vector<DescribedFate> fates;  ///< fate of each percept and of the physics on the device
   std::optional<MeasuredShaking>
       shaking;                        ///< of a program that vibrates; its force, bound, grade and texture are empty

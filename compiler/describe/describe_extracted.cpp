@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <iterator>
 
 #include "compiler/describe/describe_percept.hpp"
 #include "compiler/read/cues.hpp"
@@ -37,29 +39,36 @@ double as_well_as_read(double size) {
   return std::round(size / digit) * digit;
 }
 
-/// What the irregular stimuli of chapter 4 were, by their forces: Perlin's noise, smooth between the values of a
-/// lattice, changes gently over its grain, and a noise of independent forces jumps about within it. Both are alike in
-/// every direction. Fractals, mixtures and most photographs are neither.
-std::string kind_of_irregular(const Relief& relief) {
-  constexpr double alike = 0.45;  // of the anisotropy: that of a sample of a few grains is not quite 0
-  if (relief.anisotropy > alike || !(relief.period > 0) || !relief.waves.empty()) return "irregular";
-  // The change over one grain, in amplitudes.
-  const double change = relief.steepness * relief.period;
-  constexpr double smoothest = 6.3, roughest = 9, jumping = 20;
-  if (change >= smoothest && change <= roughest) return "perlin";
-  return change >= jumping ? "noise" : "irregular";
+/// The case of a rule for surfaces of this kind that holds; null if no rule classifies them, or no case holds.
+struct ClassFound {
+  const Rule* rule = nullptr;
+  const Rule::Case* holds = nullptr;
+};
+ClassFound class_of(Classified classified, const Sizes& sizes, const std::string& kind,
+                    const Declarations& declarations) {
+  for (const Rule* rule : declarations.rules())
+    if (rule->classified == classified)
+      if (const Rule::Case* holds = rule->first(sizes, kind)) return {rule, holds};
+  return {};
 }
 
-/// The kind of surface in the words of the rules, which name the stimuli of chapter 4; each stimulus was one thing
-/// alone. A few ridges over the whole patch are stripes, more of them a grating.
-std::string kind_of(const Cues& cues, const ForceReading& found, double largest_newton, const PatchSize& size) {
-  if (cues[CueKind::amplitude]) {
-    const Relief& relief = found.relief();
-    if (!relief.regular()) return relief.period > 0 ? kind_of_irregular(relief) : "";
-    constexpr double few = 3;
-    const double side = std::min(size.width, size.height) - 2 * size.rim;
-    return relief.oriented() && side < few * relief.period ? "stripes" : "grating";
-  }
+/// The kind of a relief in the words of the rules, which name the stimuli of experiments.
+std::string kind_of_relief(const Relief& relief, const PatchSize& size, const Declarations& declarations) {
+  if (!relief.regular() && !(relief.period > 0)) return {};
+  Sizes sizes{{"period", relief.period},
+              {"anisotropy", relief.anisotropy},
+              // of the whole patch, and over one grain, in amplitudes
+              {"ridges", (std::min(size.width, size.height) - 2 * size.rim) / relief.period},
+              {"change", relief.steepness * relief.period}};
+  const std::string kind = relief.regular() ? "regular" : relief.waves.empty() ? "irregular" : "mixed";
+  const Rule::Case* holds = class_of(Classified::surface, sizes, kind, declarations).holds;
+  return holds ? holds->label : kind;
+}
+
+/// The kind of surface in the words of the rules; each stimulus was one thing alone.
+std::string kind_of(const Cues& cues, const ForceReading& found, double largest_newton, const PatchSize& size,
+                    const Declarations& declarations) {
+  if (cues[CueKind::amplitude]) return kind_of_relief(found.relief(), size, declarations);
   const auto things = std::ranges::count_if(cues.values, [](const auto& value) { return value.has_value(); });
   if (things == 0 && largest_newton < least_force) return "nothing";
   if (things != 1) return {};
@@ -84,7 +93,7 @@ std::string counting_as(const Relief& relief, const Declarations& declarations) 
 /// `count` (m) is the step of the device's encoder.
 DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double largest_newton, const PatchSize& size,
                             double count, const Declarations& declarations) {
-  DescribedTexture texture{.force = found.relief(), .kind = kind_of(cues, found, largest_newton, size)};
+  DescribedTexture texture{.force = found.relief(), .kind = kind_of(cues, found, largest_newton, size, declarations)};
   if (!cues[CueKind::amplitude]) texture.force = {};
   texture.counts_as = counting_as(found.relief(), declarations);
   if (texture.force.regular() && !texture.force.waves.empty())
@@ -92,21 +101,39 @@ DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double 
   // The rules name textures, and what they name has a period. People sorted ridges into classes, and were asked for
   // their confidence for the kinds that the rule names; of other surfaces the rules say nothing.
   const bool has_texture = texture.force.amplitude > 0 && texture.force.period > 0;
-  const bool has_ridges = has_texture && (texture.kind == "grating" || texture.kind == "stripes");
-  std::map<std::string, double> sizes;
+  Sizes sizes;
   if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", as_well_as_read(texture.force.period)}};
-  for (const Rule* rule : declarations.rules()) {
-    const Rule::Case* holds = rule->first(sizes, texture.kind);
-    if (!holds) continue;
-    if (rule->name == "texture_class" && has_ridges) texture.texture_class = holds->label;
-    if (rule->name == "size_class" && has_ridges) texture.size_class = holds->label;
-    if (rule->name == "texture_confidence" && !holds->kind.empty()) {
-      texture.confidence = holds->label;
-      texture.confidence_mean = holds->confidence, texture.confidence_spread = holds->spread;
-      texture.source = rule->source;
-    }
+  const auto found_class = [&](Classified classified) {
+    return class_of(classified, sizes, texture.kind, declarations);
+  };
+  if (has_texture && texture.force.regular()) {
+    if (const auto* named = found_class(Classified::texture).holds) texture.texture_class = named->label;
+    if (const auto* sized = found_class(Classified::size).holds)
+      texture.size_class = sized->label, texture.felt_as = sized->says;
+  }
+  if (const auto [rule, holds] = found_class(Classified::confidence); holds && !holds->kind.empty()) {
+    texture.confidence = holds->label;
+    texture.confidence_mean = holds->confidence, texture.confidence_spread = holds->spread;
+    texture.source = rule->source;
   }
   return texture;
+}
+
+/// What of a reading no percept tells.
+void tell_forces(Description& description, const ForceReading& found, const Cues& cues) {
+  const Description::Directed all[] = {{"stiffness", "N/m", found.stiffnesses()},
+                                       {"viscosity", "N s/m", found.opposing.dampings()},
+                                       {"friction", "N", found.opposing.frictions()},
+                                       {"mass", "kg", found.inertia}};
+  constexpr double leasts[] = {least_stiffness, least_damping, least_force, least_mass};
+  for (std::size_t i = 0; i < std::size(all); ++i)
+    if (all[i].size.directed() && std::abs(all[i].size.greatest) >= leasts[i]) description.directed.push_back(all[i]);
+  if (glm::length(found.constant) >= least_force) description.constant_push = found.constant;
+  const auto counting = [](double force) { return force >= least_force ? force : 0; };
+  description.other = {counting(found.other.button), counting(found.other.slowly), counting(found.other.remembered)};
+  description.aside = counting(found.opposing.aside);
+  const double unread = std::abs(cues[CueKind::other_force].value_or(0));
+  if (unread > std::max(description.other.largest(), description.aside)) description.unread = unread;
 }
 
 }  // namespace
@@ -116,9 +143,13 @@ void describe_extracted(Description& description, const Bank& bank, const ForceR
   const Cues cues = cues_of(bank, found);
   description.texture = texture_of(cues, found, description.force.max_newton, description.patch,
                                    description.device.position_step(), declarations);
+  tell_forces(description, found, cues);
   if (found.wall) description.wall = {*found.wall, deepest(bank, *found.wall)};
-  const DeviceDeclaration* device = declarations.devices.find(description.device.name);
-  if (!device) return;
+  // A patch program may be built for a device that nothing here declares.
+  DeviceDeclaration undeclared;
+  undeclared.profile = description.device;
+  const DeviceDeclaration* declared = declarations.devices.find(description.device.name);
+  const DeviceDeclaration* const device = declared ? declared : &undeclared;
   declarations.percepts.each([&](const std::string& name, const Percept& percept) {
     if (std::ranges::find(description.percepts, name, &DescribedPercept::name) != description.percepts.end()) return;
     const auto size = carrier_of(found, percept, declarations);
@@ -126,7 +157,7 @@ void describe_extracted(Description& description, const Bank& bank, const ForceR
     if (const Map* map = choose_map(percept, *device, declarations).map)
       description.percepts.push_back(told_by(percept, *map, *size, *device, bank, found, declarations));
   });
-  if (description.texture->force.amplitude > 0) description.no_percept.clear();
+  if (description.texture->force.amplitude > 0) description.no_texture.clear();
 }
 
 }  // namespace wale

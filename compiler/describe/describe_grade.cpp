@@ -82,8 +82,11 @@ std::string grade_text(const Grade& grade, const DeviceProfile& device) {
   if (grade.standing == Standing::active && grade.energy.watt() > 0)
     text += line("", readable("gives a hand up to {:.2g} W", grade.energy.watt()));
   if (grade.required_damping > 0) text += line("", readable("largest at {}", place_words(grade.worst)));
-  if (grade.stiffness > 0)
-    text += line("stiffness", readable("{:.4g} N/m at most, at {}", grade.stiffness, place_words(grade.stiffest)));
+  const std::string stiffness = readable("{:.4g} N/m at most", grade.stiffness);
+  if (grade.jumps)
+    text += line("stiffness", readable("the force jumps{}", grade.stiffness > 0 ? "; elsewhere " + stiffness : ""));
+  else if (grade.stiffness > 0)
+    text += line("stiffness", readable("{}, at {}", stiffness, place_words(grade.stiffest)));
   // Smaller steps cannot be commanded.
   if (grade.step_newton > 0.1 * device.force_step()) text += line("steps", step_line(grade));
   if (grade.finest_period < device.workspace_diameter) text += line("resolution", resolution_line(grade));

@@ -96,12 +96,17 @@ nlohmann::ordered_json to_json(const MeasuredShaking& shaking) {
 }
 
 void add_force(nlohmann::ordered_json& json, const Description& description) {
-  json["force"] = {
-      {"max_newton", figure(description.force.max_newton)},     {"p99_newton", figure(description.force.p99_newton)},
-      {"rms_newton", figure(description.force.rms_newton)},     {"bound_newton", figure(description.bound.newton)},
-      {"found_newton", figure(description.bound.found.newton)}, {"limit_matters", description.limit_matters}};
+  json["force"] = {{"max_newton", figure(description.force.max_newton)},
+                   {"p99_newton", figure(description.force.p99_newton)},
+                   {"rms_newton", figure(description.force.rms_newton)},
+                   {"max_may_be_larger", description.force.may_be_larger},
+                   {"over_time", description.force.over_time},
+                   {"bound_newton", figure(description.bound.newton)},
+                   {"found_newton", figure(description.bound.found.newton)},
+                   {"limit_matters", description.limit_matters}};
   json["grade"] = to_json(description.grade);
   json["stiffness"] = {{"max_newton_per_metre", figure(description.grade.stiffness)},
+                       {"jumps", description.grade.jumps},
                        {"at", to_json(description.grade.stiffest)}};
 }
 
@@ -195,6 +200,25 @@ void add_code(nlohmann::ordered_json& json, const Description& description) {
   json["bytes"] = description.bytes;
 }
 
+/// What resists along one axis, what pushes everywhere alike, and what no percept tells; only what there is.
+void add_other_forces(nlohmann::ordered_json& json, const Description& description) {
+  for (const Description::Directed& each : description.directed)
+    json["directed"][each.name] = {{"greatest", figure(each.size.greatest)},
+                                   {"across", figure(each.size.across)},
+                                   {"axis", {figure(each.size.axis.x), figure(each.size.axis.y)}},
+                                   {"unit", each.unit}};
+  if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
+    json["constant_push_newton"] = {figure(push.x), figure(push.y)};
+  const auto other = [&](const char* name, double force) {
+    if (force > 0) json["other_force_newton"][name] = figure(force);
+  };
+  other("button", description.other.button);
+  other("slowly", description.other.slowly);
+  other("remembered", description.other.remembered);
+  other("aside", description.aside);
+  other("unread", description.unread);
+}
+
 nlohmann::ordered_json to_json(const Description& description) {
   nlohmann::ordered_json json;
   json["material"] = description.material;
@@ -210,13 +234,16 @@ nlohmann::ordered_json to_json(const Description& description) {
   auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
   for (const auto& percept : description.percepts) percepts[percept.name] = to_json(percept);
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
+  if (!description.no_texture.empty()) json["no_texture"] = description.no_texture;
   if (description.texture) json["texture"] = to_json(*description.texture);
   if (const auto& wall = description.wall)
     json["wall"] = {{"at", {figure(wall->face.place.x), figure(wall->face.place.y)}},
                     {"inward", {figure(wall->face.inward.x), figure(wall->face.inward.y)}},
                     {"stiffness", figure(wall->face.stiffness)},
+                    {"preload_newton", figure(wall->face.preload)},
                     {"depth_m", figure(wall->depth.depth)},
                     {"max_newton", figure(wall->depth.newton)}};
+  add_other_forces(json, description);
   json["fates"] = to_json(description.fates);
   if (description.shaking) {
     json["shaking"] = to_json(*description.shaking);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compiler/evidence/domain.hpp"
+#include "compiler/read/proportional.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
@@ -120,7 +121,10 @@ void tell_settings(std::vector<DescribedPercept>& percepts, const Bank& bank, co
       }
       values[parameter] = level;
       const Bank there(bank.program(), values, bank.size());
-      const ForceReading reading = read(there, declarations, parts_for(program));
+      // Most sliders only make the force stronger.
+      const auto times = times_as_strong(bank, there);
+      const ForceReading reading = times ? times_as_strong(found, *times)
+                                         : read(there, declarations, parts_for(program.percepts[task.index].extractor));
       task.setting->reads = percept_reading(there, task.index, reading, declarations).level;
     }
   });

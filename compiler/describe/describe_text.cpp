@@ -19,6 +19,15 @@ std::string heading(const Description& description) {
   return description.material;
 }
 
+/// "assumed: the ranges of amplitude and rate", without what the interval's line tells; empty if there is nothing.
+std::string assumed_line(const DescribedPercept& percept) {
+  std::vector<std::string> ranges;
+  for (const std::string& each : percept.assumed)
+    if (each != "scatter" && each != "spread" && each != "noise") ranges.push_back(each);
+  if (ranges.empty()) return {};
+  return fmt::format("assumed: the range{} of {}", ranges.size() == 1 ? "" : "s", fmt::join(ranges, " and "));
+}
+
 /// "measured: slope measured, …" and how the stimulus differs from those that the map was measured with.
 std::vector<std::string> evidence_lines(const DescribedPercept& percept) {
   const std::string domain = percept.domain ? "domain " + evidence_word(*percept.domain) : "domain not stated";
@@ -29,8 +38,8 @@ std::vector<std::string> evidence_lines(const DescribedPercept& percept) {
   lines.push_back(alike ? readable("{}: slope, anchor, handle and domain", word)
                         : readable("{}: slope {}, anchor {}, handle {}, {}", word, evidence_word(percept.slope),
                                    evidence_word(percept.anchor), evidence_word(percept.handle), domain));
-  for (const OutsideRange& each : percept.outside)
-    lines.push_back(readable("outside what was measured ({})", in_words(each)));
+  if (std::string line = assumed_line(percept); !line.empty()) lines.push_back(std::move(line));
+  for (const OutsideRange& each : percept.outside) lines.push_back(outside_in_words(each));
   if (!percept.domain_why.empty()) lines.push_back(percept.domain_why);
   lines.push_back(readable("{} ({}, on {})", percept.source, percept.map, percept.device));
   return lines;
@@ -63,8 +72,7 @@ std::vector<std::string> reading_lines(const DescribedPercept& percept, const De
                            percept.amplitude, percept.unit, percept.magnitude));
   lines.push_back(people_line(percept));
   if (!percept.readable && !description.shaking)
-    lines.push_back(
-        readable("not read but aimed at: `{}` cuts the forces, which hides it", description.device.name));
+    lines.push_back(readable("not read but aimed at: `{}` cuts the forces, which hides it", description.device.name));
   if (percept.near_threshold) lines.emplace_back("near or below threshold");
   if (percept.saturated)
     lines.push_back(
@@ -88,9 +96,7 @@ std::string asked_line(const DescribedPercept& percept) {
 
 void write_percepts(std::string& text, const Description& description) {
   text += "\nfeels\n";
-  if (!description.no_percept.empty())
-    text += readable("  {}: {}\n", description.percepts.empty() ? "none can be read" : "no roughness",
-                     description.no_percept);
+  if (!description.no_percept.empty()) text += readable("  none can be read: {}\n", description.no_percept);
   for (const auto& percept : description.percepts) {
     std::string name = percept.name;
     const auto add = [&](std::string label, const std::vector<std::string>& lines) {
@@ -198,12 +204,11 @@ void write_texture(std::string& text, const Description& description) {
           "  too fine for the encoder of `{}`, through which it is {}\n", description.device.name,
           std::isfinite(met->period) ? readable("a pattern of {:.3g} mm", 1e3 * met->period) : "the same everywhere");
     if (!texture.texture_class.empty()) text += readable("  people would call it {}\n", texture.texture_class);
-    if (!texture.size_class.empty() && texture.size_class != "texture")
-      text += readable("  period {:.3g} mm: felt as {}\n", 1e3 * force.period,
-                       texture.size_class == "transitional" ? "something between a texture and single features"
-                                                            : texture.size_class);
+    if (!texture.felt_as.empty())
+      text += readable("  period {:.3g} mm: felt as {}\n", 1e3 * force.period, texture.felt_as);
   } else {
-    text += readable("  none{}\n", texture.kind.empty() ? "" : readable(": {}", texture.kind));
+    const std::string& why = texture.kind.empty() ? description.no_texture : texture.kind;
+    text += readable("  none{}{}\n", why.empty() ? "" : ": ", why);
   }
   if (texture.confidence_mean)
     text += readable("  confidence that it is a texture: {:.0f} % (s.d. {:.0f} %; {})\n",
@@ -216,9 +221,11 @@ void write_texture(std::string& text, const Description& description) {
 std::string bound_lines(const Description& description) {
   const ForceBound& bound = description.bound;
   std::string line;
-  if (bound.found.newton > 0)
-    line = readable("  the proved bound is {:.2f} times the largest force found ({:.3f} N)\n", bound.ratio(),
-                    bound.found.newton);
+  if (bound.found.newton >= 0.5 * description.device.force_step())
+    line = readable(
+        "  over all parameters, sizes of the patch and hands, the largest force found is {:.3f} N; the proved bound is "
+        "{:.2f} times that\n",
+        bound.found.newton, bound.ratio());
   if (!description.limit_matters) return line;
   const double most = description.device.force_newton, asked = description.asked.largest();
   if (asked > most)
@@ -231,15 +238,49 @@ std::string bound_lines(const Description& description) {
   return line;
 }
 
+/// What resists along one axis, what pushes everywhere alike, and what no percept tells.
+std::string other_forces(const Description& description) {
+  std::string text;
+  for (const Description::Directed& each : description.directed) {
+    const double across = std::abs(each.size.across) < 0.01 * std::abs(each.size.greatest) ? 0 : each.size.across;
+    const long angle = degrees(std::atan2(each.size.axis.y, each.size.axis.x) + std::numbers::pi);
+    const std::string way = angle == 0    ? "x"
+                            : angle == 90 ? "y"
+                                          : in_degrees(readable("the direction {}", angle)) + " from x";
+    text += readable("  {} {:.3g} {} along {}, {} across\n", each.name, each.size.greatest, each.unit, way,
+                     across == 0 ? std::string("none") : readable("{:.3g} {}", across, each.unit));
+  }
+  if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
+    text +=
+        readable("  a constant push of {:.3g} N towards {}\n", std::hypot(push.x, push.y),
+                 in_degrees(readable("{:.0f}", std::round(std::atan2(push.y, push.x) * 180 / std::numbers::pi) + 0.0)));
+  const OtherForce& other = description.other;
+  if (other.button > 0) text += readable("  up to {:.3g} N by the button, which no percept tells\n", other.button);
+  if (other.slowly > 0)
+    text += readable("  up to {:.3g} N that comes with time, which no percept tells\n", other.slowly);
+  if (other.remembered > 0)
+    text += readable("  up to {:.3g} N by where the hand has been, which no percept tells\n", other.remembered);
+  if (description.aside > 0)
+    text += readable("  {:.3g} N aside on a hand at 200 mm/s, which no percept tells\n", description.aside);
+  if (description.unread > 0) text += readable("  up to {:.3g} N that no percept tells\n", description.unread);
+  return text;
+}
+
 void write_pushing(std::string& text, const Description& description) {
-  text += readable("\npushes\n  {:.3f} N at most with these parameters; with any, never more than {:.3f} N (proved)\n",
-                   description.force.max_newton, description.bound.newton);
-  text += readable("  on a hand at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n", description.force.p99_newton,
+  text +=
+      readable("\npushes\n  {:.3f} N {} with these parameters; with any, never more than {:.3f} N (proved)\n",
+               description.force.max_newton, description.force.may_be_larger ? "is the largest force found" : "at most",
+               description.bound.newton);
+  text += readable("  on a hand at rest, over the patch{}: P99 {:.3f} N, RMS {:.3f} N\n",
+                   description.force.over_time ? " and time" : "", description.force.p99_newton,
                    description.force.rms_newton);
   if (const auto& wall = description.wall)
-    text +=
-        readable("  a wall {}: {:.3g} N/m, up to {:.3g} N on a hand that goes {:.3g} mm into it, to the patch's edge\n",
-                 wall_place(wall->face), wall->face.stiffness, wall->depth.newton, 1e3 * wall->depth.depth);
+    text += readable(
+        "  a wall {}: {:.3g} N/m{}, up to {:.3g} N on a hand that goes {:.3g} mm into it, to the patch's edge\n",
+        wall_place(wall->face), wall->face.stiffness,
+        wall->face.preload > 0 ? readable(" from {:.3g} N on", wall->face.preload) : "", wall->depth.newton,
+        1e3 * wall->depth.depth);
+  text += other_forces(description);
   text += bound_lines(description);
   text += "\nstability\n" + grade_text(description.grade, description.device);
 }

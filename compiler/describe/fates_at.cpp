@@ -8,7 +8,7 @@
 #include "compiler/declarations/declarations.hpp"
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
-#include "compiler/evidence/percept_reading.hpp"
+#include "compiler/evidence/correct_fate.hpp"
 #include "compiler/grade/grade.hpp"
 #include "compiler/measure/cut_force.hpp"
 #include "compiler/measure/measure.hpp"
@@ -195,24 +195,6 @@ std::string map_of(const PerceptRecord& percept, const Declarations& declaration
 
 }  // namespace
 
-namespace {
-
-/// Corrects a fate by what the program reads at the bank's parameters.
-void confirm_fate(FateRecord& fate, const Bank& bank, std::size_t index, const ForceReading& found,
-                  const Declarations& declarations) {
-  const PerceptRecord& record = bank.program().description().percepts[index];
-  const PerceptReading told = percept_reading(bank, index, found, declarations);
-  const std::string why = why_approximated(record, told, fate.asked, found, declarations);
-  if (why.empty() || (fate.fate == Fate::saturated && outside_ranges(record, told).empty())) return;
-  if (fate.fate != Fate::saturated) {
-    fate.fate = Fate::approximated;
-    fate.given = static_cast<float>(std::clamp(told.level, 0.0, 1.0));
-  }
-  fate.reason = fate.reason.empty() ? why : fmt::format("{}; {}", why, fate.reason);
-}
-
-}  // namespace
-
 std::vector<DescribedFate> fates_at(const Bank& bank, const ForceReading& found, const Declarations& declarations) {
   const PatchProgram& program = bank.program().description();
   const double given = most_given(bank, declarations);
@@ -226,7 +208,7 @@ std::vector<DescribedFate> fates_at(const Bank& bank, const ForceReading& found,
     }
     const double most = most_of(program, program.percepts[*index], declarations, given);
     all.push_back(FateFinder(bank, record, *index, most, map_of(program.percepts[*index], declarations)).found());
-    confirm_fate(all.back().record, bank, *index, found, declarations);
+    correct_fate(all.back().record, bank, *index, all.back().record.asked, found, declarations);
   }
   return all;
 }

@@ -86,8 +86,14 @@ void Diagnostics::report(Diagnostic diagnostic) {
   const Key key(diagnostic.code, diagnostic.span.source, diagnostic.span.begin, diagnostic.span.end);
   for (auto [said, end] = said_.equal_range(key); said != end; ++said)
     if (said->second == diagnostic.message) return;
+  const bool is_error = severity_of(diagnostic.code) == Severity::error;
+  const auto at_its_place = [&](const Diagnostic& other) {
+    return other.span == diagnostic.span && (severity_of(other.code) == Severity::error) != is_error;
+  };
+  if (!is_error && std::ranges::any_of(all_, at_its_place)) return;
+  if (is_error) std::erase_if(all_, at_its_place);
   said_.emplace(key, diagnostic.message);
-  if (severity_of(diagnostic.code) == Severity::error) ++errors_;
+  if (is_error) ++errors_;
   all_.push_back(std::move(diagnostic));
 }
 

@@ -72,7 +72,8 @@ class Diagnostics {
   /// More errors are not useful, and a file of 4 MB could have hundreds of thousands.
   static constexpr std::size_t most_errors = 1000;
 
-  /// The same message at the same place is reported once; everything after `most_errors` is dropped.
+  /// The same message at the same place is reported once, and a place with an error has no warnings: they are about the
+  /// same mistake. Everything after `most_errors` is dropped.
   [[gnu::cold]] void report(Diagnostic diagnostic);
   /// By file, then by place; diagnostics at one place stay in the order of reporting.
   void sort();

@@ -48,6 +48,7 @@ class Emitter {
     program_.patch_rim = static_cast<float>(material_.patch_rim);
     program_.active_watt = static_cast<float>(material_.active_watt);
     program_.device = material_.device;
+    if (!material_.limited) program_.device.force_newton = unlimited_newton;
     program_.fates = material_.fates;
     program_.layers = material_.layers;
 

@@ -124,7 +124,8 @@ LoweredMaterial lower(const SolvedMaterial& material, Diagnostics& diagnostics) 
   }
 
   const auto& vibration = material.device.shaker;
-  lowered.ceiling.fill(graph.constant(static_cast<float>(material.device.most())));
+  const double most = material.limited || vibration ? material.device.most() : unlimited_newton;
+  lowered.ceiling.fill(graph.constant(static_cast<float>(most)));
   if (vibration) lowered.ceiling[1] = graph.constant(static_cast<float>(vibration->frequency_high));
   graph.attribute(material.force_span);
   for (std::size_t axis = 0; axis < 2; ++axis)

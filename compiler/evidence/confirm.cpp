@@ -8,6 +8,7 @@
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
+#include "compiler/evidence/correct_fate.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/text/readable.hpp"
 
@@ -21,7 +22,7 @@ Relief relief_of(const SolvedMaterial& solved, const std::vector<std::array<Term
   for (std::size_t i = 1; i < forces.size(); ++i)
     for (std::size_t axis = 0; axis < 2; ++axis)
       alone.force[axis] = alone.terms.apply(Operation::add, alone.force[axis], forces[i][axis]);
-  alone.device.force_newton *= 16;  // its shape counts, and not how much the device gives
+  alone.limited = false;  // its shape counts, and not how much the device gives
   alone.percepts.clear(), alone.fates.clear(), alone.marks.clear();
   Diagnostics diagnostics;
   const LoweredMaterial lowered = lower(alone, diagnostics);
@@ -31,9 +32,6 @@ Relief relief_of(const SolvedMaterial& solved, const std::vector<std::array<Term
   const auto loaded = Program::load(std::move(*program));
   return loaded ? static_force(Bank(*loaded)).relief : Relief{};
 }
-
-/// With three digits, so that a program does not depend on the last bits of a spectrum.
-double rounded_to(double value, double digits) { return std::round(value * digits) / digits; }
 
 void report_outside(const PerceptRecord& record, const OutsideRange& outside, Span place, Diagnostics& diagnostics) {
   const auto shown = [&](double value) {
@@ -58,20 +56,19 @@ void report_difference(const PerceptRecord& record, const PerceptReading& told, 
   diagnostics.report(
       Advice("change the other forces or the level until they agree; a level with a tolerance, as in "
              "`" +
-             fmt::format("{} {:.2g} +- {:.2g}", record.name, asked, std::ceil(20 * std::abs(told.level - asked)) / 20) +
+             typeable("{} {:.2g} +- {:.2g}", record.name, asked, std::ceil(20 * std::abs(told.level - asked)) / 20) +
              "`, says that you know")
           .fact("asked", asked)
           .fact("reads", told.level)
           .about(Code::delivered_otherwise, place,
-                 fmt::format("{} {:.3g} is asked for, and the finished program reads {:.2g}: {}", record.name, asked,
-                             told.level, cause)));
+                 readable("{} {:.3g} is asked for, and the finished program reads {:.2g}: {}", record.name, asked,
+                          told.level, cause)));
 }
 
 }  // namespace
 
 BandShares band_shares(const Bank& bank, const ForceReading& found, const SolvedMaterial& solved,
                        const Declarations& declarations) {
-  constexpr double digits = 1000;
   struct Texture {
     const PerceptRecord* record = nullptr;
     double aimed = 0;
@@ -93,8 +90,6 @@ BandShares band_shares(const Bank& bank, const ForceReading& found, const Solved
   if (as_aimed) return shares;
   const Relief relief = relief_of(solved, forces);
   if (!(relief.amplitude > 0)) return shares;
-  // The spectrum of an irregular relief has tails in every band, so its share is not sharp.
-  const double nearly_one = relief.regular() ? 0.03 : 0.1;
   for (const auto& [record, aimed] : textures) {
     const Percept banded{
         .name = record->name, .extractor = record->extractor, .period = {record->period_low, record->period_high}};
@@ -102,7 +97,10 @@ BandShares band_shares(const Bank& bank, const ForceReading& found, const Solved
     // One force has its amplitude by definition. What several have together is read.
     const double share = inside / (forces.size() == 1 ? relief.amplitude : aimed);
     const bool counts = inside >= least_of_relief * relief.amplitude && aimed > 0;
-    if (counts && std::abs(share - 1) > nearly_one) shares[record->name] = rounded_to(share, digits);
+    const Percept* declared = declarations.percepts.find(record->name);
+    // The spectrum of an irregular relief has tails in every band, so its share is less sharp.
+    const double least = !declared ? 0 : relief.regular() ? declared->least_share : declared->least_irregular_share;
+    if (counts && std::abs(share - 1) > least) shares[record->name] = as_kept(share);
   }
   return shares;
 }
@@ -110,7 +108,6 @@ BandShares band_shares(const Bank& bank, const ForceReading& found, const Solved
 std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceReading& found,
                                                const SolvedMaterial& solved, const CheckedMaterial& material,
                                                const Declarations& declarations, Diagnostics& diagnostics) {
-  constexpr double digits = 1000;
   std::vector<FateRecord> fates = solved.fates;
   bool changed = false;
   for (std::size_t i = 0; i < solved.percepts.size(); ++i) {
@@ -120,22 +117,18 @@ std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceRead
     const auto fate =
         std::ranges::find_if(fates, [&](const FateRecord& each) { return each.percept && each.name == record.name; });
     if (!percept.asked || asked == material.percepts.end() || fate == fates.end()) continue;
-    const PerceptReading told = percept_reading(bank, i, found, declarations);
-    const std::string why = why_approximated(record, told, *percept.asked, found, declarations);
-    if (why.empty()) continue;
-    const std::vector<OutsideRange> outside = outside_ranges(record, told);
+    const auto correction = correct_fate(*fate, bank, i, *percept.asked, found, declarations);
+    if (!correction) continue;
+    const std::vector<OutsideRange> outside = outside_ranges(record, correction->told);
     for (const OutsideRange& each : outside) report_outside(record, each, asked->place(), diagnostics);
-    if (outside.empty() && fate->fate == Fate::saturated) continue;
     // A force that is switched or swells while it is felt reads as its author meant; a constant factor has its own
     // warning.
     const auto changes = [&](TermId force) { return material.terms.dependence(force).changing(); };
     const bool as_meant = !record.basis.summand && (material.scales_a_texture || !material.force ||
                                                     changes((*material.force)[0]) || changes((*material.force)[1]));
-    if (outside.empty() && !as_meant) report_difference(record, told, *percept.asked, why, asked->place(), diagnostics);
-    if (fate->fate == Fate::kept) fate->fate = Fate::approximated;
-    if (fate->fate != Fate::saturated)
-      fate->given = static_cast<float>(std::clamp(rounded_to(told.level, digits), 0.0, 1.0));
-    fate->reason = fate->reason.empty() ? why : fmt::format("{}; {}", why, fate->reason);
+    // That a program pushes nowhere has a warning of its own, with this cause.
+    if (outside.empty() && !as_meant && !stands_outside(record, found))
+      report_difference(record, correction->told, *percept.asked, correction->why, asked->place(), diagnostics);
     changed = true;
   }
   return changed ? std::optional(std::move(fates)) : std::nullopt;

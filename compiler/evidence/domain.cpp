@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compiler/read/tolerances.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 namespace {
@@ -46,7 +47,11 @@ SurfaceProfile profile_of(const PatchProgram& program, const Relief& relief) {
 std::vector<std::string> beside(const PerceptRecord& record, double size, const Cues& cues, const Relief& relief) {
   std::vector<std::string> others;
   for (const CueFacts& facts : cue_table())
-    if (facts.exerts && facts.extractor != record.extractor && cues[facts.kind]) others.emplace_back(facts.name);
+    if (facts.exerts && facts.extractor != record.extractor && cues[facts.kind] && !whole_of(facts.kind)) {
+      const bool push = facts.kind == CueKind::push_x || facts.kind == CueKind::push_y;
+      const std::string name = push ? "a constant push" : facts.name;
+      if (std::ranges::find(others, name) == others.end()) others.push_back(name);
+    }
   if (record.extractor != Extractor::lateral_force) {
     // A relief is called by what it is, and not by its size.
     for (std::string& other : others)
@@ -80,9 +85,9 @@ DomainJudgement judge_domain(const PerceptRecord& record, double size, const Ban
       why.push_back(fmt::format("{}, measured with {}", name->one, fmt::join(measured, " and ")));
     else if (profile == SurfaceProfile::grating && relief.crest > 0 && domain.crest_high > 0 &&
              (relief.crest < domain.crest_low * (1 - reading) || relief.crest > domain.crest_high * (1 + reading)))
-      why.push_back(fmt::format("a waveform with a crest of {:.2g}, {} {:.2g} to {:.2g}", relief.crest,
-                                domain.crest_assumed ? "assumed to feel alike from" : "measured from", domain.crest_low,
-                                domain.crest_high));
+      why.push_back(readable("a waveform with a crest of {:.2g}, {} {:.2g} to {:.2g}", relief.crest,
+                             domain.crest_assumed ? "assumed to feel alike from" : "measured from", domain.crest_low,
+                             domain.crest_high));
   }
   // Of another kind of surface, that it is another kind is enough.
   if (why.empty() && domain.dimensions != 0 && relief.amplitude > 0) {

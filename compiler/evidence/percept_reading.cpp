@@ -65,6 +65,11 @@ std::string in_words(const OutsideRange& outside) {
                   below ? "from" : "to", bound / outside.unit_in_si);
 }
 
+std::string outside_in_words(const OutsideRange& outside) {
+  return fmt::format("outside {} ({})", outside.assumed ? "the range assumed for its map" : "what was measured",
+                     in_words(outside));
+}
+
 std::vector<OutsideRange> outside_of(const PerceptRecord& record, double size, const Bank& bank,
                                      const ForceReading& found, const Declarations& declarations) {
   std::vector<OutsideRange> outside;
@@ -129,7 +134,8 @@ PerceptReading percept_reading(const Bank& bank, std::size_t index, const ForceR
     const bool limited = record.unit == (program.vibrates() ? "m/s^2" : "N");
     told.size = limited ? std::min(told.aimed, most_given(bank, declarations) * record.basis.share) : told.aimed;
   }
-  if (told.size != 0) {
+  // A force that pushes the hand on has no level of what opposes it.
+  if (told.size > 0 || (told.size < 0 && told.aimed < 0)) {
     const Prediction prediction = predict(bank, index, static_cast<float>(told.size));
     told.level = prediction.level, told.magnitude = prediction.magnitude;
   }
@@ -147,15 +153,21 @@ bool differs(const PerceptRecord& record, double aimed, double asked, double siz
   return large - small > record.floor;
 }
 
+bool stands_outside(const PerceptRecord& record, const ForceReading& found) {
+  const bool of_a_wall = record.extractor == Extractor::wall_stiffness || record.extractor == Extractor::wall_damping;
+  return of_a_wall && !found.wall && found.still.largest < least_force;
+}
+
 std::string cause_of_difference(const PerceptRecord& record, const PerceptReading& reading, const ForceReading& found,
                                 const Declarations& declarations) {
+  if (stands_outside(record, found)) return "its wall stands outside of the patch";
   if (record.extractor == Extractor::lateral_force) {
     const Relief& relief = found.relief();
     const PeriodBand band = band_of(read_as(record), declarations);
     if (relief.amplitude > 0 && relief.within(band) < mostly_elsewhere * record.basis.share * relief.amplitude)
-      return fmt::format("{} of its relief has periods outside {:.3g} .. {:.3g} mm",
-                         relief.within(band) < least_of_relief * relief.amplitude ? "all" : "a part",
-                         1e3 * record.period_low, 1e3 * record.period_high);
+      return readable("{} of its relief has periods outside {:.3g} .. {:.3g} mm",
+                      relief.within(band) < least_of_relief * relief.amplitude ? "all" : "a part",
+                      1e3 * record.period_low, 1e3 * record.period_high);
   }
   if (record.alone) return "the device or the shape of the force changes it";
   if (!record.basis.summand) return "its force is changed after it was solved";
@@ -172,18 +184,22 @@ std::vector<OutsideRange> outside_ranges(const PerceptRecord& record, const Perc
 std::string why_approximated(const PerceptRecord& record, const PerceptReading& told, double asked,
                              const ForceReading& found, const Declarations& declarations) {
   if (!told.readable) return {};
-  if (const auto outside = outside_ranges(record, told); !outside.empty())
-    return fmt::format("outside what was measured ({})", in_words(outside.front()));
+  if (const auto outside = outside_ranges(record, told); !outside.empty()) return outside_in_words(outside.front());
   return differs(record, told.aimed, asked, told.size, told.level)
              ? cause_of_difference(record, told, found, declarations)
              : "";
 }
 
+ReadParts parts_for(Extractor extractor) {
+  const bool none = extractor == Extractor::none || extractor == Extractor::acceleration;
+  return {.still = !none && is_still(extractor), .moving = !none && !is_still(extractor)};
+}
+
 ReadParts parts_for(const PatchProgram& program) {
   ReadParts parts{.still = false, .moving = false};
   for (const PerceptRecord& record : program.percepts) {
-    if (record.extractor == Extractor::none || record.extractor == Extractor::acceleration) continue;
-    (is_still(record.extractor) ? parts.still : parts.moving) = true;
+    const ReadParts of_it = parts_for(record.extractor);
+    parts.still |= of_it.still, parts.moving |= of_it.moving;
   }
   return parts;
 }

@@ -20,6 +20,9 @@ struct OutsideRange {
 /// "period 14 mm, measured to 10", "drag 0.2 N, assumed from 0.43".
 std::string in_words(const OutsideRange& outside);
 
+/// "outside what was measured (period 14 mm, measured to 10)", "outside the range assumed for its map (…)".
+std::string outside_in_words(const OutsideRange& outside);
+
 /// What a finished program has of one percept, next to what its setup aims at.
 struct PerceptReading {
   double aimed = 0;                 ///< the size that its setup aims at, in the record's unit
@@ -46,6 +49,10 @@ std::vector<OutsideRange> outside_of(const PerceptRecord& record, double size, c
 /// more than a just noticeable difference, the scatter of the map and the author's tolerance.
 bool differs(const PerceptRecord& record, double aimed, double asked, double size, double level);
 
+/// Whether the percept is a wall's and the patch has none, and no force at all on hands at rest: the face stands
+/// outside.
+bool stands_outside(const PerceptRecord& record, const ForceReading& found);
+
 /// Why a percept reads otherwise than asked, in a line.
 std::string cause_of_difference(const PerceptRecord& record, const PerceptReading& reading, const ForceReading& found,
                                 const Declarations& declarations);
@@ -58,7 +65,8 @@ std::vector<OutsideRange> outside_ranges(const PerceptRecord& record, const Perc
 std::string why_approximated(const PerceptRecord& record, const PerceptReading& told, double asked,
                              const ForceReading& found, const Declarations& declarations);
 
-/// Which parts of a reading the percepts of a program need.
+/// Which part of a reading a percept with this extractor needs, and which the percepts of a program need together.
+ReadParts parts_for(Extractor extractor);
 ReadParts parts_for(const PatchProgram& program);
 
 }  // namespace wale

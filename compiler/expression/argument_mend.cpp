@@ -1,12 +1,14 @@
 #include "compiler/expression/argument_mend.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 
 #include "compiler/diagnostics/fix.hpp"
 #include "compiler/expression/dimension_mend.hpp"
+#include "compiler/expression/formal_use.hpp"
 
 namespace wale {
 
@@ -165,6 +167,25 @@ bool are_vectors_where_needed(ExpressionReading& reading, const CallArguments& a
   return true;
 }
 
+namespace {
+
+/// What to write where the place stands for a number that chooses: "for one more place write `noise2(u, v)`" if a
+/// function of the same name, but for the number of places, takes one place more.
+std::string on_a_plane(const ExpressionReading& reading, const CallArguments& arguments) {
+  const auto is_place = [](const FormalParameter& each) { return !each.default_value; };
+  const auto places = std::ranges::count_if(arguments.function.parameters, is_place);
+  const std::string wider = fmt::format("{}{}", arguments.call.callee.text, places + 1);
+  const auto* function = reading.names->functions.find(wider);
+  if (!function || std::ranges::count_if(function->node->parameters, is_place) != places + 1)
+    return "give a whole number";
+  std::vector<std::string_view> names;
+  for (const FormalParameter& each : function->node->parameters)
+    if (is_place(each)) names.push_back(each.name.text);
+  return fmt::format("for one more place write `{}({})`", wider, fmt::join(names, ", "));
+}
+
+}  // namespace
+
 void warn_of_exchanged(ExpressionReading& reading, const CallArguments& arguments) {
   const auto& formals = arguments.function.parameters;
   const auto of_place = [&](const Actual& actual) {
@@ -172,7 +193,6 @@ void warn_of_exchanged(ExpressionReading& reading, const CallArguments& argument
            reading.terms.dependence(actual.value.x).on(Dependence::position);
   };
   const auto warn = [&](std::size_t i, std::string message, std::string help) {
-    reading.record.doubted = true;
     reading.surroundings.diagnostics.report(
         Advice(std::move(help)).about(Code::swapped_arguments, arguments.actuals[i].span, std::move(message)));
   };
@@ -181,17 +201,20 @@ void warn_of_exchanged(ExpressionReading& reading, const CallArguments& argument
     const Actual& actual = arguments.actuals[i];
     if (!actual.given || actual.value.type != Value::Type::number) continue;
     const std::string_view name = formals[i].name.text, callee = arguments.call.callee.text;
-    if (name == "along" && constant_value(reading.terms, actual.value.x)) {
+    const FormalUse use = use_of(formals[i]);
+    if (use == FormalUse::place && constant_value(reading.terms, actual.value.x)) {
       const auto other = std::ranges::find_if(arguments.actuals, of_place);
       if (other == arguments.actuals.end()) continue;
       warn(i,
-           fmt::format("`along` is the place, but it is the same everywhere here, and `{}` changes with the place",
+           fmt::format("`{}` is the place, but it is the same everywhere here, and `{}` changes with the place", name,
                        formals[static_cast<std::size_t>(other - arguments.actuals.begin())].name.text),
            fmt::format("exchange the two: `{}({}, {})`", callee, sources.text(other->span), sources.text(actual.span)));
     }
-    if (name == "seed" && of_place(actual))
-      warn(i, "a `seed` chooses one of many noises, but this one changes with the place, so the noise jumps",
-           callee == "noise" ? "for noise on a plane write `noise2(u, v)`" : "give a whole number");
+    if (use == FormalUse::choosing && of_place(actual))
+      warn(i,
+           fmt::format("a `{}` chooses one of many noises, but this one changes with the place, so the noise jumps",
+                       name),
+           on_a_plane(reading, arguments));
   }
 }
 

@@ -4,6 +4,8 @@
 
 // Functions that remember. Their states have no names in the text: nothing else can read or change them.
 
+#include "compiler/text/readable.hpp"
+
 namespace wale {
 namespace {
 
@@ -58,11 +60,12 @@ Value phase(const BuiltinCall& call) {
         fmt::format("expected a frequency, found {}",
                     with_article(call.reading.dimension_names().words(call.value(0).dimension))),
         call.reading.dimension_names().unit(call.value(0).dimension),
-        is_period ? fmt::format("for this period write `phase({:.6g} Hz)`", 1 / *known)
+        is_period ? typeable("for this period write `phase({:.6g} Hz)`", 1 / *known)
                   : "write something like `phase(2 Hz)`");
   }
   const auto [known, added] = call.reading.record.phases.try_emplace(call.value(0).x, 0);
   if (!added) return call.scalar(known->second);
+  call.reading.record.rates.push_back({call.value(0).x, call.reading.calls.blame(call.actuals[0].span)});
   auto& states = call.reading.record.states;
   const std::size_t index = states.size();
   const TermId now = add_state(call, fmt::format("phase {}", index), {0, 1}, call.terms().literal(0, call.span));

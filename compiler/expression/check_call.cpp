@@ -13,6 +13,7 @@
 #include "compiler/expression/check_name.hpp"
 #include "compiler/expression/dimension_mend.hpp"
 #include "compiler/expression/fields.hpp"
+#include "compiler/expression/formal_use.hpp"
 
 namespace wale {
 
@@ -205,15 +206,13 @@ bool carries_a_percept(const ExpressionReading& reading, std::string_view functi
 /// Records the carrier of a function whose argument may be left open: that argument is the size of a percept's carrier.
 void record_carrier(ExpressionReading& reading, const FunctionDecl& function, const std::vector<Actual>& actuals,
                     const FormalParameter& formal, const Value& result, Span span) {
-  const auto actual = [&](std::string_view name) -> const Value* {
-    // Backwards: if two formals have the same name, which is an error, the last one counts.
-    for (std::size_t i = actuals.size(); i-- > 0;)
-      if (function.parameters[i].name.text == name) return &actuals[i].value;
-    return nullptr;
-  };
   const Terms& terms = reading.terms;
-  const Value& size = *actual(formal.name.text);
-  const Value* height = actual("height");
+  // Backwards: if two formals have the same name, which is an error, the last one counts.
+  const auto last = std::find_if(function.parameters.rbegin(), function.parameters.rend(),
+                                 [&](const FormalParameter& each) { return each.name.text == formal.name.text; });
+  const Value& size = actuals[static_cast<std::size_t>(function.parameters.rend() - last) - 1].value;
+  const auto of_height = height_of(function);
+  const Value* height = of_height ? &actuals[*of_height].value : nullptr;
   Carrier carrier{.name = fmt::format("{} {}", function.name.text, formal.name.text),
                   .size = size.x,
                   .open = terms[size.x].kind == TermKind::open,
@@ -268,8 +267,8 @@ bool fill_in(ExpressionReading& reading, const Declared<FunctionDecl>& function,
       value.span = span;
     }
     if (value.type == Value::Type::open) value = open_quantity(reading, formal, *function.home, span);
-    if (formal.name.text == "period" && value.type == Value::Type::number &&
-        value.dimension == reading.names->dimension("length"))
+    if (use_of(formal) == FormalUse::repeating && value.type == Value::Type::number &&
+        value.dimension == dimension_of(formal, *function.home))
       reading.record.periods.push_back({value.x, reading.calls.blame(actuals[i].given ? actuals[i].span : span)});
     good = good && !value.failed();
   }

@@ -66,6 +66,13 @@ Value number(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, co
     if (const auto* binding = scope.find(key)) return ambiguous_unit(reading, part.name, binding->declared);
     if (const auto* constant = reading.names->constants.entry(key))
       return ambiguous_unit(reading, part.name, constant->declared);
+    const bool twice = next > 0 && suffix[next - 1].name.text == key && part.exponent == 1 && !part.divides &&
+                       suffix[next - 1].exponent == 1 && !suffix[next - 1].divides;
+    if (twice)  // as in `50 %%`
+      return reading.calls.report(
+          Code::unknown_unit, part.name.span, fmt::format("the unit `{}` stands twice", key), "",
+          found->dimension.plain() ? std::string("write it once")
+                                   : fmt::format("write it once, or `{}^2` for its square", key));
     const int exponent = part.divides ? -part.exponent : part.exponent;
     const auto scaled = exponent == 1 ? found->dimension : power(found->dimension, exponent);
     if (!scaled)
@@ -215,8 +222,8 @@ Value check_expression_as(ExpressionReading& reading, const SyntaxTree& tree, Ex
   const std::string zero = "0 " + reading.dimension_names().unit(dimension);
   const std::string mend =
       type == Value::Type::vector && measurable ? fmt::format("give both parts, as in `vector({}, {})`", written, zero)
-      : value.type == Value::Type::vector       ? fmt::format("take its `length({})`, or work with `x` and `y`", written)
-                                                : make_calculable(value.type);
+      : value.type == Value::Type::vector ? fmt::format("take its `length({})`, or work with `x` and `y`", written)
+                                          : make_calculable(value.type);
   return reading.calls.report(Code::wrong_type, value.span,
                               fmt::format("expected {}, found {}", type_words(type), type_words(value.type)), "", mend);
 }

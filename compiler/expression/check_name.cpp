@@ -180,8 +180,13 @@ Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* 
   if (const auto ours = sought == Sought::function ? instead_of_function(word.text) : instead_of_value(word.text))
     return std::string(*ours);
   if (const std::size_t dot = word.text.rfind('.');
-      dot != std::string_view::npos && !nearest_spelling(word.text, candidates))
+      dot != std::string_view::npos && !nearest_spelling(word.text, candidates)) {
+    // `self.k`
+    const std::string last(word.text.substr(dot + 1));
+    if (std::ranges::find(candidates, last) != candidates.end())
+      return Advice(fmt::format("write `{}`", last)).fix(replace(word.span, last, {}, false)).fact("meant", last);
     return did_you_mean(word.span, word.text.substr(dot + 1), candidates, std::move(otherwise), false);
+  }
   return did_you_mean(word.span, word.text, candidates, std::move(otherwise));
 }
 

@@ -79,6 +79,12 @@ struct CheckedPeriod {
   Span span;
 };
 
+/// A frequency at which something in the material goes by itself, to compare with the device's ticks.
+struct CheckedRate {
+  TermId frequency = 0;
+  Span span;
+};
+
 /// A material whose every expression has a meaning and a dimension. Vectors are pairs of terms, quantities in SI.
 struct CheckedMaterial {
   std::string name;
@@ -95,19 +101,21 @@ struct CheckedMaterial {
   std::vector<CheckedState> states;
   std::vector<CheckedMemory> memories;
   std::vector<CheckedPeriod> periods;
+  std::vector<CheckedRate> rates;
   std::optional<std::array<TermId, 2>> force;
   std::optional<TermId> relief;  ///< the look of the surface, if there is one
   bool relief_is_length = false;
   std::optional<std::array<TermId, 3>> colour;  ///< red, green and blue in 0 .. 1, if the author gives a colour
   std::vector<CheckedMark> marks;
   Span force_span;
-  bool scales_a_texture = false;  ///< a constant factor changes an open texture, which has been reported
+  bool scales_a_texture = false;               ///< a constant factor changes an open texture, which has been reported
   std::optional<std::array<double, 2>> patch;  ///< width and height in m, if the material has a `patch`
   Span patch_span;
   double active_watt = 0;  ///< power that the author allows it to give, W; 0 without `active`
   Span active_span;
   Layers layers;
-  bool doubted = false;  ///< a value or an argument was reported that was hardly meant: W0308, W0312, W0313
+  std::vector<Diagnostic>
+      doubts;  ///< of a value or an argument that was hardly meant, as reported: W0308, W0312, W0313
 };
 
 /// A checked file with all modules that it refers to. The modules are kept because declarations point into them.

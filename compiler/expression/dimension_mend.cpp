@@ -10,6 +10,7 @@
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/expression/check_name.hpp"
 #include "compiler/text/characters.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -109,8 +110,8 @@ std::optional<Advice> fraction_mend(const ExpressionReading& reading, const Synt
   const auto suffix = tree.suffix(*under);
   const Span unit = {tree.source, suffix.front().name.span.begin, tree.span(quotient->right).end};
   const SourceSet& sources = reading.surroundings.sources;
-  const std::string meant = fmt::format("{:.6g} {}", over->value / under->value, sources.text(unit));
-  return Advice(fmt::format("the unit belongs to the `{:.6g}` alone: write `{}`", under->value, meant))
+  const std::string meant = typeable("{:.6g} {}", over->value / under->value, sources.text(unit));
+  return Advice(typeable("the unit belongs to the `{:.6g}` alone: write `{}`", under->value, meant))
       .fix(replace(tree.span(expr), meant, {}, false));
 }
 
@@ -131,7 +132,7 @@ std::optional<Advice> inverse_mend(const ExpressionReading& reading, const Synta
   const Unit* written = declarations.units.find(unit);
   if (!written) return std::nullopt;
   const DimensionNames& names = reading.dimension_names();
-  const std::string meant = fmt::format("{:.6g} {}", 1 / size / written->factor, unit);
+  const std::string meant = typeable("{:.6g} {}", 1 / size / written->factor, unit);
   return Advice(fmt::format("{} of {} is {} of {}: write `{}`", with_article(names.words(found)),
                             reading.surroundings.sources.text(tree.span(expr)), with_article(names.words(expected)),
                             meant, meant))
@@ -157,9 +158,39 @@ std::optional<Advice> prefix_mend(std::string_view word, const Declarations& dec
     if (!word.starts_with(prefix.symbol) || word.size() == prefix.symbol.size()) continue;
     const std::string_view unit = word.substr(prefix.symbol.size());
     if (!declarations.units.contains(unit)) continue;
-    return Advice(fmt::format("write it in `{0}`: 1 {1} is {2:g} {0}", unit, word, prefix.factor));
+    return Advice(readable("write it in `{0}`: 1 {1} is {2:g} {0}", unit, word, prefix.factor));
   }
   return std::nullopt;
+}
+
+/// A unit that Wale does not declare, in one that it does.
+struct ForeignUnit {
+  std::string_view name;
+  double size;
+  std::string_view ours;
+};
+constexpr ForeignUnit foreign_units[] = {
+    {"rpm", 1 / 60.0, "Hz"}, {"bpm", 1 / 60.0, "Hz"}, {"min", 60, "s"},      {"minute", 60, "s"},
+    {"ft", 304.8, "mm"},     {"foot", 304.8, "mm"},   {"mil", 0.0254, "mm"}, {"pt", 0.352778, "mm"},
+    {"lb", 453.592, "g"},    {"lbf", 4.44822, "N"},   {"oz", 28.3495, "g"},  {"kgf", 9.80665, "N"},
+    {"kp", 9.80665, "N"},    {"dyn", 1e-5, "N"},      {"nm", 1e-6, "mm"},    {"turn", 360, "deg"},
+    {"turns", 360, "deg"},   {"rev", 360, "deg"},     {"fps", 1, "Hz"},      {"psi", 6894.76, "Pa"}};
+
+/// `3000 rpm`, and `0.5f` or `1e N`, whose letter belongs to the number.
+std::optional<Advice> foreign_mend(const Word& word, const Declarations& declarations,
+                                   const Surroundings& surroundings) {
+  const std::string_view text = surroundings.sources[word.span.source].text;
+  const bool touches =
+      word.span.begin > 0 &&
+      (std::isdigit(static_cast<unsigned char>(text[word.span.begin - 1])) != 0 || text[word.span.begin - 1] == '.');
+  if (touches && (word.text == "e" || word.text == "E"))
+    return Advice("an exponent has digits, as in `1e3`; without one leave out the `e`");
+  if (touches && word.text.size() == 1 && std::string_view("fFlLdDuU").find(word.text) != std::string_view::npos)
+    return Advice(fmt::format("numbers have no suffix: leave out the `{}`", word.text))
+        .fix(replace(word.span, "", fmt::format("leave out the `{}`", word.text), false));
+  const auto* found = std::ranges::find(foreign_units, word.text, &ForeignUnit::name);
+  if (found == std::end(foreign_units) || !declarations.units.contains(found->ours)) return std::nullopt;
+  return Advice(readable("write it in `{}`: 1 {} is {:.6g} {}", found->ours, word.text, found->size, found->ours));
 }
 
 }  // namespace
@@ -180,6 +211,7 @@ Advice unit_mend(const Word& word, const Declarations& declarations, const Surro
     return Advice(fmt::format("write `{}`", *symbol))
         .fix(replace(word.span, *symbol, {}, false))
         .fact("meant", *symbol);
+  if (auto foreign = foreign_mend(word, declarations, surroundings)) return *std::move(foreign);
   if (auto prefix = prefix_mend(word.text, declarations)) return *std::move(prefix);
   if (const auto parted = parted_units(word.text, declarations))
     return Advice(fmt::format("units are joined by a space: write `{}`", *parted))

@@ -70,6 +70,15 @@ constexpr Instead functions[] = {
     {"print", "nothing is printed; `wale sample FILE --at \"5 mm, 0 mm\"` shows a force"},
     {"url", "files are named by a text in quotes"},
     {"calc", "write the expression itself"},
+    {"var", "write the name alone"},
+    {"vec3", "a hand has two directions: write `vector(a, b)`"},
+    {"float", "numbers have no types: write the value alone"},
+    {"map", "a value between two others is `mix(a, b, way)`"},
+    {"range", "a range follows a parameter: `in 1 mm .. 5 mm`"},
+    {"sum", "forces are added with `+`, or each has a statement `force name = …`"},
+    {"percent", "write `50 %`"},
+    {"deg", "a number in degrees has its unit: `45 deg`"},
+    {"rad", "angles without a unit are in radians"},
     {"rgb", "write `show colour(0.8, 0.5, 0.2)`"},
 };
 

@@ -54,9 +54,9 @@ struct CallRecord {
   std::vector<CheckedState> states;  ///< states that calls of `phase` and `stretch` add
   std::map<TermId, TermId> phases;   ///< the state term of each `phase`, by its frequency
   std::vector<CheckedPeriod> periods;
+  std::vector<CheckedRate> rates;
   std::vector<CheckedAngle> angles;
   std::vector<CheckedUsual> usual;
-  bool doubted = false;                              ///< arguments that seem to be exchanged were reported
   std::vector<std::unique_ptr<const Field>> fields;  ///< fields to which values point
 
   /// Stores a field for the life of the record, since values point to it.

@@ -8,9 +8,11 @@
 #include <limits>
 #include <numbers>
 
+#include "compiler/grade/circulation.hpp"
 #include "compiler/grade/explore.hpp"
 #include "compiler/grade/slopes.hpp"
 #include "compiler/grade/steep_places.hpp"
+#include "compiler/grade/steps.hpp"
 #include "compiler/measure/hands.hpp"
 #include "runtime/machine/parallel.hpp"
 
@@ -20,14 +22,12 @@ namespace {
 using std::numbers::pi;
 constexpr std::size_t candidates = 12;       // of each kind: hands whose required damping is computed
 constexpr std::size_t hands_at_once = 1024;  // evaluated at once, so that their values fit into the cache
-constexpr std::size_t tiles = 4;             // per side of the patch, over which the mean of the curl is taken
-constexpr double significant = 4;            // in standard errors of a mean
-constexpr double share_of_slope = 0.02;      // of the usual slope; smaller curl is rounding and clipping
+constexpr double share_of_steps = 0.25;      // of the largest step: a smaller jump is not told
+constexpr double steeper = 1.01;             // than the steepest slope found: less is rounding
 constexpr double share_of_hand = 0.01;  // of the power that the hand absorbs at its pace; smaller powers are ignored
 constexpr double share_of_work = 0.01;  // of the energy in both directions; smaller net energy is rounding
 constexpr double sharp_over_step =
     1.5;  // ratio of a slope to the step between counts above which the slope is a sharp tip
-constexpr double jump_over_slope = 1.5;  // ratio of a step between counts to the slope above which the step is a jump
 
 /// The standing of a program that needs damping and gives no energy, by the device's damping and the hand's.
 Standing by_damping(const Grade& grade) {
@@ -58,9 +58,9 @@ class Grader {
     if (!slopes_.fits()) return grade_;
     choose_hands();
     at_ = slopes_.by_place(hands_, states_);
-    find_energy();
     find_stiffness();
     find_steps();
+    find_energy();
     find_resolution();
     if (find_required_damping()) decide();
     return grade_;
@@ -70,6 +70,7 @@ class Grader {
     if (!slopes_.fits()) return {};
     choose_hands();
     at_ = slopes_.by_place(hands_, states_);
+    steps_ = StepSearch(bank_, slopes_).largest(stepped_quantities(device_, extent_, peak_speed())[0], hands_, states_);
     find_energy();
     return grade_.energy;
   }
@@ -141,10 +142,55 @@ class Grader {
     grade_.stiffest = steepest_.where;
   }
 
-  /// Finds the changes over one encoder count: that of the force, which at a jump is more than the slope predicts, and
-  /// that of the slope, which shows how fine the detail is. For a sine of period P, the slope changes by the share 2
-  /// sin(pi count / P).
+  /// Finds the largest changes of the force over one step of place and motion.
   void find_steps() {
+    StepSearch search(bank_, slopes_);
+    const auto quantities = stepped_quantities(device_, extent_, peak_speed());
+    const SteppedQuantity& place = quantities[0];
+    steps_ = search.largest(place, hands_, states_);
+    for (ForceStep& step : search.around(place, steepest_.hands, steepest_.states)) steps_.push_back(std::move(step));
+    for (const ForceStep& step : steps_) {
+      grade_.largest_newton = std::max(grade_.largest_newton, step.largest);
+      if (step.newton() > grade_.step_newton) grade_.step_newton = step.newton(), worst_step_ = step.hand;
+    }
+    find_steps_through_memory();
+    find_finest_period();
+    // A jump that is smaller than other steps, or than the device's own, is not told.
+    const double least = std::max(device_.force_step(), share_of_steps * grade_.step_newton);
+    grade_.jumps = (ahead_.jumps && ahead_.newton > least) || std::ranges::any_of(steps_, [&](const ForceStep& step) {
+                     return step.jumps() && std::min(step.at_once, step.newton()) > least;
+                   });
+    const double count = device_.position_step();
+    // A tip that is sharper than one count cannot be felt: the loop sees only the difference between two counts.
+    if (grade_.stiffness * count > sharp_over_step * grade_.step_newton) {
+      grade_.stiffness = grade_.step_newton / count;
+      grade_.stiffest = {worst_step_.position, worst_step_.velocity};
+    }
+    // A smooth step between the hands of the lattice is steeper than these.
+    for (const ForceStep& step : steps_)
+      if (!step.jumps() && step.newton() > device_.force_step() && step.newton() / count > steeper * grade_.stiffness) {
+        grade_.stiffness = step.newton() / count;
+        grade_.stiffest = {step.hand.position, step.hand.velocity};
+      }
+    if (device_.friction_known) grade_.buzzes = grade_.step_newton > 2 * device_.friction;
+    if (!slopes_.depends_on_motion()) return;
+    for (const std::size_t motion : {1, 2})
+      for (ForceStep& step : search.largest(quantities[motion], hands_, states_))
+        motion_steps_.push_back({quantities[motion], std::move(step)});
+  }
+
+  /// Finds the change of the force over one count that comes through what a program remembers of the hand's places. The
+  /// loop sees it later than a change that comes at once, so it needs at least as much damping.
+  void find_steps_through_memory() {
+    if (program_.states.empty() && program_.grids.empty()) return;
+    ahead_ = largest_step_ahead(bank_, hand_);
+    if (ahead_.newton > steeper * grade_.step_newton) grade_.step_newton = ahead_.newton, worst_step_ = ahead_.hand;
+  }
+
+  /// Finds the finest detail: the change of the force's slope over one encoder count shows it, and also steps between
+  /// counts that are larger than those of the search. For a sine of period P, the slope changes by the share
+  /// 2 sin(pi count / P).
+  void find_finest_period() {
     const auto count = static_cast<float>(device_.position_step());
     double wave_number_squared = 0;  // rad^2 / m^2
     for (const glm::vec2 direction : {glm::vec2(count, 0), glm::vec2(0, count)}) {
@@ -166,67 +212,32 @@ class Grader {
       wave_number_squared += wave_number * wave_number;
     }
     grade_.finest_period = 2 * pi / std::sqrt(wave_number_squared);
-    // A tip that is sharper than one count cannot be felt: the loop sees only the difference between two counts.
-    if (grade_.stiffness * count > sharp_over_step * grade_.step_newton) {
-      grade_.stiffness = grade_.step_newton / count;
-      grade_.stiffest = {worst_step_.position, worst_step_.velocity};
-    }
-    grade_.jumps = grade_.step_newton > jump_over_slope * grade_.stiffness * count + device_.force_step();
-    grade_.step_newton = std::max(grade_.step_newton, grade_.jumps ? 0.0 : grade_.stiffness * count);
-    if (device_.friction_known) grade_.buzzes = grade_.step_newton > 2 * device_.friction;
   }
 
   void find_resolution() {
+    // A force below half a step of the command is never given, and what is left of two that cancel is rounding.
+    if (std::max(grade_.largest_newton, grade_.step_newton) < 0.5 * device_.force_step()) {
+      grade_.finest_period = std::numeric_limits<double>::infinity();
+      grade_.stiffness = grade_.step_newton = 0;
+      return;
+    }
     grade_.counts_per_period = grade_.finest_period / device_.position_step();
     grade_.fastest_hand = grade_.finest_period * device_.rate / 2;
-    grade_.force_levels = largest_force_ / device_.force_step();
+    grade_.force_levels = grade_.largest_newton / device_.force_step();
   }
 
   void find_energy() {
-    for (const auto& here : at_) largest_force_ = std::max(largest_force_, glm::length(here.force));
+    for (const auto& here : at_) grade_.largest_newton = std::max(grade_.largest_newton, glm::length(here.force));
     find_curl();
     find_motion_power();
     find_sources();
   }
 
-  /// Finds the power of the curl. A closed path gains the integral of the curl over its area. Clipped textures have a
-  /// little curl of both signs everywhere, which cancels in an integral; therefore the mean over a tile of the patch is
-  /// used. For a program that remembers, the place does not determine the force, so the energy of the exploration is
-  /// used.
+  /// Finds the power of the curl. For a program that remembers, the place does not determine the force, so the energy
+  /// of the exploration is used.
   void find_curl() {
     if (!program_.states.empty()) return;
-    struct Sum {
-      double count = 0, sum = 0, squares = 0;
-    };
-    std::array<Sum, tiles * tiles> sums;
-    double squares = 0;
-    std::size_t counted = 0;
-    for (std::size_t i = 0; i < hands_.size(); ++i) {
-      const Hand& hand = hands_[i];
-      if (hand.velocity != glm::vec2(0.0f)) continue;
-      const auto& place = at_[i].place;
-      const double curl = place[1][0] - place[0][1];
-      if (!std::isfinite(curl)) continue;
-      const auto tile = [](float along, float half) {
-        const double share = (along / half + 1) / 2 * tiles;
-        return static_cast<std::size_t>(std::clamp(share, 0.0, static_cast<double>(tiles - 1)));
-      };
-      Sum& sum = sums[tile(hand.position.y, extent_.y) * tiles + tile(hand.position.x, extent_.x)];
-      sum.count += 1, sum.sum += curl, sum.squares += curl * curl;
-      const double steep = steepness(place);
-      squares += steep * steep;
-      ++counted;
-    }
-    const double usual_slope = counted > 0 ? std::sqrt(squares / static_cast<double>(counted)) : 0;
-    double most = 0;
-    for (const Sum& sum : sums) {
-      if (sum.count < 8) continue;
-      const double mean = sum.sum / sum.count;
-      const double error = std::sqrt(std::max(0.0, sum.squares / sum.count - mean * mean) / sum.count);
-      if (std::abs(mean) > significant * error && std::abs(mean) > share_of_slope * usual_slope)
-        most = std::max(most, std::abs(mean));
-    }
-    const double watt = most * pi * hand_.radius * hand_.radius * hand_.frequency;
+    const double watt = curl_watt(bank_, {hands_, states_, at_}, steps_, hand_, least_watt());
     grade_.energy.conservative = watt < least_watt();
     if (grade_.energy.conservative) return;
     grade_.energy.curl_watt = watt;
@@ -300,8 +311,9 @@ class Grader {
       for (std::size_t i = 0; i < candidates; ++i) add(i * hands_.size() / candidates);
     }
     const LoopTiming timing(device_);
-    const auto all = slopes_.at(hands, states);
+    auto all = slopes_.at(hands, states);
     if (all.empty()) return false;
+    if (slopes_.depends_on_motion()) limit_by_steps(all, hands, states);
     // Many places are equal, in oil all of them; of equal ones the first is reported as the worst.
     std::vector<std::size_t> different;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -324,13 +336,50 @@ class Grader {
         grade_.required_damping = needed[i];
         grade_.worst = {hands[i].position, hands[i].velocity};
       }
-    // Across a jump the sampled loop sees the slope between two counts.
-    if (!grade_.jumps) return true;
+    for (const auto& [quantity, step] : motion_steps_) {
+      const double damping = required_damping(across_motion(quantity, step), timing);
+      if (damping <= grade_.required_damping) continue;
+      grade_.required_damping = damping;
+      grade_.worst = {step.hand.position, step.hand.velocity};
+    }
+    // Across a jump or a steep step the sampled loop sees the slope between two counts.
     const double across = grade_.step_newton / device_.position_step() * (timing.period / 2 + timing.latest());
-    if (across <= grade_.required_damping) return true;
+    if (across <= steeper * grade_.required_damping) return true;
     grade_.required_damping = across;
     grade_.worst = {worst_step_.position, worst_step_.velocity};
     return true;
+  }
+
+  /// Replaces slopes by motion that are steeper than the change over one step of the motion, which is all that the loop
+  /// sees.
+  void limit_by_steps(std::vector<ProgramSlopes::At>& all, std::span<const Hand> hands, std::span<const float> states) {
+    StepSearch search(bank_, slopes_);
+    const auto quantities = stepped_quantities(device_, extent_, peak_speed());
+    for (const std::size_t motion : {1, 2}) {
+      const SteppedQuantity& quantity = quantities[motion];
+      const auto steps = search.around(quantity, hands, states);
+      if (steps.size() != 2 * all.size()) continue;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        Slopes& exact = all[i].linear.direct.*quantity.slopes;
+        Slopes seen{};
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          const glm::dvec2 change = steps[2 * i + axis].change / quantity.step;
+          seen[0][axis] = change.x, seen[1][axis] = change.y;
+        }
+        if (spectral_norm(exact) > sharp_over_step * spectral_norm(seen)) exact = seen;
+      }
+    }
+  }
+
+  /// The program across a step of the hand's motion, with its slope by place there.
+  LinearProgram across_motion(const SteppedQuantity& quantity, const ForceStep& step) {
+    LinearProgram linear;
+    const auto at = slopes_.by_place(std::span(&step.hand, 1), step.states);
+    if (const double steep = steepness(at[0].place); steep > 0 && steep <= sharp_over_step * grade_.stiffness)
+      linear.direct.place = at[0].place;
+    for (std::size_t row = 0; row < 2; ++row)
+      (linear.direct.*quantity.slopes)[row][step.axis] = step.change[static_cast<int>(row)] / quantity.step;
+    return linear;
   }
 
   /// Whether the slopes exist: at the tip of a cone they do not.
@@ -368,8 +417,10 @@ class Grader {
   std::vector<float> states_;
   std::vector<ProgramSlopes::ByPlace> at_;  ///< slopes by place for each of `hands_`
   SteepPlaces steepest_;
+  std::vector<ForceStep> steps_;  ///< by place
+  std::vector<std::pair<SteppedQuantity, ForceStep>> motion_steps_;
+  StepAhead ahead_;
   Hand worst_step_;
-  double largest_force_ = 0;
 };
 
 }  // namespace

@@ -83,6 +83,7 @@ struct Grade {
   double finest_period = 0;
   double counts_per_period = 0;  ///< encoder counts in `finest_period`
   double fastest_hand = 0;       ///< m/s: the speed above which there are fewer than two ticks in `finest_period`
+  double largest_newton = 0;     ///< the largest force at the places that were looked at
   double force_levels = 0;       ///< command steps that the largest force uses
   double fewest_counts = 0, faithful_counts = 0, fewest_levels = 0;  ///< from the hand: see `GradingHand`
 

@@ -137,8 +137,9 @@ FateRecord fate_of_force(FateRecord force, const Bank& bank, float speed) {
   force.reason = "by the material's formulas, not found from a level";
   if (cut.asked > 0)
     force.reason =
-        readable("by the material's formulas, which ask for up to {:.3g} N along x or y, and `{}` gives {:.3g} N",
-                 cut.asked, bank.program().description().device.name, cut.given);
+        readable("by the material's formulas, which ask for {} along x or y, and `{}` gives {:.3g} N",
+                 std::isfinite(cut.asked) ? readable("up to {:.3g} N", cut.asked) : "more than any number",
+                 bank.program().description().device.name, cut.given);
   return force;
 }
 

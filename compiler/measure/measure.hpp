@@ -8,9 +8,14 @@ namespace wale {
 /// The forces of a program, found by running it at many hands over its patch; N.
 struct Measured {
   float max_newton = 0;  ///< the largest |force| found, at rest or moving up to the device's speed limit
+  float less_rim = 0;    ///< the same without the patch's rim, where heights fade
   float p99_newton = 0;  ///< 99th percentile of |force| over the patch less its rim, at rest
   float rms_newton = 0;  ///< root mean square of the same
-  bool flat = false;     ///< a texture without slope: a peak of zero, so that it cannot push
+  /// Whether the force depends on more than the moment's place and velocity: on what a program remembers, on time or on
+  /// accelerations. No search tries all of these, so a larger force than `max_newton` is possible.
+  bool may_be_larger = false;
+  bool over_time = false;  ///< both are also over a second, since the force on a hand at rest changes with time
+  bool flat = false;       ///< a texture without slope: a peak of zero, so that it cannot push
 };
 
 /// Runs the program at this bank's parameters. Deterministic; about a millisecond.
@@ -22,6 +27,10 @@ struct MeasuredShaking {
   float max = 0, p99 = 0, rms = 0;  ///< amplitude, m/s^2
   float lowest = 0, highest = 0;    ///< frequencies at which the amplitude is at least half of `p99`, Hz
 };
+
+/// What a pad's actuator gives of a drive, an amplitude (m/s^2) and a frequency (Hz): the frequency in its range, and
+/// at most its acceleration there.
+Force given_by(const Shaker& shaker, Force drive);
 
 /// Measures a program that vibrates, under the hand of `person`; if null, 1 Hz and 40 mm to both sides. Deterministic.
 MeasuredShaking measure_shaking(const Bank& bank, const HandDeclaration* person);

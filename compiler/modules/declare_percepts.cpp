@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "compiler/modules/declare_records.hpp"
+#include "compiler/modules/declare_evidence.hpp"
 
 namespace wale {
 
@@ -87,6 +87,23 @@ void read_extractor(RecordReader& reader, const Setting& setting, Percept& perce
   }
 }
 
+/// Reads `least_share 3 %, irregular assumed 10 %`. Without `irregular` both are the same.
+void read_least_share(RecordReader& reader, const Setting& setting, Percept& percept) {
+  for (const auto& item : setting.items) {
+    const std::vector<std::string_view> words = plain_words(item);
+    const bool irregular = words.size() == 1 && words[0] == "irregular";
+    const auto share =
+        item.value && (words.empty() || irregular) ? reader.value(*item.value, Dimension{}) : std::optional<double>();
+    if (!share || !(*share >= 0 && *share < 1)) {
+      reader.report(Code::value_out_of_range, item.span, "expected a share from 0 % to less than 100 %",
+                    "write, for example, `least_share assumed 3 %, irregular assumed 10 %`");
+      continue;
+    }
+    percept.least_irregular_share = *share;
+    if (!irregular) percept.least_share = *share;
+  }
+}
+
 /// Reads `exerts 0.25 m/s`: the factor that makes a carrier, here a viscosity, a force.
 void read_exertion(RecordReader& reader, Percept& percept) {
   const Dimension force = reader.declarations.dimension("force");
@@ -132,6 +149,7 @@ void declare_percept(RecordReader& reader, Declarations& declarations) {
                     "write, for example, `antonym smoothness \"smooth\"`");
   }
   if (const auto* extractor = reader.setting("extractor")) read_extractor(reader, *extractor, percept);
+  if (const auto* share = reader.setting("least_share")) read_least_share(reader, *share, percept);
   if (const auto* cue = reader.setting("cue"); cue && !cue->items.empty()) percept.cue = words_of(cue->items.front());
   read_exertion(reader, percept);
   if (const auto* threshold = reader.setting("near_threshold"))

@@ -106,9 +106,35 @@ void declare_threshold(RecordReader& reader, Declarations& declarations) {
   declarations.own_thresholds.push_back(std::move(threshold));
 }
 
+namespace {
+
+const std::pair<const char*, Classified> classified_words[] = {{"surface", Classified::surface},
+                                                               {"texture", Classified::texture},
+                                                               {"size", Classified::size},
+                                                               {"confidence", Classified::confidence}};
+
+/// Reads `classifies texture`: what the cases of a rule are classes of.
+Classified classified_by(RecordReader& reader) {
+  const auto* setting = reader.setting("classifies");
+  if (!setting || setting->items.empty()) return Classified::none;
+  const std::string name = words_of(setting->items[0]);
+  std::vector<std::string> known;
+  for (const auto& [word, classified] : classified_words) {
+    if (name == word) return classified;
+    known.emplace_back(word);
+  }
+  reader.report(Code::unknown_name, setting->span, fmt::format("nothing called `{}` is classified", name),
+                did_you_mean(setting->items[0].span, name, known,
+                             "write `surface`, `texture`, `size` or `confidence`, or leave it out"));
+  return Classified::none;
+}
+
+}  // namespace
+
 void declare_rule(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
   Rule rule{.name = std::string(record.name.text), .span = record.name.span, .exported = record.exported};
+  rule.classified = classified_by(reader);
   for (const Setting* setting : reader.settings("case")) {
     Rule::Case each{.span = setting->span};
     for (const auto& item : setting->items) {
@@ -118,6 +144,8 @@ void declare_rule(RecordReader& reader, Declarations& declarations) {
         each.label = label->text;
       } else if (first == "kind" && item.words.size() == 2) {
         each.kind = item.words[1].text;
+      } else if (label && first == "says") {
+        each.says = label->text;
       } else if ((first == "confidence" || first == "spread") && item.words.size() == 1 && item.value) {
         (first == "spread" ? each.spread : each.confidence) = reader.value(*item.value, Dimension{});
       } else if (const auto condition = condition_of(reader, item)) {

@@ -27,9 +27,23 @@ std::string with_u(std::string_view name) {
   return ascii;
 }
 
+/// What a `#` means in other languages.
+std::string help_for_hash(std::string_view text) {
+  if (text.starts_with("#include")) return "other files are known by `import`, as in `import fabric.denim`";
+  if (text.starts_with("#define")) return "a value is named as in `let wale = 2.5 mm`";
+  const auto is_hex = [](char c) {
+    return std::string_view("0123456789abcdefABCDEF").find(c) != std::string_view::npos;
+  };
+  std::size_t digits = 0;
+  while (digits + 1 < text.size() && is_hex(text[digits + 1])) ++digits;
+  const bool ends = digits + 1 >= text.size() || !continues_name(text[digits + 1]);
+  if (ends && (digits == 3 || digits == 6 || digits == 8))
+    return "the parts of a colour go from 0 to 1: write `show colour(0.8, 0.5, 0.2)`";
+  return "comments begin with `//`";
+}
+
 std::string help_for(char c, bool visible) {
   switch (c) {
-    case '#': return "comments begin with `//`";
     case '!': return "for the opposite of a condition write `not`";
     case '.': return "functions are called as `clamp(value, low, high)`; a vector has the parts `.x` and `.y`";
     case '?': return "write `if … then … else …`";
@@ -198,8 +212,7 @@ void Lexer::unknown(const Character& character) {
   report(Code::unexpected_character, begin, at_,
          visible ? fmt::format("Wale does not use the character `{}`", text_.substr(begin, character.bytes))
                  : fmt::format("invisible character U+{:04X}", static_cast<std::uint32_t>(character.code)),
-         text_.substr(begin).starts_with("#include") ? "other files are known by `import`, as in `import fabric.denim`"
-                                                     : help_for(text_[begin], visible),
+         text_[begin] == '#' ? help_for_hash(text_.substr(begin)) : help_for(text_[begin], visible),
          unknown_fixes(begin, visible));
   // `!button` is read as `not button`, so that nothing else is reported for it.
   add(text_[begin] == '!' && at_ == begin + 1 ? TokenKind::word_not : TokenKind::unreadable, begin);

@@ -185,11 +185,17 @@ void Parser::declaration() {
                      ? nearest_spelling(keyword, declaration_words)
                      : std::nullopt;
     std::string help;
-    const auto borrowed = borrowed_declaration(here().kind == TokenKind::word_from ? "from" : keyword);
+    auto borrowed = borrowed_declaration(here().kind == TokenKind::word_from ? "from" : keyword);
     if (borrowed)
       help = *borrowed == "import"     ? "write `import`, and the module with dots: `import fabric.denim`"
              : *borrowed == "function" ? "write `function name(…) = …`, with one expression"
                                        : fmt::format("write `{}`", *borrowed);
+    // `float hill(float t) { … }`
+    if (borrowed && *borrowed == "let" && followed_by(TokenKind::name) &&
+        kind(at_ + 2) == TokenKind::left_parenthesis) {
+      help = fmt::format("write `function {}(…) = …`, with one expression", spelling(token(at_ + 1)));
+      borrowed = "function";
+    }
     if (meant) help = fmt::format("did you mean `{}`?", *meant);
     bool defines = !keyword.empty() && followed_by(TokenKind::equals);
     if (defines) help = fmt::format("write `material {0} = …`, or `let {0} = …` for a value", keyword);
@@ -198,6 +204,8 @@ void Parser::declaration() {
       help = fmt::format("`{}` belongs in the `physical {{ … }}` of a material", word);
       defines = false;
     }
+    if (here().kind == TokenKind::left_brace)
+      help = "a material is written `material NAME { … }`, without braces around it";
     if (keyword == "wale") {
       help = "the version is stated once, in the first line";
       defines = false;

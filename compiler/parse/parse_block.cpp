@@ -117,11 +117,29 @@ bool Parser::has_sections_below() const {
           holds(sections, spelling(token(index))));
 }
 
+/// Reports the heading of a section as it is in JSON and YAML, `"physical": {` and `physical: {`; it is read all
+/// the same. Nothing for another heading.
+std::optional<std::string_view> Parser::section_of_other_languages() {
+  const bool quoted = here().kind == TokenKind::text, colon = followed_by(TokenKind::colon);
+  const std::string_view name = quoted ? std::string_view(input_.texts[here().value]) : spelling(here());
+  const std::size_t brace = at_ + (colon ? 2 : 1);
+  if ((!quoted && !colon) || !holds(sections, name) || kind(brace) != TokenKind::left_brace) return std::nullopt;
+  const Span heading = {tree_.source, here().begin, token(brace - 1).end};
+  complain_at(Code::unexpected_token, heading,
+              fmt::format("the name of a section has no {}", quoted && colon ? "quotes and no `:`"
+                                                             : quoted        ? "quotes"
+                                                                             : "`:`"),
+              fmt::format("`{} {{`", name), shown(here()), fmt::format("write `{} {{`", name),
+              {replace(heading, std::string(name))});
+  return name;
+}
+
 /// Reads `representative { … }`, `perceptual { … }` or `physical { … }`.
 void Parser::material_section(MaterialDecl& material, bool& misplaced) {
-  std::string_view section = spelling(here());
+  const auto other = section_of_other_languages();
+  std::string_view section = other.value_or(spelling(here()));
   const bool opens = kind(at_ + 1) == TokenKind::left_brace;
-  if (here().kind != TokenKind::name || !holds(sections, section)) {
+  if (!other && (here().kind != TokenKind::name || !holds(sections, section))) {
     const auto meant = opens ? nearest_spelling(std::string(section), section_names) : std::nullopt;
     if (!meant) return stray_statement(material, misplaced);
     complain_at(Code::unexpected_token, span_of(here()), fmt::format("a material has no `{}`", section),
@@ -134,6 +152,7 @@ void Parser::material_section(MaterialDecl& material, bool& misplaced) {
                 "", "", "put all its statements into one block", {},
                 {{section == "physical" ? *material.physical_span : *material.perceptual_span, "the first one"}});
   advance();
+  if (at(TokenKind::colon) && followed_by(TokenKind::left_brace)) advance();  // reported
   if (section == "representative") {
     block(true, [&] {
       material.representative.push_back(setting());

@@ -11,7 +11,10 @@ namespace wale {
 namespace {
 
 constexpr std::string_view for_values[] = {"var",   "const", "val",    "auto",   "float",     "double", "int",
-                                           "local", "final", "static", "number", "constexpr", "define"};
+                                           "local", "final", "static", "number", "constexpr", "define", "bool",
+                                           "vec2",  "vec3",  "vec4",   "vector", "half",      "real"};
+constexpr std::string_view for_params[] = {"uniform", "parameter", "slider",    "input",    "knob",   "control",
+                                           "option",  "property",  "attribute", "variable", "varying"};
 constexpr std::string_view for_functions[] = {"def", "func", "fn", "fun", "sub", "lambda", "procedure"};
 constexpr std::string_view for_imports[] = {"include", "use", "using", "require", "from"};
 constexpr std::string_view for_materials[] = {"struct", "object", "type", "interface", "surface", "texture"};
@@ -35,10 +38,17 @@ std::optional<std::string> borrowed_declaration(std::string_view word) {
 /// `const k = 3`, which is read as `let k = 3`. A new value for what is remembered, `count = count + 1`, is reported.
 std::optional<PhysicalKeyword> Parser::borrowed_keyword() {
   const std::string_view word = spelling(here());
-  if (followed_by(TokenKind::name) && holds(for_values, word)) {
-    complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with `{}`", word), "`let`",
-                fmt::format("`{}`", word), "write `let`", {replace(span_of(here()), "let")});
-    return PhysicalKeyword::let;
+  const bool is_param = holds(for_params, word);
+  if (followed_by(TokenKind::name) && (is_param || holds(for_values, word))) {
+    const std::string ours = is_param ? "param" : "let";
+    // `uniform float k = …` and `const float k = …` have a type too.
+    const bool typed = holds(for_values, spelling(token(at_ + 1))) && kind(at_ + 2) == TokenKind::name;
+    const Span theirs = {tree_.source, here().begin, token(at_ + (typed ? 1 : 0)).end};
+    complain_at(Code::unexpected_token, theirs, fmt::format("no statement begins with `{}`", word),
+                fmt::format("`{}`", ours), fmt::format("`{}`", word), fmt::format("write `{}`", ours),
+                {replace(theirs, ours)});
+    if (typed) advance();
+    return is_param ? PhysicalKeyword::param : PhysicalKeyword::let;
   }
   const bool is_remembered = std::ranges::find(remembered_, word) != remembered_.end();
   if (!is_remembered || !followed_by(TokenKind::equals)) return std::nullopt;
@@ -51,6 +61,12 @@ std::optional<PhysicalKeyword> Parser::borrowed_keyword() {
 
 /// What to write instead of a statement that begins with a word of another language; empty for other words.
 std::string Parser::mend_borrowed(std::string_view word) const {
+  if (followed_by(TokenKind::colon)) {
+    const bool quoted = here().kind == TokenKind::text;
+    const std::string_view name = quoted ? input_.texts[here().value] : word;
+    return fmt::format("{}a value is named as in `let {} = …`, a slider as in `param {} = 2 mm in 1 mm .. 5 mm`",
+                       quoted ? "write names without quotes; " : "", name, name);
+  }
   if (here().kind == TokenKind::word_if) return "an `if` is a value: write `force = if … then … else …`";
   if (word == "for" || word == "while" || word == "repeat" || word == "loop" || word == "do")
     return "there are no loops: the forces are computed anew in each tick, and a `grating` repeats in space";

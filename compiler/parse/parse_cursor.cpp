@@ -228,6 +228,7 @@ std::string Parser::mend_here() const {
   const bool touching = previous.end == next.begin;
   if (const std::string argument = mend_argument(); !argument.empty()) return argument;
   if (const std::string origin = mend_origin(); !origin.empty()) return origin;
+  if (const std::string other = mend_other_order(); !other.empty()) return other;
   switch (next.kind) {
     case TokenKind::name:
     case TokenKind::number:
@@ -255,6 +256,9 @@ std::string Parser::mend_here() const {
                  ? fmt::format("the remainder is a function: write `modulo({}, {})`", spelling(previous),
                                value_at(at_ + 1))
                  : "the remainder is a function: `modulo(value, divisor)`";
+    case TokenKind::text:
+      if (previous.kind != TokenKind::text) return {};
+      return fmt::format("texts are parted by commas: write `{}, {}`", spelling(previous), spelling(next));
     case TokenKind::left_bracket: return "the parts of a vector are `.x` and `.y`; Wale has no lists";
     case TokenKind::equals: return "`=` defines; compare values with `<`, `<=`, `>` and `>=`";
     case TokenKind::less:
@@ -263,7 +267,10 @@ std::string Parser::mend_here() const {
     case TokenKind::greater_equal: return "comparisons cannot be chained; join two of them with `and`";
     case TokenKind::plus_minus: return "a tolerance belongs to a percept; to subtract, write `-`";
     case TokenKind::range: return "a range follows `in`: `in 1 mm .. 5 mm`";
-    case TokenKind::colon: return "named arguments belong in the parentheses of a call";
+    case TokenKind::colon:
+      if (previous.kind == TokenKind::name && after.kind == TokenKind::name && open_parentheses_.empty())
+        return fmt::format("nothing is assigned with `:`; write `{}(…)` to call it", spelling(previous));
+      return "named arguments belong in the parentheses of a call";
     case TokenKind::right_parenthesis: return "it closes no `(`; remove it";
     case TokenKind::word_then:
     case TokenKind::word_else: return "write a conditional as `if … then … else …`";

@@ -179,6 +179,7 @@ void Parser::no_operand(bool next_statement) {
                                                             : "write vectors as `vector(a, b)`";
       break;
     case TokenKind::left_brace: help = "write vectors as `vector(a, b)`"; break;
+    case TokenKind::prime: help = "texts stand in straight double quotes: `\"…\"`"; break;
     case TokenKind::word_not: help = "put `not` and its condition in parentheses"; break;
     case TokenKind::star:
     case TokenKind::slash: help = "an operator needs a value on both sides; the one before it is missing"; break;
@@ -280,6 +281,11 @@ ExprId Parser::call() {
       at_ = argument_begin - 1;  // the comma, for it may have been meant as a decimal point
       std::string help = mend_here();
       std::vector<Fix> fixes = fixes_here();
+      if (help.empty() && kind(after) == TokenKind::equals) {  // `duty = 0.5`
+        at_ = after;
+        help = mend_argument();
+        fixes = fixes_here();
+      }
       if (help.empty()) help = "put it before those with a name, or give it a name too";
       at_ = after;
       complain_at(Code::unexpected_token, tree_.span(last.value),
@@ -372,6 +378,9 @@ ExprId Parser::conditional() {
   advance();
   const ExprId yes = operation(0);
   if (!at(TokenKind::word_else)) {
+    const bool chained = is_word(at_, "elif") || is_word(at_, "elseif") || is_word(at_, "elsif");
+    if (chained)
+      fail("expected `else`" + after_previous(), "`else`", "write `else if`", {replace(span_of(here()), "else if")});
     fail("expected `else`" + after_previous(), "`else`",
          "an `if` needs a value for the other case: `if … then … else …`");
   }

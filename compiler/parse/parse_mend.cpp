@@ -93,6 +93,23 @@ std::string Parser::mend_origin() const {
   return {};
 }
 
+/// What other languages write behind a value: a condition, the bounds of a range, inches as `"`.
+std::string Parser::mend_other_order() const {
+  if (at_ == 0 || !open_parentheses_.empty()) return {};
+  const Token& previous = token(at_ - 1);
+  if (at(TokenKind::word_if) && !here().starts_line) return "the condition comes first: write `if … then … else …`";
+  const bool bounds = at(TokenKind::word_from) || is_word(at_, "from") || is_word(at_, "between") ||
+                      is_word(at_, "min") || is_word(at_, "range");
+  if (bounds && begins_number(at_ + 1)) return "a range is written `in 1 mm .. 5 mm`";
+  // `0.1" in …`: the text begins at the sign for inches.
+  const Token& text = previous.kind == TokenKind::text || at_ < 2 ? previous : token(at_ - 2);
+  const std::size_t number = text.begin == previous.begin ? at_ - 2 : at_ - 3;
+  if (text.kind == TokenKind::text && number < tokens_.size() && kind(number) == TokenKind::number &&
+      token(number).end == text.begin)
+    return fmt::format("for inches write `{} inch`", spelling(token(number)));
+  return {};
+}
+
 std::vector<Fix> Parser::fix_argument() const {
   const Span behind_name = {tree_.source, token(at_ - 1).end, here().end};
   if (at(TokenKind::equals)) return {replace(behind_name, ":")};

@@ -51,8 +51,10 @@ PhysicalKeyword Parser::physical_keyword() {
   complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with {}", shown(here())),
               "`param`, `let`, `height`, `state`, `memory`, `force`, `patch`, `next`, `show` or `name' = …`",
               shown(here()),
-              operation ? "to continue on the next line, end the line above with the operator"
-                        : mend_borrowed(spelling(here())),
+              kind(at_) == TokenKind::minus && kind(at_ + 1) == TokenKind::minus && token(at_ + 1).begin == here().end
+                  ? "comments begin with `//`"
+              : operation ? "to continue on the next line, end the line above with the operator"
+                          : mend_borrowed(spelling(here())),
               operation ? move_operator_up() : std::vector<Fix>{});
   throw Abandon{};
 }

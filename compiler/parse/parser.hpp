@@ -72,6 +72,7 @@ class Parser {
   [[noreturn]] void next_setting();
   SettingItem setting_item();
   bool is_leading_word() const;
+  std::optional<std::string_view> section_of_other_languages();
   void material_section(MaterialDecl& material, bool& misplaced);
   bool has_sections_below() const;
   [[gnu::cold]] void stray_statement(MaterialDecl& material, bool& misplaced);
@@ -138,6 +139,7 @@ class Parser {
   bool is_like(std::size_t index) const;
   std::string_view value_at(std::size_t index) const;
   std::string mend_argument() const;
+  std::string mend_other_order() const;
   std::string mend_origin() const;
   std::vector<Fix> fix_argument() const;
   std::vector<Fix> fix_origin() const;

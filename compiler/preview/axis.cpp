@@ -65,7 +65,7 @@ std::string shown_number(double value) {
   if (!std::isfinite(value)) return "—";
   const double size = std::abs(value);
   if (size >= 999.5) return with_minus(readable("{:.0f}", value));
-  if (size != 0 && size < 1e-4) return with_minus(fmt::format("{:.2e}", value));
+  if (size != 0 && size < 1e-4) return with_minus(typeable("{:.2e}", value));
   return with_minus(fmt::format("{:.3g}", value));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compiler/measure/coarseness.hpp"
+#include "compiler/measure/measure.hpp"
 #include "compiler/read/relief.hpp"
 #include "wale/picture.hpp"
 
@@ -57,9 +58,10 @@ Look look_at(const Bank& bank, const Memory* memory, const std::vector<glm::vec2
   return look;
 }
 
-/// The force along the section; for a pad, the amplitude of its shaking.
+/// The force along the section; for a pad, the amplitude of its shaking as far as its actuator gives it.
 double along_section(const Bank& bank, const Exhibit& exhibit, Force force) {
-  return bank.program().description().vibrates() ? force.x : force.x * exhibit.way.x + force.y * exhibit.way.y;
+  if (const auto& shaker = bank.program().description().device.shaker) return given_by(*shaker, force).x;
+  return force.x * exhibit.way.x + force.y * exhibit.way.y;
 }
 
 /// The place on the section at a distance from its middle, m.

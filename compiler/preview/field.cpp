@@ -25,6 +25,21 @@ std::vector<Force> forces_over(const Bank& bank, const Exhibit& exhibit, bool of
   return forces;
 }
 
+/// The mean force in each arrow's square, of forces in `count` rows and columns. A wave finer than a square has the
+/// mean 0, where forces at single places would show a slow one that is not there.
+std::vector<glm::dvec2> means_over(const std::vector<Force>& forces, int count) {
+  std::vector<glm::dvec2> sums(arrows * arrows, glm::dvec2(0));
+  std::vector<int> counts(arrows * arrows);
+  for (int row = 0; row < count; ++row)
+    for (int column = 0; column < count; ++column) {
+      const auto square = static_cast<std::size_t>(row * arrows / count * arrows + column * arrows / count);
+      sums[square] += glm::dvec2(forces[static_cast<std::size_t>(row * count + column)]);
+      ++counts[square];
+    }
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= std::max(1, counts[i]);
+  return sums;
+}
+
 void draw_arrow(Canvas& canvas, PagePoint middle, PagePoint reach) {
   const double length = std::hypot(reach.x, reach.y);
   if (length < 3) return canvas.line(middle, middle + PagePoint(0.01, 0), {3, style::force});
@@ -55,10 +70,12 @@ double draw_field(Canvas& canvas, const PageBox& box, const Bank& bank, const Ex
   canvas.place_squares(box, pixels, shown);
 
   const double cell = box.width() / arrows;
-  const auto coarse = forces_over(bank, exhibit, of_velocity, arrows);
+  // Where the background is coarser than the arrows, each has a sample of its own.
+  const int samples = std::max(shown, arrows);
+  const auto means = means_over(samples == shown ? ground : forces_over(bank, exhibit, of_velocity, samples), samples);
   for (int i = 0; i < arrows * arrows && strongest > 0; ++i) {
     const PagePoint middle(box.left + (i % arrows + 0.5) * cell, box.top + (i / arrows + 0.5) * cell);
-    const Force force = coarse[static_cast<std::size_t>(i)];
+    const glm::dvec2 force = means[static_cast<std::size_t>(i)];
     draw_arrow(canvas, middle, PagePoint(force.x, -force.y) * (0.92 * cell / strongest));
   }
   return strongest;

@@ -222,7 +222,7 @@ void draw_field_and_scale(Canvas& canvas, const Bank& bank, const Exhibit& exhib
     draw_scale_bar(canvas, exhibit.side, length_notation(exhibit.side));
   }
   if (strongest > 0) {
-    write_caption(canvas, fmt::format("force over {}, longest arrow {}", of_velocity ? "velocity" : "position",
+    write_caption(canvas, fmt::format("force over {}, means; a full arrow is {}", of_velocity ? "velocity" : "position",
                                       shown_quantity(strongest, force_notation(strongest))));
   } else {
     write_caption(canvas, "no force anywhere");

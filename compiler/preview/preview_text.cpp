@@ -39,7 +39,7 @@ std::string evidence_of(const DescribedPercept& percept) {
                         percept.intervals.means.high);
   if (percept.saturated) text += ", limited by the device";
   for (const OutsideRange& each : percept.outside)
-    text += fmt::format(", outside what was measured ({})", in_words(each));
+    text += ", " + outside_in_words(each);
   return text;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/read/tolerances.hpp"
@@ -13,17 +15,31 @@ namespace {
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double none_is_little = -1;  // 0 is a value
 
-/// N: the force that none of the other cues reads, on a hand at rest, or on a moving hand that is held back along one
-/// axis and pushed along the other; the larger of the two. Negative if it mostly pushes away from the middle.
+/// The principal value across the axis of the greatest; not-a-number if it is alike in all directions.
+double across(const Principal& found, double least) {
+  return found.directed() && std::abs(found.greatest) >= least ? found.across : no_value;
+}
+/// The direction of the greatest principal value, rad in [0, pi).
+double axis(const Principal& found, double least) {
+  if (!found.directed() || std::abs(found.greatest) < least) return no_value;
+  const double angle = std::atan2(found.axis.y, found.axis.x) + 2 * std::numbers::pi;
+  const double turned = std::fmod(angle, std::numbers::pi);
+  return std::numbers::pi - turned < 1e-3 ? 0 : turned;
+}
+
+/// N: the force that none of the other cues reads, the largest of some; negative if it mostly pushes a resting hand
+/// away from the middle.
 double unread_force(const ForceReading& found) {
   const bool pushed = found.relief().amplitude >= least_force || std::abs(found.stiffness) >= least_stiffness ||
-                      found.wall || std::abs(found.opposing.friction) >= least_force;
+                      found.wall || std::abs(found.opposing.friction) >= least_force ||
+                      glm::length(found.constant) >= least_force;
   const bool resisted = pushed || std::abs(found.opposing.damping) >= least_damping ||
-                        std::abs(found.inertia) >= least_mass || found.vibration.amplitude >= least_force ||
+                        std::abs(found.inertia.greatest) >= least_mass || found.vibration.amplitude >= least_force ||
                         found.sway.amplitude >= least_force;
   const double still = pushed ? 0 : found.still.pushes_away ? -found.still.largest : found.still.largest;
   const double moving = resisted ? 0 : found.opposing.scatter;
-  return std::abs(still) < moving ? moving : still;
+  const double other = std::max({moving, found.opposing.aside, found.other.largest()});
+  return std::abs(still) < other ? other : still;
 }
 
 /// Empty if the value of this cue is less than counts.
@@ -74,8 +90,6 @@ std::optional<double> carrier_of(const ForceReading& found, const Percept& perce
     }
     case Extractor::steepness:
       return found.relief().amplitude >= least_force ? std::optional(found.relief().steepness) : std::nullopt;
-    case Extractor::wall_damping:
-      return found.wall && found.wall->damping >= least_damping ? std::optional(found.wall->damping) : std::nullopt;
     default: break;
   }
   for (const CueFacts& facts : cue_table())
@@ -88,8 +102,30 @@ Cues cues_of(const Bank& bank, const ForceReading& reading) {
   Cues cues{program.material, program.device.name, {}, coarseness_of(program)};
   for (const CueFacts& facts : cue_table()) cues[facts.kind] = cue_of(facts.kind, reading);
   if (cues[CueKind::amplitude]) return cues;
-  for (const CueKind kind : {CueKind::period, CueKind::orientation, CueKind::regularity}) cues[kind] = std::nullopt;
+  for (const CueFacts& facts : cue_table())
+    if (whole_of(facts.kind) == CueKind::amplitude) cues[facts.kind] = std::nullopt;
   return cues;
+}
+
+std::optional<CueKind> whole_of(CueKind kind) {
+  switch (kind) {
+    case CueKind::period:
+    case CueKind::grain:
+    case CueKind::orientation:
+    case CueKind::push_axis:
+    case CueKind::regularity: return CueKind::amplitude;
+    case CueKind::stiffness_across:
+    case CueKind::stiffness_axis: return CueKind::stiffness;
+    case CueKind::viscosity_across:
+    case CueKind::viscosity_axis: return CueKind::viscosity;
+    case CueKind::friction_across:
+    case CueKind::friction_axis: return CueKind::friction;
+    case CueKind::mass_across:
+    case CueKind::mass_axis: return CueKind::mass;
+    case CueKind::vibration_frequency: return CueKind::vibration;
+    case CueKind::sway_frequency: return CueKind::sway;
+    default: return std::nullopt;
+  }
 }
 
 std::string condition_name(const CueFacts& facts) {

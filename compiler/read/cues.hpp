@@ -44,6 +44,9 @@ struct Cues {
   const std::optional<double>& operator[](CueKind kind) const { return values[static_cast<std::size_t>(kind)]; }
 };
 
+/// The cue that a material has too if it has this one: a period is a texture's. Nothing for a cue of its own.
+std::optional<CueKind> whole_of(CueKind kind);
+
 /// The name that a condition of a map or a threshold has for a cue: "wall_stiffness", and "rate" for a vibration's
 /// frequency.
 std::string condition_name(const CueFacts& facts);

@@ -30,6 +30,11 @@ glm::dvec2 outward(glm::dvec2 place, glm::dvec2 origin) {
   return far > 0 ? off / far : glm::dvec2(0);
 }
 
+/// A force by its part away from a point and its part around it.
+glm::dvec2 about(glm::dvec2 force, glm::dvec2 out) {
+  return {glm::dot(force, out), glm::dot(force, glm::dvec2(-out.y, out.x))};
+}
+
 /// Near its point a radial profile has parts without a place: these go on evenly from one neighbour to the next.
 void fill_gaps(std::vector<glm::dvec2>& profile, const std::vector<double>& counts) {
   std::size_t before = 0;
@@ -63,8 +68,7 @@ double fit_profile(Feature& feature, std::span<const glm::dvec2> places, std::sp
   for (std::size_t i = 0; i < places.size(); ++i) {
     const int bin = std::min(static_cast<int>((at[i] - low) * scale), last);
     whole += glm::dot(forces[i], forces[i]);
-    feature.profile[bin] +=
-        feature.radial ? glm::dvec2(glm::dot(forces[i], outward(places[i], feature.origin)), 0) : forces[i];
+    feature.profile[bin] += feature.radial ? about(forces[i], outward(places[i], feature.origin)) : forces[i];
     counts[bin] += 1;
   }
   double used = 0;
@@ -215,8 +219,9 @@ void place_better(Feature& feature, std::span<const glm::dvec2> places, std::spa
     const glm::dvec2 out = outward(places[i], feature.origin), way(-out.y, out.x);
     // Moving the origin changes the distance, and the direction of the push.
     const double push = glm::dot(feature.at(places[i]), out) / far;
-    const glm::dvec2 by_x = -slope.x * out.x * out - push * way.x * way;
-    const glm::dvec2 by_y = -slope.x * out.y * out - push * way.y * way;
+    const double around = glm::dot(feature.at(places[i]), way) / far;
+    const glm::dvec2 by_x = -out.x * (slope.x * out + slope.y * way) - way.x * (push * way - around * out);
+    const glm::dvec2 by_y = -out.y * (slope.x * out + slope.y * way) - way.y * (push * way - around * out);
     xx += glm::dot(by_x, by_x), xy += glm::dot(by_x, by_y), yy += glm::dot(by_y, by_y);
     sums += glm::dvec2(glm::dot(by_x, off), glm::dot(by_y, off));
   }
@@ -235,7 +240,9 @@ glm::dvec2 Feature::at(glm::dvec2 place) const {
   const int first = std::min(static_cast<int>(at), static_cast<int>(profile.size()) - 2);
   const double part = at - first;
   const glm::dvec2 force = (1 - part) * profile[first] + part * profile[first + 1];
-  return radial ? force.x * outward(place, origin) : force;
+  if (!radial) return force;
+  const glm::dvec2 out = outward(place, origin);
+  return force.x * out + force.y * glm::dvec2(-out.y, out.x);
 }
 
 void add_feature(const Feature& feature, double times, std::span<const glm::dvec2> places,

@@ -14,7 +14,7 @@ struct Feature {
   glm::dvec2 origin{0};      ///< m: the point, or (0, 0)
   glm::dvec2 direction{0};   ///< of length 1; (0, 0) for a radial one
   double low = 0, step = 0;  ///< m: the coordinate of the profile's first value, and between values
-  /// N: the force; for a radial feature, x is outward and y is 0.
+  /// N: the force; for a radial feature, x is outward and y is around the point, counterclockwise.
   std::vector<glm::dvec2> profile;
   double range = 0;  ///< N: between the least and the greatest of the profile
   /// It pushes ever more one way and never comes back: a wall, an edge or a spring. Otherwise it is a hill.

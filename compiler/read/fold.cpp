@@ -69,6 +69,17 @@ void turn_back(std::span<const double> periods, std::span<float> cosines, std::s
 }
 constexpr std::size_t at_once = 256;  // phases
 
+/// The sum over `at_once` products, in lanes that the compiler can keep side by side.
+double sum_of_products(const double* one, const double* other) {
+  constexpr std::size_t lanes = 8;
+  double sums[lanes] = {};
+  for (std::size_t i = 0; i < at_once; i += lanes)
+    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += one[i + lane] * other[i + lane];
+  double sum = 0;
+  for (const double each : sums) sum += each;
+  return sum;
+}
+
 }  // namespace
 
 double FoldedWave::period() const { return 1 / glm::length(waves); }
@@ -161,26 +172,45 @@ LinearForce linear_beside(std::span<const glm::dvec2> places, std::span<const gl
   constexpr std::size_t harmonics = 4;
   constexpr double metre = 0.05;  // so that all columns are about 1
   const std::size_t columns = 3 + 2 * harmonics * waves.size();
-  // The normal equations, with two right sides.
-  std::vector<double> row(columns), matrix(columns * columns, 0.0);
-  std::vector<glm::dvec2> right(columns, glm::dvec2(0));
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    row[0] = 1, row[1] = places[i].x / metre, row[2] = places[i].y / metre;
-    for (std::size_t wave = 0, at = 3; wave < waves.size(); ++wave) {
-      const double periods = glm::dot(waves[wave], places[i]);
-      const auto angle = static_cast<float>(2 * std::numbers::pi * (periods - std::floor(periods)));
-      const double cosine = cosine_of(angle), sine = sine_of(angle);
-      double real = cosine, imaginary = sine;
+  // The normal equations, with two right sides, which are the last columns: their products by blocks of places.
+  const std::size_t all = columns + 2;
+  std::vector<double> block(all * at_once), products(all * all, 0.0);
+  std::array<double, at_once> periods;
+  std::array<float, at_once> cosines, sines;
+  const auto column = [&](std::size_t number) { return block.data() + number * at_once; };
+  for (std::size_t first = 0; first < places.size(); first += at_once) {
+    const std::size_t count = std::min(at_once, places.size() - first);
+    // What lies behind the last place counts as nothing.
+    if (count < at_once) std::ranges::fill(block, 0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const glm::dvec2 place = places[first + i], force = forces[first + i];
+      column(0)[i] = 1, column(1)[i] = place.x / metre, column(2)[i] = place.y / metre;
+      column(columns)[i] = force.x, column(columns + 1)[i] = force.y;
+    }
+    for (std::size_t wave = 0; wave < waves.size(); ++wave) {
+      for (std::size_t i = 0; i < count; ++i) periods[i] = glm::dot(waves[wave], places[first + i]);
+      turn_back(std::span(periods).first(count), cosines, sines);
       for (std::size_t harmonic = 0; harmonic < harmonics; ++harmonic) {
-        row[at++] = real, row[at++] = imaginary;
-        const double turned = real * cosine - imaginary * sine;
-        imaginary = real * sine + imaginary * cosine, real = turned;
+        double* const real = column(3 + 2 * (wave * harmonics + harmonic));
+        double* const imaginary = real + at_once;
+        const double *const real_before = real - 2 * at_once, *const imaginary_before = real - at_once;
+        for (std::size_t i = 0; i < count; ++i) {
+          const double cosine = cosines[i], sine = -double{sines[i]};
+          real[i] = harmonic == 0 ? cosine : real_before[i] * cosine - imaginary_before[i] * sine;
+          imaginary[i] = harmonic == 0 ? sine : real_before[i] * sine + imaginary_before[i] * cosine;
+        }
       }
     }
-    for (std::size_t a = 0; a < columns; ++a) {
-      right[a] += row[a] * forces[i];
-      for (std::size_t b = 0; b <= a; ++b) matrix[a * columns + b] += row[a] * row[b];
-    }
+    for (std::size_t a = 0; a < all; ++a)
+      for (std::size_t b = 0; b <= std::min(a, columns - 1); ++b)
+        products[a * all + b] += sum_of_products(column(a), column(b));
+  }
+  std::vector<double> matrix(columns * columns, 0.0);
+  std::vector<glm::dvec2> right(columns, glm::dvec2(0));
+  for (std::size_t a = 0; a < columns; ++a) {
+    std::copy_n(products.begin() + static_cast<std::ptrdiff_t>(a * all), a + 1,
+                matrix.begin() + static_cast<std::ptrdiff_t>(a * columns));
+    right[a] = {products[columns * all + a], products[(columns + 1) * all + a]};
   }
   // Cholesky's factors.
   for (std::size_t a = 0; a < columns; ++a)

@@ -14,10 +14,26 @@ constexpr std::size_t most_multiples = 40;  // of a peak's period, for its funda
 constexpr std::size_t few_multiples = 12;   // after which ...
 constexpr double hopeless = 0.12;           // ... so little explained means that there is no wave
 constexpr double hardly_less = 0.015;       // of the mean square: as well explained
-constexpr double out_of_place = 0.25;       // periods over the window
-constexpr double wholly = 0.985;            // explained: no longer period can be better
 constexpr std::size_t small_common_multiple = 5;
-constexpr double strong_part = 0.02;  // of a wave's mean square, in one of its harmonics
+constexpr double clearly_more = 0.03;  // of the mean square
+constexpr double wholly = 0.985;       // explained: no longer period can be better
+
+/// Whether one of the waves that seem to be harmonics of a common one does not quite fit it when looked for by itself,
+/// or is a harmonic of another one.
+bool lies_elsewhere(const StillForces& thin, glm::dvec2 common, const std::vector<std::size_t>& numbers) {
+  return std::ranges::any_of(numbers, [&](std::size_t number) {
+    const glm::dvec2 waves = static_cast<double>(number) * common;
+    const glm::dvec2 there = in_phase(thin.places, thin.forces, thin.centre, thin.size, waves);
+    if (glm::length((there - waves) * thin.size) > out_of_place) return true;
+    const auto explained = [&](std::size_t multiple) {
+      return explained_by(thin.places, thin.forces, waves / static_cast<double>(multiple),
+                          most_bins(parts_of_a_wave * multiple, thin.places.size()));
+    };
+    const double alone = explained(1);
+    return (number % 2 != 0 && explained(2) > alone + clearly_more) ||
+           (number % 3 != 0 && explained(3) > alone + clearly_more);
+  });
+}
 
 }  // namespace
 
@@ -57,7 +73,9 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
                         most_bins(parts_of_a_wave * multiple, thin.places.size()));
   };
   Fundamental found{peak, 1, explained(1), {1}};
-  if (found.explained >= wholly) return found;
+  // What lay beside a peak may be the common multiple of several waves.
+  const bool is_peak = may_lie_beside;
+  if (is_peak && found.explained >= wholly) return found;
   const auto most = std::min<std::size_t>(most_multiples, static_cast<std::size_t>(length / 3 / period));
   std::vector<double> all{found.explained};
   for (std::size_t multiple = 2; multiple <= most; ++multiple) {
@@ -67,10 +85,10 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
   const double best = std::ranges::max(all);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (all[i] >= best - hardly_less) {
-      found = {peak / static_cast<double>(i + 1), i + 1, all[i], {1}};
+      found.waves = peak / static_cast<double>(i + 1), found.multiple = i + 1, found.explained = all[i];
       break;
     }
-  if (found.multiple == 1) return found;
+  if (is_peak && found.multiple == 1) return found;
   // A few waves whose common multiple is long repeat only by chance.
   const FoldedWave wave =
       folded(thin.places, thin.forces, found.waves, most_bins(parts_of_a_wave * found.multiple, thin.places.size()));
@@ -86,27 +104,27 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
   }
   // A coarse wave beside the peak's, not its fundamental.
   if (fine_wave(powers) == found.multiple) return {peak, 1, all.front(), {1}};
-  // Harmonics of one wave, or waves of their own whose common multiple this is: those whose multiples the others are.
-  std::vector<std::size_t> strong, own;
-  double in_strong = 0;
-  for (std::size_t i = 0; i < powers.size(); ++i) {
-    if (powers[i] < strong_part) continue;
-    in_strong += powers[i];
-    strong.push_back(i + 1);
-    if (std::ranges::none_of(own, [&](std::size_t other) { return (i + 1) % other == 0; })) own.push_back(i + 1);
+  // Harmonics of one wave, or of several that share this period: those whose multiples the others are.
+  std::vector<std::size_t> own;
+  double in_own = 0;
+  const auto is_own = [&](std::size_t number) {
+    return std::ranges::any_of(own, [&](std::size_t other) { return number % other == 0; });
+  };
+  for (std::size_t i = 0; i < powers.size(); ++i)
+    if (powers[i] >= strong_part && !is_own(i + 1)) own.push_back(i + 1);
+  for (std::size_t i = 0; i < powers.size(); ++i)
+    if (is_own(i + 1)) in_own += powers[i];
+  if (own.size() < 2 || own.size() > most_waves_found || in_own <= 0.85) return found;
+  if (own.back() <= small_common_multiple && !lies_elsewhere(thin, found.waves, own)) {
+    found.parts = own;
+    return found;
   }
-  if (own.size() >= 2 && own.size() <= most_waves_found && in_strong > 0.85) {
-    const bool sines = strong.size() == own.size();
-    // Waves that do not quite fit a common multiple are elsewhere when looked for by themselves.
-    const bool elsewhere = sines && std::ranges::any_of(own, [&](std::size_t part) {
-                             const glm::dvec2 waves = static_cast<double>(part) * found.waves;
-                             const glm::dvec2 there = in_phase(thin.places, thin.forces, thin.centre, thin.size, waves);
-                             return glm::length((there - waves) * thin.size) > out_of_place;
-                           });
-    if (own.back() > small_common_multiple || elsewhere) return {peak, 1, all.front(), {1}};
-    if (sines) found.parts = own;
+  for (const std::size_t part : own) {
+    if (found.multiple % part != 0) continue;
+    const std::size_t multiple = found.multiple / part;
+    return {peak / static_cast<double>(multiple), multiple, all[multiple - 1], {1}};
   }
-  return found;
+  return {static_cast<double>(own.front()) * found.waves, 1, all.front(), {1}};
 }
 
 }  // namespace wale

@@ -9,6 +9,8 @@ namespace wale {
 
 inline constexpr std::size_t most_waves_found = 3;
 inline constexpr std::size_t parts_of_a_wave = 32;  // of the shortest wave that a fold should show
+inline constexpr double strong_part = 0.02;         // of a wave's mean square, in one of its harmonics
+inline constexpr double out_of_place = 0.25;        // periods over a window: no longer the same wave
 inline constexpr double weak_part = 0.004;
 
 /// The longest line in a direction across a window.
@@ -29,11 +31,12 @@ struct Fundamental {
   glm::dvec2 waves{0};
   std::size_t multiple = 1;
   double explained = 0;
-  std::vector<std::size_t> parts{1};
+  /// The waves of which it is the sum, if they share a short period: their numbers of periods in it. Otherwise 1 alone.
+  std::vector<std::size_t> parts = {1};
 };
 
 /// The fundamental of the wave whose strongest harmonic is at a peak: the shortest multiple of its period that explains
-/// nearly as much as any.
+/// nearly as much as any. Where several waves share a long period, it is that of the peak's own wave.
 Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_lie_beside = true);
 
 }  // namespace wale

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <utility>
@@ -11,8 +10,8 @@
 
 #include "compiler/measure/hands.hpp"
 #include "compiler/read/dependence.hpp"
-#include "compiler/read/fourier.hpp"
-#include "compiler/read/window_spectrum.hpp"
+#include "compiler/read/tolerances.hpp"
+#include "compiler/read/unlimited.hpp"
 #include "wale/batch.hpp"
 #include "wale/memory.hpp"
 
@@ -22,19 +21,18 @@ namespace {
 // m/s, speeds of an exploring hand; fewer for programs whose ticks must run one after another
 constexpr std::array<double, 8> speeds = {0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2, 0.4};
 constexpr std::array<double, 4> few_speeds = {0.05, 0.1, 0.2, 0.4};
-constexpr double stretch = 0.024;      // m, length of a stroke, which goes there and back
-constexpr double least_stretch = 0.5;  // of the patch's extent, if that is smaller
-constexpr double looked_at = 0.5;      // of the stretch, in its middle: there a program with memory has settled
-constexpr int lines = 4;               // parallel strokes
-constexpr int places = 64;             // of a stroke, for programs without memory
-constexpr double push = 1;             // m/s^2
-constexpr std::size_t still_places = 8;
-constexpr double still_seconds = 8;
-constexpr std::size_t fewest_swings = 3;  // over that time; slower changes are a drift
-constexpr std::size_t most_harmonic = 8;
-constexpr double of_the_strongest = 0.2;  // line's power, in a fundamental
-constexpr double stands_out = 0.25;       // of a peak's power, at most this is three lines before it
-constexpr double nothing = 1e-5;          // N
+constexpr double stretch = 0.024;             // m, length of a stroke, which goes there and back
+constexpr double least_stretch = 0.5;         // of the patch's extent, if that is smaller
+constexpr double looked_at = 0.5;             // of the stretch, in its middle: there a program with memory has settled
+constexpr int lines = 4;                      // parallel strokes
+constexpr int places = 64;                    // of a stroke, for programs without memory
+constexpr double push = 1;                    // m/s^2
+constexpr double nothing = 1e-5;              // N
+constexpr double unlike = 0.1;                // relative: two principal values that differ by more have an axis
+constexpr double least_below = 0.125;         // of the places of a stroke: below the device's limit
+constexpr double least_below_strokes = 0.25;  // of the strokes: likewise
+constexpr double surely = 3;                  // standard errors of a mean over lines
+constexpr double speed_aside = 0.2;           // m/s at which a push aside is told
 
 /// A stroke goes over half of its stretch, back over the whole, and forward over the whole. The first half settles a
 /// program with memory. The middles of the other two are evaluated: they pass the same positions, so that forces that
@@ -76,22 +74,56 @@ double reach_of(const Bank& bank) {
   return std::min(stretch / 2, least_stretch * std::min(half.x, half.y));
 }
 
-std::vector<Stroke> strokes_over(const Bank& bank, bool alone) {
+/// Where strokes count.
+struct Outside {
+  const WallFace* wall = nullptr;
+
+  bool at(glm::dvec2 place) const { return !wall || glm::dot(place - wall->place, wall->inward) <= 0; }
+  /// The middle of the patch, or of what a wall leaves of it, m.
+  glm::dvec2 middle(glm::dvec2 half) const {
+    if (!wall) return {0, 0};
+    const double face = glm::dot(wall->place, wall->inward), far = glm::dot(glm::abs(wall->inward), half);
+    return std::clamp(0.5 * (face - far), -far, 0.0) * wall->inward;
+  }
+};
+
+/// Strokes along `axis` (of length 1), then as many across it.
+std::vector<Stroke> strokes_over(const Bank& bank, bool alone, glm::dvec2 axis, const Outside& outside) {
   const double rate = bank.program().description().device.rate;
+  const glm::dvec2 middle = outside.middle(half_of(bank));
   std::vector<Stroke> strokes;
-  for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(0, 1)})
+  for (const glm::dvec2 direction : {axis, glm::dvec2(-axis.y, axis.x)})
     for (int line = 0; line < lines; ++line)
       for (const double speed : alone ? std::span<const double>(speeds) : std::span<const double>(few_speeds)) {
-        const glm::dvec2 aside =
-            half_of(bank) * ((line + 0.5) / (0.5 * lines) - 1) * glm::dvec2(direction.y, direction.x);
-        strokes.push_back({direction, aside, speed, 2 * std::max(2L, std::lround(reach_of(bank) / speed * rate))});
+        const glm::dvec2 across = glm::abs(glm::dvec2(direction.y, direction.x));
+        const double room = glm::dot(half_of(bank), across) / (across.x + across.y);
+        const glm::dvec2 aside = room * ((line + 0.5) / (0.5 * lines) - 1) * glm::dvec2(-direction.y, direction.x);
+        const glm::dvec2 at = outside.wall ? middle + 0.5 * aside : aside;
+        strokes.push_back({direction, at, speed, 2 * std::max(2L, std::lround(reach_of(bank) / speed * rate))});
       }
   return strokes;
 }
 
-/// The mean force against each stroke, N, for a program whose ticks are independent. Both ways are at the same moment,
-/// so that forces that depend on time cancel too.
-std::vector<double> opposed_anywhere(const Bank& bank, const std::vector<Stroke>& strokes) {
+/// Gives strokes where the device's limit cuts everything off the mean of the others at their speed and along their
+/// axis, if there are any.
+void tell_cut_strokes(const std::vector<Stroke>& strokes, const std::vector<bool>& cut,
+                      std::vector<glm::dvec2>& means) {
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    if (!cut[i]) continue;
+    glm::dvec2 sum{0};
+    double others = 0;
+    for (std::size_t k = 0; k < strokes.size(); ++k)
+      if (!cut[k] && strokes[k].speed == strokes[i].speed && strokes[k].direction == strokes[i].direction)
+        sum += means[k], others += 1;
+    if (others > 0) means[i] = sum / others;
+  }
+}
+
+/// The mean force on each stroke, N, turned about for a hand that goes forth: its part along the stroke opposes the
+/// hand, and the other part pushes it aside. For a program whose ticks are independent; both ways are at the same
+/// moment, so that forces that depend on time cancel too. Places where the device's limit cuts a force off say nothing
+/// about its law, unless there are hardly any others.
+std::vector<glm::dvec2> opposed_anywhere(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside) {
   std::vector<Hand> hands;
   hands.reserve(strokes.size() * 2 * places);
   for (const Stroke& stroke : strokes)
@@ -100,12 +132,25 @@ std::vector<double> opposed_anywhere(const Bank& bank, const std::vector<Stroke>
         hands.push_back(stroke.hand(looked_at * reach_of(bank) * (2 * (i + 0.5) / places - 1), forth));
   std::vector<Force> forces(hands.size());
   tick_all(bank, hands, forces);
-  std::vector<double> means(strokes.size());
-  for (std::size_t i = 0; i < hands.size(); ++i) {
-    const std::size_t stroke = i / (2 * places);
-    means[stroke] -=
-        glm::dot(glm::dvec2(forces[i]), glm::dvec2(hands[i].velocity)) / strokes[stroke].speed / (2 * places);
+  const double most = bank.program().description().device.most();
+  std::vector<glm::dvec2> means(strokes.size());
+  std::vector<bool> cut(strokes.size());
+  for (std::size_t stroke = 0; stroke < strokes.size(); ++stroke) {
+    const Force *there = &forces[2 * places * stroke], *back = there + places;
+    glm::dvec2 whole{0}, below{0};
+    int count = 0;
+    for (int i = 0; i < places; ++i) {
+      // The places of both passes are the same, in the same order.
+      const glm::dvec2 change = 0.5 * (glm::dvec2(back[i]) - glm::dvec2(there[i]));
+      whole += change;
+      if (at_limit(there[i], most) || at_limit(back[i], most)) continue;
+      if (!outside.at(glm::dvec2(hands[2 * places * stroke + i].position))) continue;
+      below += change, ++count;
+    }
+    cut[stroke] = count < least_below * places;
+    means[stroke] = count == places || cut[stroke] ? whole / (1.0 * places) : below / (1.0 * count);
   }
+  tell_cut_strokes(strokes, cut, means);
   return means;
 }
 
@@ -139,15 +184,16 @@ std::vector<std::vector<Force>> felt_in_the_middles(const Bank& bank, const std:
 
 /// The same for a program that remembers in states only, tick by tick. The hands run one after another: there are too
 /// few to fill the lanes of a block.
-std::vector<double> opposed_one_by_one(const Bank& bank, const std::vector<Stroke>& strokes) {
+std::vector<glm::dvec2> opposed_one_by_one(const Bank& bank, const std::vector<Stroke>& strokes,
+                                           const Outside& outside) {
   const double rate = bank.program().description().device.rate, middle = looked_at * reach_of(bank);
   Bank own = bank;
   Memory memory(own.program());
   const std::vector<std::vector<Force>> resting = felt_in_the_middles(bank, strokes);
-  std::vector<double> means(strokes.size());
+  std::vector<glm::dvec2> means(strokes.size());
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const Stroke& stroke = strokes[i];
-    double sum = 0;
+    glm::dvec2 sum{0};
     long count = 0;
     for (long now = 0; now < stroke.ticks(); ++now) {
       const auto [along, forth] = stroke.at(now, rate);
@@ -155,8 +201,8 @@ std::vector<double> opposed_one_by_one(const Bank& bank, const std::vector<Strok
       hand.time = static_cast<double>(now) / rate;
       if (now == 0) memory.enter(own, hand);
       const Force force = tick(own, memory, hand) - resting[i][std::min<std::size_t>(now, resting[i].size() - 1)];
-      if (now < stroke.pass / 2 || std::abs(along) > middle) continue;
-      sum -= glm::dot(glm::dvec2(force), glm::dvec2(hand.velocity)) / stroke.speed;
+      if (now < stroke.pass / 2 || std::abs(along) > middle || !outside.at(glm::dvec2(hand.position))) continue;
+      sum -= (forth ? 1.0 : -1.0) * glm::dvec2(force);
       ++count;
     }
     means[i] = sum / static_cast<double>(std::max(1L, count));
@@ -165,18 +211,20 @@ std::vector<double> opposed_one_by_one(const Bank& bank, const std::vector<Strok
 }
 
 /// The same for any program; memories stay as they are at the start.
-std::vector<double> opposed_on_the_way(const Bank& bank, const std::vector<Stroke>& strokes) {
-  if (bank.program().description().grids.empty()) return opposed_one_by_one(bank, strokes);
+std::vector<glm::dvec2> opposed_on_the_way(const Bank& bank, const std::vector<Stroke>& strokes,
+                                           const Outside& outside) {
+  if (bank.program().description().grids.empty()) return opposed_one_by_one(bank, strokes, outside);
   const double rate = bank.program().description().device.rate, middle = looked_at * reach_of(bank);
   const long longest = std::ranges::max(strokes, {}, &Stroke::ticks).ticks();
-  std::vector<double> sums(strokes.size());
+  std::vector<glm::dvec2> sums(strokes.size());
   std::vector<long> counts(strokes.size());
   const auto move = [&](std::size_t first, long tick, std::span<const Force> forces, std::span<Hand> hands) {
     for (std::size_t i = 0; i < hands.size(); ++i) {
       const Stroke& stroke = strokes[first + i];
       const bool counts_now = tick > stroke.pass / 2 && tick <= stroke.ticks();
-      if (counts_now && std::abs(stroke.at(tick - 1, rate).first) <= middle) {
-        sums[first + i] -= glm::dot(glm::dvec2(forces[i]), glm::dvec2(hands[i].velocity)) / stroke.speed;
+      if (counts_now && std::abs(stroke.at(tick - 1, rate).first) <= middle &&
+          outside.at(glm::dvec2(hands[i].position))) {
+        sums[first + i] -= (stroke.at(tick - 1, rate).second ? 1.0 : -1.0) * glm::dvec2(forces[i]);
         ++counts[first + i];
       }
       const auto [along, forth] = stroke.at(tick, rate);
@@ -187,51 +235,6 @@ std::vector<double> opposed_on_the_way(const Bank& bank, const std::vector<Strok
   run_batch(bank, strokes.size(), longest, move);
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= static_cast<double>(std::max(1L, counts[i]));
   return sums;
-}
-
-/// The forces on hands that hold still at a few positions, for each tick; empty if they cannot change.
-std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
-  const PatchProgram& program = bank.program().description();
-  const bool timed = reads(program, {Input::time});
-  std::vector<std::vector<Force>> felt;
-  if (!timed && program.states.empty()) return felt;
-  const double rate = program.device.rate;
-  const auto ticks = static_cast<std::size_t>(std::lround(still_seconds * rate));
-  std::vector<Hand> hands(still_places);
-  for (std::size_t i = 0; i < still_places; ++i) {
-    // On a spiral, so that no two positions have the same distance or angle.
-    const auto number = static_cast<double>(i);
-    const double radius = 0.8 * number / still_places, angle = number * std::numbers::pi * (3 - std::sqrt(5.0));
-    hands[i].position = hands[i].workspace =
-        glm::vec2(half_of(bank) * radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-  }
-  felt.assign(still_places, std::vector<Force>(ticks));
-  if (program.states.empty()) {
-    for (std::size_t i = 0; i < still_places; ++i) {
-      std::vector<Hand> moments(ticks, hands[i]);
-      for (std::size_t tick = 0; tick < ticks; ++tick) moments[tick].time = static_cast<double>(tick) / rate;
-      tick_all(bank, moments, felt[i]);
-    }
-    return felt;
-  }
-  Batch batch(bank, still_places);
-  batch.enter(hands);
-  std::vector<Force> forces(still_places);
-  const std::size_t all = program.states.size() * still_places;
-  std::vector<float> before(all), now(all);
-  for (std::size_t tick = 0; tick < ticks; ++tick) {
-    for (Hand& hand : hands) hand.time = static_cast<double>(tick) / rate;
-    batch.tick(hands, forces);
-    for (std::size_t i = 0; i < still_places; ++i) felt[i][tick] = forces[i];
-    for (std::size_t i = 0; i < all; ++i) now[i] = batch.state(i / still_places, i % still_places);
-    // Without a clock, a force that does not change in one tick never changes.
-    if (!timed && tick > 0 && now == before) {
-      for (auto& each : felt) each.assign(ticks, each[tick]);
-      break;
-    }
-    before.swap(now);
-  }
-  return felt;
 }
 
 /// The laws of friction that are tried, simplest first: which of friction and damping there is, and whether the
@@ -273,15 +276,23 @@ OpposingForce fitted(const FrictionLaw& law, double whole, const std::vector<Str
   return found;
 }
 
-/// The simplest law that fits the strokes, or the one that fits best.
-OpposingForce law_of(const std::vector<Stroke>& strokes, const std::vector<double>& opposed) {
+/// The simplest law that fits the strokes, or the one that fits best. Speeds at which the device's limit `most` (N)
+/// cuts the force off say nothing about the law if some others do.
+OpposingForce law_of(std::vector<Stroke> strokes, std::vector<double> opposed, double most) {
+  std::vector<Stroke> below;
+  std::vector<double> opposed_below;
+  for (std::size_t i = 0; i < strokes.size(); ++i)
+    if (!at_limit({opposed[i], 0}, most)) below.push_back(strokes[i]), opposed_below.push_back(opposed[i]);
+  if (below.size() >= least_below_strokes * static_cast<double>(strokes.size()))
+    strokes = std::move(below), opposed = std::move(opposed_below);
   double largest = 0;
   for (const double force : opposed) largest = std::max(largest, std::abs(force));
   if (largest < nothing) return {};
   OpposingForce best{0, 0, 0, HUGE_VAL};
   for (const FrictionLaw& law : laws) {
     OpposingForce found{0, 0, 0, HUGE_VAL};
-    const double fastest = strokes.back().speed, slowest = strokes.front().speed;
+    const auto [slow, fast] = std::ranges::minmax_element(strokes, {}, &Stroke::speed);
+    const double slowest = slow->speed, fastest = fast->speed;
     for (int i = 0; i < (law.rises ? rises_tried : 1); ++i) {
       const double whole = law.rises ? slowest * std::pow(fastest / slowest, (i + 0.5) / rises_tried) : 0;
       const OpposingForce other = fitted(law, whole, strokes, opposed);
@@ -293,70 +304,133 @@ OpposingForce law_of(const std::vector<Stroke>& strokes, const std::vector<doubl
   return best;
 }
 
-/// Forces as changes, without their mean and their drift: a parabola in time.
-std::vector<std::complex<float>> without_drift(const std::vector<Force>& forces) {
-  const auto count = static_cast<double>(forces.size());
-  // Legendre's polynomials are nearly orthogonal on so many ticks.
-  const auto at = [&](std::size_t i, int order) {
-    const double u = 2 * (static_cast<double>(i) + 0.5) / count - 1;
-    return order == 0 ? 1.0 : order == 1 ? u : 1.5 * u * u - 0.5;
-  };
-  glm::dvec2 parts[3] = {};
-  for (std::size_t i = 0; i < forces.size(); ++i)
-    for (int order : {0, 1, 2}) parts[order] += (2 * order + 1) / count * at(i, order) * glm::dvec2(forces[i]);
-  std::vector<std::complex<float>> changes(forces.size());
-  for (std::size_t i = 0; i < forces.size(); ++i) {
-    glm::dvec2 left(forces[i]);
-    for (int order : {0, 1, 2}) left -= at(i, order) * parts[order];
-    changes[i] = {static_cast<float>(left.x), static_cast<float>(left.y)};
-  }
-  return changes;
+}  // namespace
+
+Principal principal_of(glm::dvec2 by_x, glm::dvec2 by_y, double least) {
+  // Of the symmetric part; the other one turns the hand aside and neither opposes it nor pushes it on.
+  const double both = 0.5 * (by_x.y + by_y.x), mean = 0.5 * (by_x.x + by_y.y), half = 0.5 * (by_x.x - by_y.y);
+  const double apart = std::hypot(half, both);
+  const double one = mean + apart, other = mean - apart, angle = 0.5 * std::atan2(both, half);
+  if (2 * apart <= std::max(least, unlike * std::max(std::abs(one), std::abs(other)))) return {mean, mean, {0, 0}};
+  const glm::dvec2 axis(std::cos(angle), std::sin(angle));
+  return std::abs(one) >= std::abs(other) ? Principal{one, other, axis}
+                                          : Principal{other, one, glm::dvec2(-axis.y, axis.x)};
 }
 
-/// The swing within some lines of a power spectrum; none if its strongest line does not stand out, as those of a drift.
-Swing swing_in(const std::vector<double>& powers, std::size_t first, std::size_t end, double seconds) {
-  if (first >= end) return {};
-  const auto peak = std::max_element(powers.begin() + static_cast<std::ptrdiff_t>(first),
-                                     powers.begin() + static_cast<std::ptrdiff_t>(end));
-  auto at = static_cast<std::size_t>(peak - powers.begin());
-  // A beat's strongest line may be a harmonic. Its fundamental is the slowest of the lines below of which it is a
-  // multiple.
-  for (std::size_t times = most_harmonic; times >= 2; --times) {
-    const std::size_t slow = (at + times / 2) / times;
-    if (slow < first + 1) continue;
-    const auto line = std::max_element(powers.begin() + static_cast<std::ptrdiff_t>(slow - 1),
-                                       powers.begin() + static_cast<std::ptrdiff_t>(slow + 2));
-    if (*line < of_the_strongest * *peak) continue;
-    at = static_cast<std::size_t>(line - powers.begin());
-    break;
+namespace {
+
+/// The principal values of two laws along an axis and across it, each value of the reading's.
+Principal of_two(double along, double across, glm::dvec2 axis, double least) {
+  return principal_of(along * axis.x * axis + across * axis.y * glm::dvec2(axis.y, -axis.x),
+                      along * axis.y * axis + across * axis.x * glm::dvec2(-axis.y, axis.x), least);
+}
+
+/// The forces along the strokes.
+std::vector<double> along_strokes(const std::vector<Stroke>& strokes, const std::vector<glm::dvec2>& opposed) {
+  std::vector<double> along(strokes.size());
+  for (std::size_t i = 0; i < strokes.size(); ++i) along[i] = glm::dot(opposed[i], strokes[i].direction);
+  return along;
+}
+
+/// N: what two means over half of the strokes each may differ by, when a force is alike in all directions and differs
+/// from one line to the next.
+double chance_of(const std::vector<Stroke>& strokes, const std::vector<double>& along) {
+  const std::size_t half = strokes.size() / 2, a_line = half / lines;
+  double variance = 0;
+  for (const std::size_t first : {std::size_t{0}, half}) {
+    std::array<double, lines> means{};
+    double mean = 0, squares = 0;
+    for (std::size_t i = 0; i < half; ++i) means[i / a_line] += along[first + i] / static_cast<double>(a_line);
+    for (const double each : means) mean += each / lines;
+    for (const double each : means) squares += (each - mean) * (each - mean);
+    variance += squares / (lines * (lines - 1));
   }
-  double sum = 0;
-  for (std::size_t i = first; i < end; ++i) sum += powers[i];
-  const double before = at > 0 ? powers[at - 1] : 0, after = at + 1 < powers.size() ? powers[at + 1] : 0;
-  const double slower = at >= 3 ? powers[at - 3] : HUGE_VAL;
-  // A neighbour in a slower band may be the foot of a stronger peak there.
-  if (powers[at] <= 0 || slower > stands_out * powers[at] || before > powers[at] || after > powers[at]) return {};
-  // Under Hann's window, let r be the ratio in amplitude of the larger neighbour to the strongest line. The swing then
-  // lies (2 r - 1) / (1 + r) lines further on: Grandke 1983, IEEE Trans. Instrum. Meas. 32(2).
-  const double ratio = std::sqrt(std::max(before, after) / powers[at]);
-  const double off = std::clamp((2 * ratio - 1) / (1 + ratio), 0.0, 0.5) * (after > before ? 1 : -1);
-  return {std::sqrt(2 * sum), (static_cast<double>(at) + off) / seconds};
+  return surely * std::sqrt(variance);
+}
+
+/// The mean forces on the strokes along an axis and across it, turned about for a hand that goes forth.
+struct MeanOpposed {
+  glm::dvec2 along{0}, across{0};
+  /// N: on a hand at `speed_aside`, what turns with it. It pushes aside both times, once to the left and once to the
+  /// right of an axis.
+  double aside = 0;
+};
+MeanOpposed mean_of(const std::vector<Stroke>& strokes, const std::vector<glm::dvec2>& opposed) {
+  const std::size_t half = strokes.size() / 2;
+  const auto count = static_cast<double>(half);
+  MeanOpposed mean;
+  glm::dvec2 aside_x{0}, aside_y{0};
+  double fast = 0;
+  for (std::size_t i = 0; i < half; ++i) {
+    mean.along += opposed[i] / count, mean.across += opposed[half + i] / count;
+    if (strokes[i].speed != speed_aside) continue;
+    aside_x += opposed[i], aside_y += opposed[half + i], fast += 1;
+  }
+  if (aside_x.y * aside_y.x < 0) mean.aside = std::min(std::abs(aside_x.y), std::abs(aside_y.x)) / fast;
+  return mean;
 }
 
 }  // namespace
 
-OpposingForce opposing_force(const Bank& bank) {
+OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   const PatchProgram& program = bank.program().description();
   if (!depends_on_the_moment(program) && !remembers_anything(program)) return {};
   const bool alone = !remembers_anything(program);
-  const std::vector<Stroke> strokes = strokes_over(bank, alone);
-  return law_of(strokes, alone ? opposed_anywhere(bank, strokes) : opposed_on_the_way(bank, strokes));
+  const Outside outside{wall};
+  const auto felt = [&](const std::vector<Stroke>& strokes) {
+    return alone ? opposed_anywhere(bank, strokes, outside) : opposed_on_the_way(bank, strokes, outside);
+  };
+  std::vector<Stroke> strokes = strokes_over(bank, alone, {1, 0}, outside);
+  std::vector<glm::dvec2> opposed = felt(strokes);
+  const std::size_t half = strokes.size() / 2;
+  const MeanOpposed mean = mean_of(strokes, opposed);
+  const double chance = chance_of(strokes, along_strokes(strokes, opposed));
+  const Principal whole = principal_of(mean.along, mean.across, std::max(least_force, chance));
+  if (!whole.directed()) {
+    OpposingForce found = law_of(strokes, along_strokes(strokes, opposed), program.device.most());
+    found.friction_across = found.friction, found.damping_across = found.damping, found.aside = mean.aside;
+    return found;
+  }
+  glm::dvec2 axis = whole.axis;
+  // Friction along an oblique axis is no matrix: it pushes along its axis whatever the stroke's, and strokes along that
+  // axis show its size.
+  const bool oblique = std::min(std::abs(axis.x), std::abs(axis.y)) > 0.02;
+  if (oblique) {
+    for (int turn = 0; turn < 2; ++turn) {
+      strokes = strokes_over(bank, alone, axis, outside), opposed = felt(strokes);
+      glm::dvec2 push{0};
+      for (std::size_t i = 0; i < half; ++i) push += opposed[i];
+      const bool turned = std::abs(push.x * axis.y - push.y * axis.x) > 0.01 * glm::length(push);
+      if (turn > 0 || !turned) break;
+      axis = glm::normalize(push);
+    }
+  } else {
+    axis = std::abs(axis.x) > 0.5 ? glm::dvec2(1, 0) : glm::dvec2(0, 1);
+  }
+  const std::vector<double> along = along_strokes(strokes, opposed);
+  const auto law_along = [&](std::size_t first) {
+    const auto part = [&](const auto& all) {
+      return std::vector(all.begin() + static_cast<std::ptrdiff_t>(first),
+                         all.begin() + static_cast<std::ptrdiff_t>(first + half));
+    };
+    return law_of(part(strokes), part(along), program.device.most());
+  };
+  const bool second = !oblique && axis.y > 0.5;
+  const OpposingForce one = law_along(second ? half : 0), other = law_along(second ? 0 : half);
+  const Principal friction = of_two(one.friction, other.friction, axis, std::max(least_force, chance));
+  const Principal damping = of_two(one.damping, other.damping, axis, std::max(least_damping, chance / speed_aside));
+  OpposingForce found = std::abs(one.friction) >= std::abs(other.friction) ? one : other;
+  found.friction = friction.greatest, found.friction_across = friction.across, found.friction_axis = friction.axis;
+  found.damping = damping.greatest, found.damping_across = damping.across, found.damping_axis = damping.axis;
+  found.scatter = std::hypot(one.scatter, other.scatter) / std::numbers::sqrt2;
+  found.aside = mean.aside;
+  return found;
 }
 
-double inertia(const Bank& bank) {
+Principal inertia(const Bank& bank) {
   if (!reads(bank.program().description(),
              {Input::acceleration_x, Input::acceleration_y, Input::raw_acceleration_x, Input::raw_acceleration_y}))
-    return 0;
+    return {};
   const glm::dvec2 half = half_of(bank);
   std::vector<Hand> hands;
   constexpr int side = 8;
@@ -369,39 +443,17 @@ double inertia(const Bank& bank) {
       }
   std::vector<Force> forces(hands.size());
   tick_all(bank, hands, forces);
-  double sum = 0;
-  for (std::size_t i = 0; i < hands.size(); ++i)
-    sum -= glm::dot(glm::dvec2(forces[i]), glm::dvec2(hands[i].acceleration));
-  return sum / (push * push * static_cast<double>(hands.size()));
-}
-
-void tell_swings(const Bank& bank, Swing& sway, Swing& vibration) {
-  std::vector<std::complex<float>> busiest;
-  double most = 0;
-  for (const std::vector<Force>& forces : felt_at_rest(bank)) {
-    const std::vector<std::complex<float>> changes = without_drift(forces);
-    double squares = 0;
-    for (const auto& each : changes) squares += std::norm(each);
-    if (squares > most) most = squares, busiest = changes;
+  const double most = bank.program().description().device.most();
+  glm::dvec2 by_x{0}, by_y{0};
+  double places = 0;
+  for (std::size_t i = 0; i < hands.size(); i += 4) {
+    const auto cut = [&](const Force& force) { return at_limit(force, most); };
+    if (std::any_of(&forces[i], &forces[i] + 4, cut)) continue;
+    by_x -= glm::dvec2(forces[i]) - glm::dvec2(forces[i + 1]);
+    by_y -= glm::dvec2(forces[i + 2]) - glm::dvec2(forces[i + 3]);
+    places += 1;
   }
-  const auto ticks = static_cast<double>(busiest.size());
-  if (busiest.empty() || std::sqrt(2 * most / ticks) <= nothing) return;
-  const double rate = bank.program().description().device.rate, seconds = ticks / rate;
-  const std::vector<float> fade = hann_window(busiest.size());
-  for (std::size_t i = 0; i < busiest.size(); ++i) busiest[i] *= fade[i];
-  const Spectrum spectrum = fourier_of_line(busiest);
-  // The transform of x + i y holds one of theirs in a coefficient and the other in its mirror image. Hann's window lets
-  // three eighths of the power through.
-  std::vector<double> powers(spectrum.size() / 2, 0.0);
-  for (std::size_t i = 1; i < powers.size(); ++i)
-    powers[i] = (std::norm(spectrum[i]) + std::norm(spectrum[spectrum.size() - i])) / (0.375 * ticks * ticks);
-  const auto first_fast = static_cast<std::size_t>(slowest_vibration * seconds);
-  sway = swing_in(powers, fewest_swings, first_fast, seconds);
-  vibration = swing_in(powers, first_fast, powers.size(), seconds);
-  // The harmonics of a sway count with it.
-  const double times = sway.frequency > 0 ? vibration.frequency / sway.frequency : 0;
-  if (times > 0 && vibration.amplitude < 0.5 * sway.amplitude && std::abs(times - std::round(times)) < 0.05)
-    sway.amplitude = std::hypot(sway.amplitude, vibration.amplitude), vibration = {};
+  return places > 0 ? principal_of(by_x / (2 * push * places), by_y / (2 * push * places), least_mass) : Principal{};
 }
 
 }  // namespace wale

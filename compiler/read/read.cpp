@@ -1,7 +1,10 @@
 #include "compiler/read/read.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
 #include <vector>
 
 #include "compiler/measure/coarseness.hpp"
@@ -17,6 +20,8 @@ constexpr int places_a_side = 12;   // at which a trend's stiffness is looked at
 constexpr double beside_it = 1e-3;  // m: half the step for it
 constexpr double alike = 0.15;      // relative difference at which two stiffnesses count as one
 constexpr double mostly = 0.5;      // of the places: a spring's
+constexpr double misfit_of_relief = 0.03, misfit_of_spring = 0.01,
+                 misfit_of_swing = 0.01;  // in a constant push beside them
 
 /// The stiffness that draws the hand back, if it is alike at most places.
 double even_stiffness(const StaticForce& still, PatchSize patch) {
@@ -47,18 +52,95 @@ double even_stiffness(const StaticForce& still, PatchSize patch) {
   return static_cast<double>(near) >= mostly * places_a_side * places_a_side ? stiffness : 0;
 }
 
+/// A face bends the force, unless the program has memory and yielded to the hands that were placed behind the face.
+void tell_wall(const Bank& bank, ForceReading& found) {
+  const bool remembers = remembers_anything(bank.program().description());
+  if (remembers) found.wall = wall_face(bank);
+  if (!found.wall && found.still.face) found.wall = wall_face(bank, *found.still.face);
+  if (!found.wall && !found.still.features.empty()) found.wall = wall_face(bank, found.still.features);
+  if (!found.wall && !remembers && !found.still.features.empty()) found.wall = wall_face(bank);
+}
+
+/// N: what a line that is fitted beside a relief has by chance at the patch's edge: four standard errors of the
+/// relief's irregular part, whose amplitude is about two standard deviations.
+double chance_of_line(const Relief& relief, glm::dvec2 half) {
+  const double side = 2 * std::min(half.x, half.y);
+  return 2 * relief.amplitude * std::sqrt(1 - relief.regularity) * std::min(1.0, relief.period / side);
+}
+
+/// The linear part: a spring, and a constant push.
+void tell_trend(const Bank& bank, ForceReading& found, glm::dvec2 at_first) {
+  const StaticForce& still = found.still;
+  const PatchSize patch = bank.size();
+  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
+  if (still.features.empty() || still.face) {
+    const double chance = chance_of_line(found.relief(), half), nearest = std::min(half.x, half.y);
+    Principal spring = principal_of(-still.trend.by_x, -still.trend.by_y, std::max(least_stiffness, chance / nearest));
+    if (std::abs(spring.greatest) * nearest < chance) spring = {};
+    found.stiffness = spring.greatest, found.stiffness_across = spring.across, found.stiffness_axis = spring.axis;
+    // Less is what the waves' incomplete periods leave.
+    const double certain = std::max({chance, misfit_of_relief * found.relief().amplitude,
+                                     misfit_of_spring * std::abs(spring.greatest) * nearest,
+                                     misfit_of_swing * std::max(found.sway.amplitude, found.vibration.amplitude)});
+    const glm::dvec2 push = still.trend.mean - at_first;
+    if (glm::length(push) >= std::max(least_force, certain)) found.constant = push;
+  } else {
+    found.stiffness = found.stiffness_across = even_stiffness(still, patch);
+  }
+  const bool yielding = found.wall && !still.face;
+  if (yielding &&
+      (still.features.empty() || std::abs(found.stiffness - found.wall->stiffness) < alike * found.wall->stiffness))
+    found.stiffness = found.stiffness_across = 0, found.stiffness_axis = {0, 0};
+}
+
+/// How much more the force pushes a hand that has just come and rests than it does in the mean over time, and over slow
+/// motion to and fro: a sway begins somewhere in its period, and a sign has a value at rest. N.
+glm::dvec2 only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& felt, const ForceReading& found) {
+  const PatchProgram& program = bank.program().description();
+  glm::dvec2 off{0};
+  if (std::max(found.sway.amplitude, found.vibration.amplitude) >= least_force)
+    for (const std::vector<Force>& forces : felt) {
+      // Under Hann's window a swing has no mean, however many periods there are.
+      glm::dvec2 mean{0};
+      const auto count = static_cast<double>(forces.size());
+      for (std::size_t i = 0; i < forces.size(); ++i)
+        mean += (1 - std::cos(2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / count)) / count *
+                glm::dvec2(forces[i]);
+      off += (glm::dvec2(forces.front()) - mean) / static_cast<double>(felt.size());
+    }
+  if (remembers_anything(program)) return off;
+  constexpr double creeping = 1e-3;  // m/s
+  std::array<Hand, 9> hands{};
+  std::array<Force, 9> forces{};
+  // Along no axis, so that none of the signs is that of a rest.
+  for (std::size_t i = 1; i < hands.size(); ++i) {
+    const double angle = (static_cast<double>(i) + 0.5) * std::numbers::pi / 4;
+    hands[i].velocity = hands[i].raw_velocity = glm::vec2(creeping * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+  tick_all(bank, hands, forces);
+  glm::dvec2 mean{0};
+  for (std::size_t i = 1; i < forces.size(); ++i) mean += 0.125 * glm::dvec2(forces[i]);
+  const glm::dvec2 at_rest = glm::dvec2(forces[0]) - mean;
+  return glm::length(at_rest) > least_force ? off + at_rest : off;
+}
+
 }  // namespace
 
 ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   if (bank.program().description().vibrates()) return {};  // such a program has no force
   ForceReading found;
   const bool remembers = remembers_anything(bank.program().description());
+  glm::dvec2 at_first{0};
   const auto read_still = [&] { found.still = static_force(bank); };
   const auto read_moving = [&] {
     found.opposing = opposing_force(bank);
     found.breakaway = breakaway_of(bank, found.opposing.friction);
     found.inertia = inertia(bank);
-    tell_swings(bank, found.sway, found.vibration);
+    const std::vector<std::vector<Force>> felt = felt_at_rest(bank);
+    tell_swings(bank, felt, found.sway, found.vibration);
+    at_first = only_at_first(bank, felt, found);
+    found.other =
+        other_force(bank, felt, found.sway, found.vibration, std::max(found.opposing.friction, found.breakaway));
   };
   const auto part = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -73,13 +155,11 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   else
     part(0, parts);
   if (!wanted.still) return found;
-  // A face bends the force, unless the program has memory and yielded to the hands that were placed behind the face.
-  if (remembers) found.wall = wall_face(bank);
-  if (!found.wall && !found.still.features.empty()) found.wall = wall_face(bank, found.still.features);
-  if (!found.wall && !remembers && !found.still.features.empty()) found.wall = wall_face(bank);
-  if (!found.wall || !found.still.features.empty()) found.stiffness = even_stiffness(found.still, bank.size());
-  if (found.wall && std::abs(found.stiffness - found.wall->stiffness) < alike * found.wall->stiffness)
-    found.stiffness = 0;
+  tell_wall(bank, found);
+  tell_trend(bank, found, at_first);
+  // What damps the hand in a wall is the wall's.
+  if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping)
+    found.opposing = opposing_force(bank, &*found.wall);
   return found;
 }
 

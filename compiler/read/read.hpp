@@ -4,7 +4,9 @@
 
 #include "compiler/declarations/declarations.hpp"
 #include "compiler/read/motion.hpp"
+#include "compiler/read/other_force.hpp"
 #include "compiler/read/relief.hpp"
+#include "compiler/read/swing.hpp"
 #include "compiler/read/wall.hpp"
 
 namespace wale {
@@ -13,16 +15,22 @@ namespace wale {
 /// own part of the force, so that none is mistaken for another.
 struct ForceReading {
   StaticForce still;
-  /// N/m: of the force that draws the hand back, if it is alike over the patch. A spring that saturates before, or a
-  /// wall, has no single stiffness: 0.
+  /// N/m: of the force that draws the hand back, if it is alike over the patch; along the axis where it is greatest. A
+  /// spring that saturates before, or a wall, has no single stiffness: 0.
   double stiffness = 0;
+  double stiffness_across = 0;   ///< N/m: across that axis; the same if it is alike in all directions
+  glm::dvec2 stiffness_axis{0};  ///< of length 1; (0, 0) if it is alike in all directions
+  /// N: what pushes everywhere alike. Beside a spring, what pushes in the patch's middle.
+  glm::dvec2 constant{0};
   std::optional<WallFace> wall;
   OpposingForce opposing;
   double breakaway = 0;  ///< N: what makes a resting hand slide, if it is more than the friction of a sliding one
-  double inertia = 0;    ///< kg
+  Principal inertia;     ///< kg
   Swing sway;            ///< slower than 10 Hz
   Swing vibration;
+  OtherForce other;
 
+  Principal stiffnesses() const { return {stiffness, stiffness_across, stiffness_axis}; }
   const Relief& relief() const { return still.relief; }
 };
 

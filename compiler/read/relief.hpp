@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "compiler/read/features.hpp"
+#include "compiler/read/half_plane.hpp"
 #include "compiler/read/period_band.hpp"
 #include "compiler/read/waves.hpp"
 #include "wale/memory.hpp"
@@ -22,15 +24,16 @@ struct Relief {
   double maximum = 0;      ///< N: the definition of Minsky 1995, the largest force found
   double rms = 0;          ///< N
   double mean = 0;         ///< N: the mean of its size
-  double transitions = 0;  ///< 1/m: sign changes along the strongest wave
+  double transitions = 0;  ///< 1/m: sign changes along the direction in which it changes
   /// m: after which it repeats, whatever the waveform: the period of the strongest wave, or the shortest step of a
   /// lattice. If it does not repeat, the size of its grain; 0 without relief, and for a single hill.
   double period = 0;
-  double orientation = 0;  ///< rad from the x axis, in [0, pi): the direction in which it changes
-  double anisotropy = 0;   ///< 0: the same in every direction; 1: in one direction only
-  double regularity = 0;   ///< 0 .. 1: the share of its mean square that repeats
-  double steepness = 0;    ///< 1/m: the 99th percentile of its change with position, over its amplitude
-  double crest = 0;        ///< the maximum of the strongest waveform over its root mean square; 0 without a wave
+  double orientation = 0;      ///< rad from the x axis, in [0, pi): the direction in which it changes
+  std::optional<double> push;  ///< rad in [0, pi): the axis along which it pushes; nothing if it pushes along several
+  double anisotropy = 0;       ///< 0: the same in every direction; 1: in one direction only
+  double regularity = 0;       ///< 0 .. 1: the share of its mean square that repeats
+  double steepness = 0;        ///< 1/m: the 99th percentile of its change with position, over its amplitude
+  double crest = 0;            ///< the maximum of the strongest waveform over its root mean square; 0 without a wave
   /// The waves, strongest first. A wave whose parts have a small common multiple is listed by its parts.
   std::vector<ReliefWave> waves;
 
@@ -56,6 +59,10 @@ struct StaticForce {
   LinearForce trend;              ///< the linear part, without the relief's; zero if features take its place
   bool pushes_away = false;       ///< the linear part points outward
   std::vector<Feature> features;  ///< walls, edges, springs that saturate, single hills
+  /// A half plane that explains all beside the linear part and the relief: then the only feature.
+  std::optional<HalfPlane> face;
+  /// The device's limit cuts trends off. They are told as they are where it does not.
+  bool cut_off = false;
   Relief relief;
 };
 

@@ -12,6 +12,7 @@
 
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/text/readable.hpp"
 #include "wale/batch.hpp"
 
 namespace wale {
@@ -144,7 +145,33 @@ std::optional<FaceFound> face_of(const Feature& feature, bool from_low) {
     if (std::abs(against[i]) > 0.1 * most) return std::nullopt;
   const double along =
       from_low ? feature.low + onset : feature.low + feature.step * static_cast<double>(count - 1) - onset;
-  return FaceFound{{along * feature.direction, inward, slope, 0, 0}, glm::length(flat) / most};
+  return FaceFound{{along * feature.direction + 0.0, inward + 0.0, slope, 0, 0}, glm::length(flat) / most};
+}
+
+/// The forces against hands that rest, go in and go out at one place, so that only the speed makes a difference.
+std::array<double, 3> against_at(const Bank& bank, glm::dvec2 place, glm::dvec2 inward) {
+  std::array<Hand, 3> hands{};
+  std::array<Force, 3> forces{};
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    const glm::dvec2 velocity = i == 0 ? glm::dvec2(0) : i == 1 ? slow * inward : -slow * inward;
+    hands[i].position = hands[i].workspace = glm::vec2(place);
+    hands[i].velocity = hands[i].raw_velocity = glm::vec2(velocity);
+  }
+  tick_coarsely(bank, hands, forces);
+  std::array<double, 3> against{};
+  for (std::size_t i = 0; i < forces.size(); ++i) against[i] = -glm::dot(glm::dvec2(forces[i]), inward);
+  return against;
+}
+
+/// The damping of a face: what it adds to what drags the hand in front of it too.
+void tell_damping(const Bank& bank, WallFace& face) {
+  // Not so deep that the device's limit takes a part.
+  const double most = bank.program().description().device.most();
+  const double depth = std::clamp(0.3 * (most - face.preload) / face.stiffness, 1e-5, 2e-3);
+  const auto inside = against_at(bank, face.place + depth * face.inward, face.inward);
+  const auto outside = against_at(bank, face.place - 2e-3 * face.inward, face.inward);
+  face.damping = ((inside[1] - inside[0]) - (outside[1] - outside[0])) / slow;
+  face.release = ((inside[0] - inside[2]) - (outside[0] - outside[2])) / slow;
 }
 
 }  // namespace
@@ -177,7 +204,7 @@ std::optional<WallFace> wall_face(const Bank& bank) {
         if (far > least_push && straight && depth >= 0 && depth <= 1.05 * step && cosine > 0.3 &&
             (!stiffest || stiffness > 1.001 * stiffest->stiffness)) {
           const double steps = static_cast<double>(i) - depth / step;
-          stiffest = WallFace{scan.from + steps * step * scan.direction, inward, stiffness, 0, 0};
+          stiffest = WallFace{scan.from + steps * step * scan.direction + 0.0, inward + 0.0, stiffness, 0, 0};
           met = &scan, depth_met = steps + 2;
         }
       }
@@ -186,10 +213,15 @@ std::optional<WallFace> wall_face(const Bank& bank) {
   }
   if (!stiffest) return stiffest;
   const glm::dvec2 in = slow * stiffest->inward;
-  const auto felt = forces_at(bank, *met, depth_met, {glm::dvec2(0), in, -in});
-  const auto against = [&](std::size_t i) { return -glm::dot(glm::dvec2(felt[i]), stiffest->inward); };
-  stiffest->damping = (against(1) - against(0)) / slow;
-  stiffest->release = (against(0) - against(2)) / slow;
+  const auto against = [&](double depth) {
+    const auto felt = forces_at(bank, *met, depth, {glm::dvec2(0), in, -in});
+    std::array<double, 3> found{};
+    for (std::size_t i = 0; i < felt.size(); ++i) found[i] = -glm::dot(glm::dvec2(felt[i]), stiffest->inward);
+    return found;
+  };
+  const auto inside = against(depth_met), outside = against(std::max(0.0, depth_met - 6));
+  stiffest->damping = ((inside[1] - inside[0]) - (outside[1] - outside[0])) / slow;
+  stiffest->release = ((inside[0] - inside[2]) - (outside[0] - outside[2])) / slow;
   return stiffest;
 }
 
@@ -204,19 +236,28 @@ std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& 
     if (found && (!stiffest || found->face.stiffness > stiffest->stiffness)) stiffest = found->face;
   }
   if (!stiffest) return stiffest;
-  // Both hands are at one place, so that only the speed makes a difference.
-  const glm::dvec2 in = slow * stiffest->inward, at = stiffest->place + 2e-3 * stiffest->inward;
-  std::array<Hand, 3> hands{};
-  std::array<Force, 3> forces{};
-  for (std::size_t i = 0; i < hands.size(); ++i) {
-    hands[i].position = hands[i].workspace = glm::vec2(at);
-    hands[i].velocity = hands[i].raw_velocity = glm::vec2(i == 0 ? glm::dvec2(0) : i == 1 ? in : -in);
-  }
-  tick_coarsely(bank, hands, forces);
-  const auto against = [&](std::size_t i) { return -glm::dot(glm::dvec2(forces[i]), stiffest->inward); };
-  stiffest->damping = (against(1) - against(0)) / slow;
-  stiffest->release = (against(0) - against(2)) / slow;
+  tell_damping(bank, *stiffest);
   return stiffest;
+}
+
+WallFace wall_face(const Bank& bank, const HalfPlane& face) {
+  WallFace found{face.offset * face.inward + 0.0, face.inward + 0.0, face.stiffness, 0, 0, face.preload};
+  // The part of the face that is nearest to the middle may lie beyond the patch's edge: the damping is felt within.
+  const PatchSize size = bank.size();
+  const glm::dvec2 half = 0.5 * glm::dvec2(size.width, size.height) - static_cast<double>(size.rim);
+  const glm::dvec2 along(-face.inward.y, face.inward.x);
+  double best = HUGE_VAL;
+  glm::dvec2 place = found.place;
+  for (int i = -32; i <= 32; ++i) {
+    const glm::dvec2 other = found.place + along * (glm::length(half) * i / 32);
+    const glm::dvec2 beyond = glm::abs(other) / half;
+    const double far = std::max(beyond.x, beyond.y);
+    if (far < best) best = far, place = other;
+  }
+  if (best < 1) found.place = place;
+  tell_damping(bank, found);
+  found.place = face.offset * face.inward + 0.0;
+  return found;
 }
 
 WallDepth deepest(const Bank& bank, const WallFace& face) {
@@ -251,11 +292,11 @@ std::string wall_place(const WallFace& face) {
   constexpr double straight = 0.9999;  // cosine of less than a degree
   const auto in_mm = [](double metres) { return std::round(1e4 * metres) / 10 + 0.0; };
   if (std::abs(face.inward.x) > straight)
-    return fmt::format("{} of x = {:g} mm", face.inward.x > 0 ? "right" : "left", in_mm(face.place.x));
+    return readable("{} of x = {:g} mm", face.inward.x > 0 ? "right" : "left", in_mm(face.place.x));
   if (std::abs(face.inward.y) > straight)
-    return fmt::format("{} y = {:g} mm", face.inward.y > 0 ? "above" : "below", in_mm(face.place.y));
-  return fmt::format("beyond ({:g}, {:g}) mm, towards {:.0f} degrees", in_mm(face.place.x), in_mm(face.place.y),
-                     std::atan2(face.inward.y, face.inward.x) * 180 / std::numbers::pi);
+    return readable("{} y = {:g} mm", face.inward.y > 0 ? "above" : "below", in_mm(face.place.y));
+  return readable("beyond ({:g}, {:g}) mm, towards {:.0f} degrees", in_mm(face.place.x), in_mm(face.place.y),
+                  std::atan2(face.inward.y, face.inward.x) * 180 / std::numbers::pi);
 }
 
 }  // namespace wale

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiler/read/features.hpp"
+#include "compiler/read/half_plane.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
@@ -15,8 +16,9 @@ struct WallFace {
   glm::dvec2 place{0};   ///< m from the patch's centre: where the force begins
   glm::dvec2 inward{0};  ///< unit vector into the wall
   double stiffness = 0;  ///< N/m: the outward force over depth
-  double damping = 0;    ///< N s/m: added against a hand that moves in
+  double damping = 0;    ///< N s/m: added against a hand that moves in, to what drags it outside
   double release = 0;    ///< N s/m: taken away from a hand that moves out
+  double preload = 0;    ///< N: with which it pushes where it begins
 };
 
 /// How far into a wall a hand can go before it leaves the patch, m, and the largest force that pushes it back on the
@@ -36,5 +38,8 @@ std::optional<WallFace> wall_face(const Bank& bank);
 /// The stiffest face among the features of a static force: a profile that is flat up to some place and pushes back in
 /// proportion to the depth from there on. A texture may lie over it.
 std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& features);
+
+/// A half plane that was found, with its damping.
+WallFace wall_face(const Bank& bank, const HalfPlane& face);
 
 }  // namespace wale

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
 
 #include "compiler/read/fundamental.hpp"
 #include "compiler/read/waves.hpp"
@@ -7,7 +10,7 @@ namespace wale {
 namespace {
 
 constexpr double counts_as_there = 0.004;  // of a wave's mean square, in one of its harmonics
-constexpr double counts_as_wave = 0.01;    // in a wave of its own and its harmonics
+constexpr double counts_as_wave = 0.02;    // in a wave of its own and its harmonics
 constexpr std::size_t far_off = 4;         // the first harmonic that a waveform hardly has without those between
 
 }  // namespace
@@ -52,6 +55,99 @@ std::vector<WavePart> parts_of(const FoundWave& wave) {
   for (WavePart& part : parts) part.share = sum > 0 ? part.share / sum : 1 / static_cast<double>(parts.size());
   std::ranges::sort(parts, std::ranges::greater{}, &WavePart::share);
   return parts;
+}
+
+SharedHarmonic shared_harmonic(const FoundWave& one, const FoundWave& other, glm::dvec2 size) {
+  constexpr int most = 6;
+  if (one.parts.size() > 1 || other.parts.size() > 1) return {};
+  for (int of_one = 2; of_one <= most; ++of_one) {
+    const glm::dvec2 there = static_cast<double>(of_one) * one.wave.waves;
+    const double ratio = glm::dot(there, other.wave.waves) / glm::dot(other.wave.waves, other.wave.waves);
+    const int of_other = static_cast<int>(std::round(std::abs(ratio)));
+    if (of_other < 2 || of_other > most || of_other == of_one) continue;
+    const glm::dvec2 off = there - std::round(ratio) * other.wave.waves;
+    if (glm::length(off * size) < out_of_place)
+      return {static_cast<std::size_t>(of_one), static_cast<std::size_t>(of_other)};
+  }
+  return {};
+}
+
+bool belongs_to_other(const FoundWave& one, const FoundWave& other, SharedHarmonic shared) {
+  const auto has_neighbour = [](const FoundWave& wave, std::size_t number) {
+    const std::vector<double> powers = harmonics_of(wave.wave, number + 1);
+    return powers[number - 2] >= counts_as_there || powers[number] >= counts_as_there;
+  };
+  return harmonics_of(one.wave, shared.of_one).back() >= counts_as_there && !has_neighbour(one, shared.of_one) &&
+         has_neighbour(other, shared.of_other);
+}
+
+void take_harmonic_off(FoldedWave& wave, std::size_t number) {
+  const std::size_t parts = wave.profile.size();
+  const std::vector<glm::dvec2> before = wave.profile;
+  for (std::size_t multiple = number; 2 * multiple < parts; multiple += number) {
+    glm::dvec2 cosine{0}, sine{0};
+    const auto turn = [&](std::size_t i) {
+      return 2 * std::numbers::pi * static_cast<double>(i * multiple % parts) / static_cast<double>(parts);
+    };
+    for (std::size_t i = 0; i < parts; ++i)
+      cosine += std::cos(turn(i)) * before[i], sine += std::sin(turn(i)) * before[i];
+    const double scale = 2 / static_cast<double>(parts);
+    for (std::size_t i = 0; i < parts; ++i)
+      wave.profile[i] -= scale * (std::cos(turn(i)) * cosine + std::sin(turn(i)) * sine);
+  }
+}
+
+double FoundWaves::period(glm::dvec2 size) const {
+  const glm::dvec2 strongest = waves.front().wave.waves;
+  constexpr int most = 5;
+  for (int number = 1; number <= most; ++number) {
+    const glm::dvec2 common = strongest / static_cast<double>(number);
+    const bool fits = std::ranges::all_of(waves, [&](const FoundWave& each) {
+      const glm::dvec2 other = each.wave.waves;
+      const double ratio = glm::dot(other, common) / glm::dot(common, common), whole = std::round(ratio);
+      const glm::dvec2 across = other - ratio * common;
+      if (glm::length(across * size) > out_of_place) return true;  // along another direction
+      return std::abs(whole) >= 1 && std::abs(whole) <= most &&
+             glm::length((other - whole * common) * size) < out_of_place;
+    });
+    if (fits) return 1 / glm::length(common);
+  }
+  return 1 / glm::length(strongest);
+}
+
+double Lattice::period() const {
+  // The steps from crest to crest of one wave along the crests of the other, and shorter ones made of both.
+  const double area = one.x * other.y - one.y * other.x;
+  glm::dvec2 a = glm::dvec2(other.y, -other.x) / area, b = glm::dvec2(-one.y, one.x) / area;
+  if (glm::length(a) > glm::length(b)) std::swap(a, b);
+  for (int turn = 0; turn < 8; ++turn) {  // Gauss's reduction
+    b -= std::round(glm::dot(a, b) / glm::dot(a, a)) * a;
+    if (glm::length(a) <= glm::length(b)) break;
+    std::swap(a, b);
+  }
+  return glm::length(a);
+}
+
+glm::dvec2 busiest_place(const StillForces& window, const std::vector<glm::dvec2>& forces) {
+  constexpr std::size_t blocks = 8;
+  const std::size_t block = window.side / blocks;
+  double most = -1;
+  glm::dvec2 found = window.centre;
+  for (std::size_t top = 0; top + block <= window.side; top += block)
+    for (std::size_t left = 0; left + block <= window.side; left += block) {
+      double change = 0;
+      for (std::size_t row = top; row < top + block; ++row)
+        for (std::size_t column = left; column + 1 < left + block; ++column) {
+          const glm::dvec2 step = forces[row * window.side + column + 1] - forces[row * window.side + column];
+          change += glm::dot(step, step);
+        }
+      const glm::dvec2 middle = window.centre - 0.5 * window.size +
+                                window.cell() * (glm::dvec2(left, top) + 0.5 * static_cast<double>(block));
+      // The middle is preferred to blocks that are hardly stronger.
+      const double aside = glm::length((middle - window.centre) / (0.5 * window.size)) / std::numbers::sqrt2;
+      if (change * (1 - 0.1 * aside) > most) most = change * (1 - 0.1 * aside), found = middle;
+    }
+  return found;
 }
 
 }  // namespace wale

@@ -35,11 +35,13 @@ constexpr std::size_t lattice_parts = 20;
 constexpr std::size_t finer_lattice_parts = 40;
 constexpr std::size_t lattice_places = 9000;
 constexpr double least_lattice = 0.6;
-constexpr double least_turn = 0.2;  // rad between two directions
+constexpr double most_joined_harmonic = 24;  // that is found before the wave whose harmonic it is
+constexpr double least_turn = 0.2;           // rad between two directions
 
 /// Every fourth place or so, chosen as if by chance: a regular choice would alias.
 StillForces thinned_by_chance(const StillForces& window, const std::vector<glm::dvec2>& forces, std::size_t about) {
   StillForces thin{window.side, window.centre, window.size, {}, {}};
+  thin.places.reserve(about + about / 8), thin.forces.reserve(about + about / 8);
   std::uint64_t random = 88172645463325252u;  // Marsaglia's xorshift
   for (std::size_t i = 0; i < forces.size(); ++i) {
     random ^= random << 13, random ^= random >> 7, random ^= random << 17;
@@ -79,40 +81,41 @@ class WaveSearch {
 
   FoundWaves search() {
     if (!(all_ > 0)) return std::move(found_);
-    StillForces window = whole_;
-    std::vector<glm::dvec2> forces = found_.rest;
+    StillForces closer_window;
+    std::vector<glm::dvec2> rest_there;
+    const StillForces* window = &whole_;
+    const std::vector<glm::dvec2>* forces = &found_.rest;  // in the window
     bool again = false;
     for (std::size_t level = 0;; ++level) {
-      WindowSpectrum spectrum(window, forces);
-      while (found_.waves.size() < most_waves_found && mean_square(forces) > 0 &&
-             next_wave(window, forces, spectrum, level)) {
+      WindowSpectrum spectrum(*window, *forces);
+      while (found_.waves.size() < most_waves_found && mean_square(*forces) > 0 &&
+             next_wave(*window, *forces, spectrum, level)) {
         if (found_.local) return finished();
         if (mean_square(found_.rest) < negligible * all_) return finished();
-        forces = level == 0 ? found_.rest : rest_at(window.places, window.forces);
-        spectrum = WindowSpectrum(window, forces);
+        if (level > 0) rest_there = rest_at(window->places, window->forces);
+        spectrum = WindowSpectrum(*window, *forces);
         again |= level > 0;
       }
       // Without its fine waves the whole may show slow ones that were too small a part of it.
       if (again && found_.waves.size() < most_waves_found) {
-        again = false, level = 0, window = whole_, forces = found_.rest;
-        spectrum = WindowSpectrum(window, forces);
-        while (found_.waves.size() < most_waves_found && next_wave(window, forces, spectrum, level)) {
-          forces = found_.rest;
-          spectrum = WindowSpectrum(window, forces);
-        }
+        again = false, level = 0, window = &whole_, forces = &found_.rest;
+        spectrum = WindowSpectrum(*window, *forces);
+        while (found_.waves.size() < most_waves_found && next_wave(*window, *forces, spectrum, level))
+          spectrum = WindowSpectrum(*window, *forces);
         if (mean_square(found_.rest) < negligible * all_) return finished();
       }
       if (level == 0 && find_lattice(spectrum)) return finished();
-      const bool finer = spectrum.finer() * mean_square(forces) > 0.5 * negligible * all_;
+      const bool finer = spectrum.finer() * mean_square(*forces) > 0.5 * negligible * all_;
       const bool enough = level == 0 ? !finer && !found_.waves.empty() : !finer;
       if (enough || level == closer.size() || found_.waves.size() == most_waves_found) return finished();
       const double longest = std::max(whole_.size.x, whole_.size.y);
       const glm::dvec2 size = glm::min(glm::dvec2(longest / closer[level]), whole_.size),
                        room = 0.5 * (whole_.size - size);
-      glm::dvec2 centre = level == 0 ? busiest_place(whole_, found_.rest) : window.centre;
+      glm::dvec2 centre = level == 0 ? busiest_place(whole_, found_.rest) : window->centre;
       centre = glm::clamp(centre, whole_.centre - room, whole_.centre + room);
-      window = still_forces(field_, centre, size, closer_side);
-      forces = rest_at(window.places, window.forces);
+      closer_window = still_forces(field_, centre, size, closer_side);
+      rest_there = rest_at(closer_window.places, closer_window.forces);
+      window = &closer_window, forces = &rest_there;
     }
   }
 
@@ -237,18 +240,66 @@ class WaveSearch {
     std::size_t step = 0;
     for (std::size_t i = 0; i < powers.size(); ++i)
       if (powers[i] >= weak_part) step = std::gcd(step, i + 1);
-    if (step > 1 && last.parts.size() == 1) {
-      add_to_rest(last.wave, 1);
-      last.wave = folded(whole_.places, found_.rest, static_cast<double>(step) * last.wave.waves,
-                         std::max<std::size_t>(last.wave.profile.size() / step, 64));
-      add_to_rest(last.wave, -1);
-    }
+    if (step > 1 && last.parts.size() == 1) shorten(last, step);
+    join_harmonics();
     StillForces some = every(3);
-    some.forces = rest_at(some.places, some.forces);
+    some.forces = rest_at(some.places, std::move(some.forces));
     fit_trend(some);
     update_rest();
     for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
     return true;
+  }
+
+  /// Finds a wave anew whose harmonics are all multiples of one.
+  void shorten(FoundWave& found, std::size_t step) {
+    add_to_rest(found.wave, 1);
+    found.wave = folded(whole_.places, found_.rest, static_cast<double>(step) * found.wave.waves,
+                        std::max<std::size_t>(found.wave.profile.size() / step, 64));
+    add_to_rest(found.wave, -1);
+  }
+
+  /// A wave that lay nearly where a part of a sum does looked like one until it was found itself.
+  void drop_parts_that_are_gone() {
+    for (FoundWave& each : found_.waves) {
+      if (each.parts.size() < 2) continue;
+      std::vector<std::size_t> left;
+      for (const WavePart& part : parts_of(each))
+        if (part.share >= strong_part) left.push_back(part.number);
+      if (left.size() != 1) continue;
+      shorten(each, left.front());
+      each.parts = {1}, each.power = mean_square(each.wave.profile);
+    }
+  }
+
+  /// The number of a wave among the harmonics of a coarser one; 0 if it is none.
+  std::size_t harmonic_of(const FoundWave& coarse, const FoundWave& fine) const {
+    const double ratio = glm::dot(fine.wave.waves, coarse.wave.waves) / glm::dot(coarse.wave.waves, coarse.wave.waves);
+    const double number = std::round(ratio);
+    const glm::dvec2 off = (fine.wave.waves - number * coarse.wave.waves) * whole_.size;
+    return std::abs(number) >= 2 && std::abs(number) <= most_joined_harmonic && glm::length(off) < out_of_place
+               ? static_cast<std::size_t>(std::abs(number))
+               : 0;
+  }
+
+  /// Joins waves that are harmonics of another one to it, unless they are waves of their own.
+  void join_harmonics() {
+    for (std::size_t coarse = 0; coarse < found_.waves.size(); ++coarse)
+      for (std::size_t fine = 0; fine < found_.waves.size(); ++fine) {
+        const std::size_t number = harmonic_of(found_.waves[coarse], found_.waves[fine]);
+        if (number == 0 || found_.waves[coarse].parts.size() > 1 || found_.waves[fine].parts.size() > 1) continue;
+        FoundWave &one = found_.waves[coarse], &other = found_.waves[fine];
+        std::vector<glm::dvec2> forces = found_.rest;
+        for (std::size_t i = 0; i < forces.size(); ++i)
+          forces[i] += one.wave.at(whole_.places[i]) + other.wave.at(whole_.places[i]);
+        const std::size_t bins =
+            most_bins(std::max(one.wave.profile.size(), parts_of_a_wave * number), forces.size() / 4);
+        FoldedWave both = folded(whole_.places, forces, one.wave.waves, bins);
+        if (fine_wave(harmonics_of(both, both.profile.size() / 2)) == number) continue;
+        one.wave = std::move(both);
+        found_.waves.erase(found_.waves.begin() + static_cast<std::ptrdiff_t>(fine));
+        update_rest();
+        return join_harmonics();
+      }
   }
 
   /// Fits the trend and all waves, the last of which is new, in turn: first at some places, then once at all.
@@ -257,7 +308,7 @@ class WaveSearch {
     std::size_t most = 0;
     for (const FoundWave& each : found_.waves) most = std::max(most, each.wave.profile.size());
     StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / (places_a_part * most)));
-    some.forces = rest_at(some.places, some.forces);
+    some.forces = rest_at(some.places, std::move(some.forces));
     for (int turn = 0; turn < turns; ++turn) {
       fit_trend(some);
       for (FoundWave& each : found_.waves) {
@@ -360,8 +411,25 @@ class WaveSearch {
     return true;
   }
 
+  /// A harmonic that two waves share belongs to the one that has others beside it.
+  void settle_shared_harmonics() {
+    for (FoundWave& one : found_.waves)
+      for (FoundWave& other : found_.waves) {
+        const SharedHarmonic shared = shared_harmonic(one, other, whole_.size);
+        if (shared.of_one == 0 || !belongs_to_other(one, other, shared)) continue;
+        for (FoundWave* each : {&one, &other}) add_to_rest(each->wave, 1);
+        take_harmonic_off(one.wave, shared.of_one);
+        add_to_rest(one.wave, -1);
+        other.wave = folded(whole_.places, found_.rest, other.wave.waves, other.wave.profile.size());
+        add_to_rest(other.wave, -1);
+        for (FoundWave* each : {&one, &other}) each->power = mean_square(each->wave.profile);
+      }
+  }
+
   FoundWaves finished() {
     if (found_.local) return std::move(found_);
+    drop_parts_that_are_gone();
+    settle_shared_harmonics();
     const double rest = mean_square(found_.rest);
     double waves = 0;
     for (const FoundWave& each : found_.waves) waves += each.power;
@@ -379,41 +447,6 @@ class WaveSearch {
 };
 
 }  // namespace
-
-double Lattice::period() const {
-  // The steps from crest to crest of one wave along the crests of the other, and shorter ones made of both.
-  const double area = one.x * other.y - one.y * other.x;
-  glm::dvec2 a = glm::dvec2(other.y, -other.x) / area, b = glm::dvec2(-one.y, one.x) / area;
-  if (glm::length(a) > glm::length(b)) std::swap(a, b);
-  for (int turn = 0; turn < 8; ++turn) {  // Gauss's reduction
-    b -= std::round(glm::dot(a, b) / glm::dot(a, a)) * a;
-    if (glm::length(a) <= glm::length(b)) break;
-    std::swap(a, b);
-  }
-  return glm::length(a);
-}
-
-glm::dvec2 busiest_place(const StillForces& window, const std::vector<glm::dvec2>& forces) {
-  constexpr std::size_t blocks = 8;
-  const std::size_t block = window.side / blocks;
-  double most = -1;
-  glm::dvec2 found = window.centre;
-  for (std::size_t top = 0; top + block <= window.side; top += block)
-    for (std::size_t left = 0; left + block <= window.side; left += block) {
-      double change = 0;
-      for (std::size_t row = top; row < top + block; ++row)
-        for (std::size_t column = left; column + 1 < left + block; ++column) {
-          const glm::dvec2 step = forces[row * window.side + column + 1] - forces[row * window.side + column];
-          change += glm::dot(step, step);
-        }
-      const glm::dvec2 middle = window.centre - 0.5 * window.size +
-                                window.cell() * (glm::dvec2(left, top) + 0.5 * static_cast<double>(block));
-      // The middle is preferred to blocks that are hardly stronger.
-      const double aside = glm::length((middle - window.centre) / (0.5 * window.size)) / std::numbers::sqrt2;
-      if (change * (1 - 0.1 * aside) > most) most = change * (1 - 0.1 * aside), found = middle;
-    }
-  return found;
-}
 
 FoundWaves find_waves(const StillField& field, const StillForces& whole, const std::vector<Feature>& features) {
   return WaveSearch(field, whole, features).search();

@@ -13,9 +13,8 @@ namespace wale {
 struct FoundWave {
   FoldedWave wave;
   double power = 0;  ///< N^2: its mean square, over the patch or, for a local wave, where it was found
-  /// The waves of which it is the sum if these have a small common multiple: their numbers of periods in one of its
-  /// own. Otherwise 1 alone.
-  std::vector<std::size_t> parts;
+  /// The waves of which it is the sum if these share a short period: their numbers of periods in it. Otherwise 1 alone.
+  std::vector<std::size_t> parts = {1};
 };
 
 /// A wave of which another one is the sum.
@@ -27,6 +26,17 @@ struct WavePart {
 /// The waves of which a wave is the sum, each with its harmonics; itself if it is no sum. A fine wave on a coarse one,
 /// of which a whole number fits, looks like a harmonic: but nothing lies between it and what the coarse one has.
 std::vector<WavePart> parts_of(const FoundWave& wave);
+
+/// The first harmonic that two waves along one direction share: its number in either; 0 if they share none.
+struct SharedHarmonic {
+  std::size_t of_one = 0, of_other = 0;
+};
+/// `size` is the patch's, m.
+SharedHarmonic shared_harmonic(const FoundWave& one, const FoundWave& other, glm::dvec2 size);
+/// Whether a shared harmonic that `one` holds stands alone there, and has others beside it in `other`.
+bool belongs_to_other(const FoundWave& one, const FoundWave& other, SharedHarmonic shared);
+/// Takes a harmonic and its multiples off a wave.
+void take_harmonic_off(FoldedWave& wave, std::size_t number);
 
 /// Two directions in which a force repeats that is no sum of waves.
 struct Lattice {
@@ -45,6 +55,10 @@ struct FoundWaves {
   double share = 0;              ///< 0 .. 1: the share of the mean square that repeats, where it was found
   std::vector<glm::dvec2> rest;  ///< N, at the places of the whole: what neither a wave nor the trend explains
   LinearForce trend;             ///< of the whole, beside the waves
+
+  /// m: after which the strongest wave and those along its direction repeat together, if that is a small multiple of
+  /// their periods; otherwise the strongest wave's period.
+  double period(glm::dvec2 size) const;
 };
 
 /// Finds the waves of the force in the patch without its rim, sampled as `whole`, beside the features that are known.

@@ -9,6 +9,7 @@
 
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/solve/choose_map.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -50,20 +51,20 @@ void check_neighbours(const LevelScale& scale, const Levels::Level& lower, const
   const double written = enough ? std::ceil(scale.level_of(*enough) * 1000) / 1000 : HUGE_VAL;
   Advice advice =
       written <= 1
-          ? Advice(fmt::format("`{} {:.3g}` is one just noticeable difference from it; `wale levels {}` proposes more",
-                               higher.name, written, percept))
+          ? Advice(typeable("`{} {:.3g}` is one just noticeable difference from it; `wale levels {}` proposes more",
+                            higher.name, written, percept))
                 .fact("enough", written)
           : Advice(fmt::format("no higher level is far enough from it; lower `{}`, as `wale levels {}` proposes",
                                lower.name, percept));
-  advice = std::move(advice).see(lower.span, fmt::format("{} {:.3g}", percept, lower.value)).fact("apart", *apart);
+  advice = std::move(advice).see(lower.span, typeable("{} {:.3g}", percept, lower.value)).fact("apart", *apart);
   Diagnostic found = std::move(advice).about(
       Code::close_levels, higher.span,
-      fmt::format("`{}` and `{}` are hard to tell apart on `{}`: {:.2g} of a just noticeable difference of {}",
-                  higher.name, lower.name, device, *apart, percept));
+      readable("`{}` and `{}` are hard to tell apart on `{}`: {:.2g} of a just noticeable difference of {}",
+               higher.name, lower.name, device, *apart, percept));
   const std::vector<std::string> outside = threshold->unmet(low, high, {}, {});
-  found.cause =
-      fmt::format("at these sizes, a relative difference of {:.2g} is noticed at d' = 1 ({}{}{})", threshold->weber,
-                  threshold->source, outside.empty() ? "" : ", extrapolated from ", fmt::join(outside, ", "));
+  found.cause = readable("at these sizes, a relative difference of {:.2g} is noticed at d' = 1 ({}{}{})",
+                         threshold->weber, threshold->source, outside.empty() ? "" : ", extrapolated from ",
+                         fmt::format("{}", fmt::join(outside, ", ")));
   diagnostics.report(std::move(found));
 }
 

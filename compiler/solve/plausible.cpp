@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
 #include "compiler/expression/check_expression.hpp"
+#include "compiler/text/readable.hpp"
 
 namespace wale {
 
@@ -44,6 +46,26 @@ class PlaceEvaluator {
     at(x, y);
     return (*this)[0];
   }
+  /// After `at`: how large the numbers are of which the first root is the sum, so that its rounding is a share of them.
+  double size_of_sum() {
+    sizes_.resize(values_.size());
+    for (std::size_t id = 0; id < values_.size(); ++id) sizes_[id] = std::abs(values_[id]);
+    for (const TermId id : varying_) {
+      const Term& term = terms_[id];
+      if (term.kind != TermKind::operation) continue;
+      const double a = sizes_[term.a], b = sizes_[term.b];
+      switch (term.operation) {
+        case Operation::add:
+        case Operation::subtract: sizes_[id] = a + b; break;
+        case Operation::negate: sizes_[id] = a; break;
+        case Operation::multiply:
+          sizes_[id] = std::max(a * std::abs(values_[term.b]), b * std::abs(values_[term.a]));
+          break;
+        default: break;
+      }
+    }
+    return sizes_[roots_[0]];
+  }
 
  private:
   /// Finds the terms that the roots need, evaluates those that are the same everywhere, and lists the others in order.
@@ -55,6 +77,7 @@ class PlaceEvaluator {
     for (TermId id = last + 1; id-- > 0;) {
       if (!needed[id]) continue;
       const Term& term = terms_[id];
+      if (level_of_table(term, material)) continue;
       const bool is_look_up = term.kind == TermKind::operation &&
                               (term.operation == Operation::sample || term.operation == Operation::recall ||
                                term.operation == Operation::cell || term.operation == Operation::peak);
@@ -69,7 +92,9 @@ class PlaceEvaluator {
     for (TermId id = 0; id <= last; ++id) {
       if (!needed[id]) continue;
       const Term& term = terms_[id];
-      if (term.kind == TermKind::parameter)
+      if (const auto level = level_of_table(term, material))
+        values_[id] = *level;
+      else if (term.kind == TermKind::parameter)
         values_[id] = term.index < material.parameters.size() ? material.parameters[term.index].value : 0;
       else if (term.known())
         values_[id] = term.value;
@@ -78,6 +103,17 @@ class PlaceEvaluator {
       else
         varying_.push_back(id);
     }
+  }
+
+  /// What a look-up in a level table, as a picture of one grey is, gives everywhere: its height or, for a slope, 0.
+  std::optional<double> level_of_table(const Term& term, const CheckedMaterial& material) const {
+    if (term.kind != TermKind::component) return std::nullopt;
+    const Term& look_up = terms_[term.a];
+    if (look_up.operation != Operation::sample || look_up.index >= material.tables.size()) return std::nullopt;
+    const auto& heights = material.tables[look_up.index].heights;
+    if (heights.empty() || std::ranges::adjacent_find(heights, std::not_equal_to{}) != heights.end())
+      return std::nullopt;
+    return term.index == 0 ? heights[0] : 0;
   }
 
   double value_of(const Term& term, double x, double y) const {
@@ -98,7 +134,7 @@ class PlaceEvaluator {
 
   const Terms& terms_;
   std::vector<TermId> roots_, varying_;
-  std::vector<double> values_;
+  std::vector<double> values_, sizes_;
   double half_width_ = 0, half_height_ = 0, rim_ = 0, seconds_per_tick_ = 0;
   bool possible_ = true;
 };
@@ -127,10 +163,10 @@ struct Way {
 // Askew, so that no line of a pattern lies along one of them.
 constexpr Way ways[] = {{-0.97, 0.131, 0.93, 0.177}, {0.213, -0.95, 0.171, 0.97}, {-0.91, -0.83, 0.89, 0.94}};
 
-/// Whether two heights differ by no more than rounding.
-bool is_level(double low, double high) {
+/// Whether two heights differ by no more than the rounding of numbers of a size, or of their own.
+bool is_level(double low, double high, double size = 0) {
   constexpr double rounding = 2e-6;
-  return !(high - low > rounding * std::max(std::abs(low), std::abs(high)));
+  return !(high - low > rounding * std::max({size, std::abs(low), std::abs(high)}));
 }
 
 std::optional<Jump> jump_along(PlaceEvaluator& height, const Way& way, std::size_t steps) {
@@ -187,7 +223,7 @@ std::optional<Jump> jump_along(PlaceEvaluator& height, const Way& way, std::size
 }
 
 std::string in_numbers(double value, const std::string& unit) {
-  return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
+  return readable("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
 /// The largest force that a declared device gives, N.
@@ -260,17 +296,22 @@ std::optional<Span> find_level(const CheckedMaterial& material, const DeviceProf
     if (!carrier.relief) continue;
     PlaceEvaluator height(material, device, {*carrier.relief});
     if (!height.possible()) continue;
-    constexpr int places = 24;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (int i = 0; i < places; ++i) {
+    // About half a millimetre apart on the patch of a hand, which finds narrow ribs and single hills. Nearly every
+    // height shows within a few places that it changes.
+    constexpr int places = 65536;
+    double low = std::numeric_limits<double>::infinity(), high = -low, size = 0;
+    bool level = true;
+    for (int i = 0; level && i < places; ++i) {
       // Golden ratios spread the places, so that no pattern is in step with them.
-      const double u = std::fmod(0.618034 * i, 1.0), v = std::fmod(0.754878 * i, 1.0);
+      const double u = std::fmod(0.7548776662466927 * i, 1.0), v = std::fmod(0.5698402909980532 * i, 1.0);
       const double value = height.value_at((2 * u - 1) * height.reach_x(), (2 * v - 1) * height.reach_y());
       if (!std::isfinite(value)) return std::nullopt;
       low = std::min(low, value);
       high = std::max(high, value);
+      size = std::max(size, height.size_of_sum());
+      level = is_level(low, high, size);
     }
-    if (is_level(low, high) && (low != 0 || high != 0)) return carrier.span;
+    if (level && (low != 0 || high != 0)) return carrier.span;
   }
   return std::nullopt;
 }

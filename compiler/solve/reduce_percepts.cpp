@@ -80,7 +80,7 @@ double PerceptSolver::serve(const std::vector<std::size_t>& order, double served
 }
 
 void PerceptSolver::reduce() {
-  const double limit = device_.profile.most();
+  const double limit = most();
   const std::vector<std::size_t> order = by_priority();
   double low = 0, high = static_cast<double>(order.size());
   if (!(serve(order, high) > limit)) return;
@@ -104,7 +104,7 @@ void PerceptSolver::reduce() {
 
 /// Reports a percept that gets less than its level needs although the device could render it alone.
 void PerceptSolver::report_reduced(const Told& told, double used, const std::vector<std::string>& before) {
-  const double limit = device_.profile.most(), exerts = told.percept->exerts;
+  const double limit = most(), exerts = told.percept->exerts;
   const char* limited = device_.profile.shaker ? "m/s^2" : "N";
   const double asked = told.law->carrier_of(told.asked->level, coupled_sizes(told));
   constexpr double rounding = 1e-9;
@@ -163,7 +163,7 @@ void PerceptSolver::serve_jointly(const std::vector<std::size_t>& order, SolvedM
   const auto either = [&](TermId condition, TermId yes, TermId no) {
     return terms.apply(Operation::select, condition, yes, no);
   };
-  const TermId limit = terms.literal(device_.profile.most()), all = terms.literal(static_cast<double>(order.size()));
+  const TermId limit = terms.literal(most()), all = terms.literal(static_cast<double>(order.size()));
   TermId low = terms.literal(0), high = all, half = terms.literal(0.5);
   TermId force_low = serve(order, low, solved, copy), force_high = serve(order, high, solved, copy);
   const TermId beyond = apply(Operation::less, limit, force_high);
@@ -185,7 +185,7 @@ void PerceptSolver::reduce(SolvedMaterial& solved, TermCopier& copy) {
   const std::vector<std::size_t> order = by_priority();
   if (serves_out_of_order(order)) serve_jointly(order, solved, copy);
   const auto apply = [&](Operation operation, TermId a, TermId b) { return terms.apply(operation, a, b); };
-  TermId left = terms.literal(device_.profile.most());
+  TermId left = terms.literal(most());
   const auto take = [&](const Told& told) {
     const TermId force = apply(Operation::multiply, terms.literal(told.percept->exerts), *told.term);
     left = apply(Operation::maximum, apply(Operation::subtract, left, force), terms.literal(0));

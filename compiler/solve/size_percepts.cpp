@@ -75,15 +75,21 @@ void PerceptSolver::work_out_sizes() {
              "use one `magnitude` and one carrier with + - * / ^ log exp sqrt, or a quadratic with a `branch`");
     } else if (told.asked->level > 0 && !law.reaches(told.asked->level, couples)) {
       report(Code::inverse_out_of_range, told.asked->span,
-             fmt::format("no {} gives {} {:.3g} by this law ({})", told.percept->argument(), told.asked->name,
-                         told.asked->level, told.map->source),
-             Advice(fmt::format("its measured levels are {:.2g} to {:.2g}", law.level_of(told.map->valid_low, couples),
-                                law.level_of(told.map->valid_high, couples)))
+             readable("no {} gives {} {:.3g} by this law ({})", told.percept->argument(), told.asked->name,
+                      told.asked->level, told.map->source),
+             Advice(readable("its measured levels are {:.2g} to {:.2g}", law.level_of(told.map->valid_low, couples),
+                             law.level_of(told.map->valid_high, couples)))
                  .see(told.map->span, "the map"));
     } else {
       warn_of_range(told);
     }
   }
+}
+
+/// The levels that a map's range of sizes covers: "from 0.04 to 0.99"; "from 0.13 on" where it goes beyond level 1.
+static std::string levels_of_range(const Law& law, const Map& map) {
+  const auto [low, high] = std::minmax({law.level_of(map.valid_low), law.level_of(map.valid_high)});
+  return high > 1.005 ? readable("from {:.2g} on", low) : readable("from {:.2g} to {:.2g}", low, high);
 }
 
 void PerceptSolver::warn_of_range(const Told& told) {
@@ -92,7 +98,7 @@ void PerceptSolver::warn_of_range(const Told& told) {
   const Percept& percept = *told.percept;
   const Map& map = *told.map;
   const std::string of_carrier = unit(percept);
-  const double most = percept.exerts > 0 ? device_.profile.most() / percept.exerts : HUGE_VAL;
+  const double most = percept.exerts > 0 ? this->most(told) / percept.exerts : HUGE_VAL;
   const double size = told.size;
   constexpr double rounding = 1e-6;  // a reference stimulus exactly at the end of the range is inside it
   if (size > most)
@@ -110,10 +116,11 @@ void PerceptSolver::warn_of_range(const Told& told) {
            asked.level < percept.near_threshold
                ? readable("expected {} {:.2g} or more, found {:.3g}, which few people can feel", asked.name,
                           percept.near_threshold, asked.level)
-               : readable("expected {} from {:.2g} to {:.2g}, the measured range, found {:.3g} ({})", asked.name,
-                          law.level_of(map.valid_low), law.level_of(map.valid_high), asked.level, map.source),
-           readable("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
-                    law.level_of(map.valid_high), map.valid_low, map.valid_high, of_carrier));
+               : readable("expected {} {}, {}, found {:.3g} ({})", asked.name, levels_of_range(law, map),
+                          map.valid_assumed ? "the range assumed for its map" : "the measured range", asked.level,
+                          map.source),
+           readable("{}: levels {}, {:.3g} to {:.3g} {}", map.valid_assumed ? "assumed" : "measured",
+                    levels_of_range(law, map), map.valid_low, map.valid_high, of_carrier));
   if (map.recalled())
     report(Code::unverified_basis, asked.place(),
            readable("{} rests on a figure that was recalled and not looked up ({})", asked.name, map.source),
@@ -135,7 +142,29 @@ bool PerceptSolver::may_exceed() const {
         told.solved ? !told.map->couples.empty() : !constant_value(*terms_, (*carriers_)[told.carrier].size);
     sum += live ? HUGE_VAL : told.percept->exerts * (told.solved ? most_size(told) : told.size);
   }
-  return solved && !(sum <= device_.profile.most());
+  return solved && !(sum <= most());
+}
+
+double PerceptSolver::most_at(const std::optional<double>& rate) const {
+  const double peak = device_.profile.most();
+  const auto& shaker = device_.profile.shaker;
+  if (!shaker || !rate) return peak;
+  return std::min(peak, shaker->acceleration(1, std::clamp(*rate, shaker->frequency_low, shaker->frequency_high)));
+}
+
+double PerceptSolver::most(const Told& told) const {
+  return most_at(constant_value(*terms_, (*carriers_)[told.carrier].force_y, &material_.parameters));
+}
+
+void PerceptSolver::find_most() {
+  most_ = device_.profile.most();
+  double strongest = 0;
+  for (const Told& told : told_) {
+    const double force = exertion(told) * told.size;
+    if (!(force > strongest)) continue;
+    strongest = force;
+    most_ = most_at(constant_value(*terms_, (*carriers_)[told.carrier].force_y));
+  }
 }
 
 // ---- expressions ----------------------------------------------------------------------------------------------------
@@ -204,11 +233,7 @@ FateRecord PerceptSolver::fate(const AskedPercept& asked) const {
   const Map& map = *found->map;
   const auto rule = realised_.find(asked.name);
   // The level follows from the size, which may have been reduced.
-  double most = found->percept->exerts > 0 ? device_.profile.most() / found->percept->exerts : HUGE_VAL;
-  // If the frequency of a pad's shaking is known, its limit is that at this frequency.
-  if (const auto& shaker = device_.profile.shaker)
-    if (const auto rate = constant_value(*terms_, (*carriers_)[found->carrier].force_y, &material_.parameters))
-      most = std::min(most, shaker->acceleration(1, std::clamp(*rate, shaker->frequency_low, shaker->frequency_high)));
+  const double most = found->percept->exerts > 0 ? this->most(*found) / found->percept->exerts : HUGE_VAL;
   const double given = found->law->level_of(std::min(found->size, most), coupled_sizes(*found));
   record.given = std::isfinite(given) ? static_cast<float>(std::clamp(given, 0.0, 1.0)) : record.asked;
   constexpr double rounding = 1e-4;

@@ -68,6 +68,7 @@ class Solver {
         report_open(open);
     size_memories();
     warn_of_fine_periods();
+    warn_of_fast_rates();
     if (diagnostics_.has_errors()) return std::move(solved_);
     substitute(percepts);
     percepts.describe(solved_);
@@ -94,13 +95,13 @@ class Solver {
     solved_.patch_width = std::min(width, double{widest});
     solved_.patch_height = std::min(height, double{widest});
     if (std::max(width, height) <= workspace) return;
-    const std::string asked = fmt::format("{:.4g} mm x {:.4g} mm", 1e3 * width, 1e3 * height);
-    cut_ = fmt::format("a patch of {}, cut to the workspace, {:.4g} mm across", asked, 1e3 * workspace);
+    const std::string asked = typeable("{:.4g} mm x {:.4g} mm", 1e3 * width, 1e3 * height);
+    cut_ = readable("a patch of {}, cut to the workspace, {:.4g} mm across", asked, 1e3 * workspace);
     report(Code::cut_patch, material_.patch ? material_.patch_span : material_.span,
-           fmt::format("a patch of {} does not fit `{}` and is cut to its workspace, {:.4g} mm across", asked,
-                       device_->profile.name, 1e3 * workspace),
-           Advice(fmt::format("the rest cannot be felt there; `patch {:.4g} mm, {:.4g} mm` fits",
-                              1e3 * solved_.patch_width, 1e3 * solved_.patch_height))
+           readable("a patch of {} does not fit `{}` and is cut to its workspace, {:.4g} mm across", asked,
+                    device_->profile.name, 1e3 * workspace),
+           Advice(typeable("the rest cannot be felt there; `patch {:.4g} mm, {:.4g} mm` fits",
+                           1e3 * solved_.patch_width, 1e3 * solved_.patch_height))
                .fact("high", 1e3 * workspace, "mm"));
   }
 
@@ -277,13 +278,14 @@ class Solver {
         declarations_.percepts.each([&](const std::string&, const Percept& each) {
           if (each.carrier == carrier.name) percept = &each;
         });
-    const bool texture = !percept || percept->argument() == "amplitude";
-    report(Code::open_amplitude, open_spans_[open], "the size of this force is not given",
-           texture ? fmt::format("give the percept, as in `perceptual {{ {} 0.5 }}`, or the amplitude: "
-                                 "`amplitude: 1.2 N`",
-                                 percept ? percept->name : "roughness")
-                   : fmt::format("give the percept, as in `perceptual {{ {} 0.5 }}`, or the {}", percept->name,
-                                 percept->argument()));
+    if (!percept)
+      return report(Code::open_amplitude, open_spans_[open], "the size of this force is not given",
+                    "give it a size; no percept tells it");
+    const bool is_force = percept->carrier_dimension == declarations_.dimension("force");
+    report(
+        Code::open_amplitude, open_spans_[open], "the size of this force is not given",
+        fmt::format("give the percept, as in `perceptual {{ {} 0.5 }}`, or the {}{}", percept->name,
+                    percept->argument(), is_force ? fmt::format(": `{}: 1.2 N`", percept->argument()) : std::string()));
   }
 
   /// Computes the number of cells of each memory on the patch.
@@ -318,6 +320,22 @@ class Solver {
     }
   }
 
+  /// Warns of frequencies with fewer than two ticks a period, which become other, slower ones.
+  void warn_of_fast_rates() {
+    const double most = device_->profile.rate / 2;
+    for (const CheckedRate& rate : material_.rates)
+      if (const auto frequency = constant_value(*open_terms_, rate.frequency, &material_.parameters);
+          frequency && *frequency > most)
+        report(
+            Code::under_resolution, rate.span,
+            readable("a frequency of {:.4g} Hz is more than half of the {:.4g} ticks a second of `{}`, so it is felt "
+                     "as a slower one",
+                     *frequency, device_->profile.rate, device_->profile.name),
+            Advice(readable("make it {:.4g} Hz or less", most))
+                .fact("frequency", *frequency, "Hz")
+                .fact("most", most, "Hz"));
+  }
+
   /// Warns of periods of less than two encoder counts, which become noise at the handle.
   void warn_of_fine_periods() {
     const double step = device_->profile.position_step();
@@ -328,16 +346,16 @@ class Solver {
       constexpr double patches = 4;  // even half a period of it is not felt any more
       if (length && *length > patches * widest && said.emplace(period.span.source, period.span.begin).second)
         report(Code::beyond_soft_range, period.span,
-               fmt::format("a period of {:.4g} m is {:.0f} times as long as the patch ({:.0f} mm), so nothing repeats",
-                           *length, *length / widest, 1e3 * widest),
-               Advice(fmt::format("for millimetres write `{:.4g} mm`", *length))
+               readable("a period of {:.4g} m is {:.0f} times as long as the patch ({:.0f} mm), so nothing repeats",
+                        *length, *length / widest, 1e3 * widest),
+               Advice(typeable("for millimetres write `{:.4g} mm`", *length))
                    .fact("period", 1e3 * *length, "mm")
                    .fact("most", 1e3 * patches * widest, "mm"));
       if (!length || *length >= 2 * step || !said.emplace(period.span.source, period.span.begin).second) continue;
       report(Code::under_resolution, period.span,
-             fmt::format("a period of {:.3g} mm is less than two counts of the encoder of `{}` ({:.3g} mm each)",
-                         1e3 * *length, device_->profile.name, 1e3 * step),
-             Advice(fmt::format("make it {:.2g} mm or more", std::ceil(2e4 * step) / 10))
+             readable("a period of {:.3g} mm is less than two counts of the encoder of `{}` ({:.3g} mm each)",
+                      1e3 * *length, device_->profile.name, 1e3 * step),
+             Advice(readable("make it {:.2g} mm or more", std::ceil(2e4 * step) / 10))
                  .fact("period", 1e3 * *length, "mm")
                  .fact("least", 2e3 * step, "mm"));
     }

@@ -31,6 +31,9 @@ struct SolvedWrite {
   TermId u = 0, v = 0, value = 0;
 };
 
+/// The limit of a force that has none, N: every program has one, and none may have a greater one (W0701).
+inline constexpr double unlimited_newton = 1000;
+
 /// A material for one device, with no open quantities.
 struct SolvedMaterial {
   std::string name;
@@ -53,6 +56,9 @@ struct SolvedMaterial {
   std::vector<SolvedPercept> percepts;
   std::vector<FateRecord> fates;  ///< those of the percepts asked for, in their order, then those of the physics
   DeviceProfile device;
+  /// Whether a force ends at the device's limit. Without it the shape of a force is read, and not what the device gives
+  /// of it; such a program is for no device.
+  bool limited = true;
   double patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m
   double active_watt = 0;  ///< power that the program may give to the hand by itself, W
   Layers layers;

@@ -126,6 +126,7 @@ void PerceptSolver::plan(const Terms& terms, const std::vector<Carrier>& carrier
     if (told.solved) solve_size(told, parameters);
   if (diagnostics_.error_count() > errors_before) return;
   work_out_sizes();
+  find_most();
   reduce();
   mark_decalibrating(parameters);
 }
@@ -236,8 +237,8 @@ void PerceptSolver::report_choice(const Percept& percept, const AskedPercept& as
   if (!choice.rivals.empty()) {
     std::vector<std::string> names;
     for (const Map* map : choice.rivals) names.push_back(map->name.empty() ? "(no name)" : map->name);
-    Advice advice = fmt::format("choose one after the level, as in `{} {:.2g}, by {}`: {}", asked.name, asked.level,
-                                names.front(), fmt::join(names, ", "));
+    Advice advice = typeable("choose one after the level, as in `{} {:.2g}, by {}`: {}", asked.name, asked.level,
+                             names.front(), fmt::format("{}", fmt::join(names, ", ")));
     for (const Map* map : choice.rivals) advice = std::move(advice).see(map->span, map->source);
     return report(Code::several_maps, asked.place(),
                   fmt::format("{} maps for {} fit `{}` equally well: {}", choice.rivals.size(), asked.name,

@@ -102,6 +102,14 @@ class PerceptSolver {
   void reduce(SolvedMaterial& solved, TermCopier& copy);
   TermId asked_size(const Told& told, SolvedMaterial& solved, TermCopier& copy) const;
   bool may_exceed() const;
+  /// The device's limit for all percepts together, in N or m/s^2. Where a pad shakes at one frequency, whatever its
+  /// parameters, the limit is that at this frequency: the actuator gives less there than at its best. Several percepts
+  /// shake together at the rate of the strongest.
+  double most() const { return most_; }
+  void find_most();
+  /// That for one percept alone, at the parameters' defaults.
+  double most(const Told& told) const;
+  double most_at(const std::optional<double>& rate) const;
   double most_size(const Told& told) const;
   std::vector<double> coupled_sizes(const Told& told) const;
   Law::Sizes coupled_terms(const Told& told, SolvedMaterial& solved) const;
@@ -135,6 +143,7 @@ class PerceptSolver {
   std::vector<std::size_t> candidates_;      ///< carriers that tell of a percept
   std::vector<Told> told_;
   std::vector<std::size_t> order_;  ///< indices into `told_`: coupled percepts before those that couple them
+  double most_ = 0;
   std::set<std::uint32_t> settled_;
   std::unordered_set<std::uint64_t> summands_;  ///< the x and y terms of what the force adds up, once it is needed
   ParameterNames names_;                        ///< of the parameters

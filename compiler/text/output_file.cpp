@@ -78,6 +78,8 @@ bool is_one_of(const struct stat& output, const InputFiles& inputs) {
   });
 }
 
+}  // namespace
+
 /// The bytes on their way to a descriptor. It remembers the first failure and takes no more from then on. Those to
 /// standard output follow what was printed before, and their failure is told with that of everything else there.
 class DescriptorBuffer : public std::streambuf {
@@ -115,6 +117,8 @@ class DescriptorBuffer : public std::streambuf {
   int error_ = 0;
   std::array<char, buffer_size> buffer_;
 };
+
+namespace {
 
 /// The name by which this process can link a file that has none.
 std::string name_of(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "schema/patch_program.hpp"
 
 namespace wale {
@@ -8,7 +10,7 @@ namespace wale {
 /// cache, a machine several times slower and the runtime's own work.
 inline constexpr double tick_share_of_period = 0.25;
 /// Most that setup and its peaks may cost together, in units: about a second on the control thread.
-inline constexpr double setup_cost_limit = 1e9;
+inline constexpr std::uint64_t setup_cost_limit = 1'000'000'000;
 /// Most points of a peak.
 inline constexpr std::uint32_t peak_points_limit = 1u << 20;
 /// Samples per side of a table.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <cstdint>
 #include <set>
 
 #include "runtime/machine/arithmetic.hpp"
@@ -10,10 +12,16 @@
 namespace wale {
 namespace {
 
-/// Refuses a value outside low .. high, not-a-number included.
-template <typename... What>
-void require_within(double value, double low, double high, const What&... what) {
+/// Refuses a quantity outside low .. high, not-a-number included.
+template <std::floating_point Value, typename... What>
+void require_within(Value value, double low, double high, const What&... what) {
   if (!(value >= low && value <= high)) refuse(what..., " is ", value, ", expected ", low, " .. ", high);
+}
+
+/// The same for a count.
+template <std::integral Count, typename... What>
+void require_within(Count count, std::uint64_t low, std::uint64_t high, const What&... what) {
+  if (!(count >= low && count <= high)) refuse(what..., " is ", count, ", expected ", low, " .. ", high);
 }
 
 void verify_registers(const PatchProgram& program) {
@@ -150,12 +158,12 @@ void verify_vibration(const Shaker& vibration) {
   if (vibration.position > PositionSource::touch)
     refuse("the device has a position source that this Wale does not know");
   require_within(vibration.exploring_speed, has_position ? 0 : 1e-3, 100, "the device's exploring speed (m/s)");
-  require_within(static_cast<double>(vibration.response.size()), 1, 4096, "the number of frequencies in its response");
+  require_within(vibration.response.size(), 1, 4096, "the number of frequencies in its response");
   double frequency = 0;
   for (const Shaker::Response& response : vibration.response) {
     if (!(response.frequency > frequency)) refuse("the frequencies of the device's response do not rise");
     require_within(frequency = response.frequency, 1e-3, 1e5, "a frequency of the device's response (Hz)");
-    require_within(static_cast<double>(response.points.size()), 1, 4096, "the number of points in its response");
+    require_within(response.points.size(), 1, 4096, "the number of points in its response");
     double command = 0, acceleration = 0;
     for (const auto& point : response.points) {
       if (!(point.command > command && point.acceleration > acceleration)) {
@@ -280,12 +288,10 @@ void verify_figures(const PatchProgram& program) {
 }
 
 void verify_costs(const PatchProgram& program) {
-  const double period = tick_share_of_period * 1e9 / program.device.rate;
-  const auto check = [period](const std::string& name, std::span<const Instruction> code) {
-    const auto cost = static_cast<double>(cost_of(code));
-    if (cost > period) {
-      refuse(name, " costs ", cost, " units, expected at most ", std::floor(period), " in the device's period");
-    }
+  const auto most = static_cast<long>(tick_share_of_period * 1e9 / program.device.rate);
+  const auto check = [most](const std::string& name, std::span<const Instruction> code) {
+    const long cost = cost_of(code);
+    if (cost > most) refuse(name, " costs ", cost, " units, expected at most ", most, " in the device's period");
   };
   check("tick", program.tick);
   check("enter", program.enter);
@@ -294,10 +300,9 @@ void verify_costs(const PatchProgram& program) {
   for (std::size_t i = 0; i < program.percepts.size(); ++i) {
     check("percept " + std::to_string(i), program.percepts[i].prediction);
   }
-  double setup = static_cast<double>(cost_of(program.setup));
-  for (const Peak& peak : program.peaks) {
-    setup += static_cast<double>(peak.points) * (1.0 + static_cast<double>(cost_of(peak.code)));
-  }
+  auto setup = static_cast<std::uint64_t>(cost_of(program.setup));
+  for (const Peak& peak : program.peaks)
+    setup += std::uint64_t{peak.points} * (1 + static_cast<std::uint64_t>(cost_of(peak.code)));
   if (setup > setup_cost_limit) {
     refuse("setup and its peaks cost ", setup, " units, expected at most ", setup_cost_limit);
   }

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "runtime/stage/felt_response.hpp"
+
 namespace wale {
 namespace {
 
@@ -110,17 +112,44 @@ Result<float> size_from_vibration(const PerceptRecord& percept, const FeltVibrat
   return vibration.acceleration.p99;
 }
 
-/// The carrier's size under a rubbing hand, N.
-Result<float> size_from_rubbing(const PerceptRecord& percept, const Felt& felt, long least_crossings) {
-  if (percept.extractor != Extractor::lateral_force)
-    return not_measured(percept, "the force while rubbing does not carry " + percept.name);
+/// What a hand must do to show the carrier of a percept, and what was measured of it.
+struct Shown {
+  std::optional<float> size;
+  const char* needed = "";  ///< "the hand slid"
+  const char* motion = "";  ///< the hand of `wale feel` that does it; empty if that depends on the material
+};
+
+Shown shown_of(const PerceptRecord& percept, const FeltResponse& response) {
+  switch (percept.extractor) {
+    case Extractor::opposing_force: return {response.drag, "slid over it", "lateral"};
+    case Extractor::damping: return {response.viscosity, "moved through it", "lateral"};
+    case Extractor::stiffness: return {response.stiffness, "moved to and fro in it", "lateral"};
+    case Extractor::wall_stiffness: return {response.wall_stiffness, "pressed into its wall", ""};
+    case Extractor::wall_damping: return {response.wall_damping, "pressed into its wall", ""};
+    case Extractor::inertia: return {response.mass, "started and stopped with it", "lateral"};
+    case Extractor::vibration: return {response.shaking, "stayed on the patch", "rest"};
+    default: return {};
+  }
+}
+
+/// The carrier's size from a run on a device that pushes, in the carrier's unit.
+Result<float> size_from_run(const PerceptRecord& percept, const Felt& felt, long least_crossings) {
+  const bool texture = percept.extractor == Extractor::lateral_force;
+  const Shown shown = shown_of(percept, felt.response);
+  if (!texture && *shown.needed == 0)
+    return not_measured(percept, "no motion of a hand shows the carrier of " + percept.name);
   if (!percept.alone)
     return not_measured(percept, "other forces push besides the " + percept.carrier +
                                      ", so the force at the handle does not give the level of " + percept.name);
-  if (felt.crossings < least_crossings)
+  if (texture && felt.crossings < least_crossings)
     return not_measured(percept, "the hand crossed the texture " + std::to_string(felt.crossings) +
                                      " times, expected at least " + std::to_string(least_crossings));
-  return felt.force_rubbing.p99 * percept.basis.share;
+  if (texture) return felt.force_rubbing.p99 * percept.basis.share;
+  if (shown.size) return *shown.size;
+  Error error = not_measured(
+      percept, std::string("the hand hardly ") + shown.needed + ", so it did not show the " + percept.carrier);
+  if (*shown.motion != 0) error.mend = std::string("the hand `") + shown.motion + "` does";
+  return error;
 }
 
 }  // namespace
@@ -165,6 +194,7 @@ Felt measure(const Record& record, const MeasureOptions& options) {
   if (inside > 0) felt.stuck = static_cast<double>(inside_stuck) / static_cast<double>(inside);
 
   const float amplitude = options.predicted_amplitude > 0 ? options.predicted_amplitude : felt.force.p99;
+  felt.response = response_of(ticks, record.seconds_per_tick);
   count_swings(ticks, amplitude / 2, felt);
   measure_movement(ticks, felt);
   return felt;
@@ -175,9 +205,9 @@ std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long leas
   const auto& percepts = bank.program().description().percepts;
   for (std::size_t i = 0; i < percepts.size(); ++i) {
     const Result<float> size = felt.vibration ? size_from_vibration(percepts[i], *felt.vibration)
-                                              : size_from_rubbing(percepts[i], felt, least_crossings);
+                                              : size_from_run(percepts[i], felt, least_crossings);
     Result<Prediction> back = size ? Result<Prediction>(predict(bank, i, *size)) : size.error();
-    levels.push_back({i, percepts[i].name, amplitude(bank, i), std::move(back)});
+    levels.push_back({i, percepts[i].name, amplitude(bank, i), size ? *size : 0, std::move(back)});
   }
   return levels;
 }

@@ -110,6 +110,41 @@ TEST(HandMotion, AHandLeansOnStickinessWithoutSliding) {
   EXPECT_NEAR(run->record.ticks.back().position.x, 0, 3e-4);
 }
 
+// Each percept by itself, under a hand that shows it.
+TEST(HandMotion, PerceptsOtherThanTexturesAreReadBack) {
+  struct Shown {
+    const char* percept;
+    double level;
+    const char* hand;
+  };
+  const Shown all[] = {{"stickiness", 0.5, "lateral"}, {"stickiness", 0.9, "lateral along y"},
+                       {"viscosity", 0.6, "lateral"},  {"springiness", 0.5, "lateral"},
+                       {"hardness", 0.4, "press"},     {"hardness", 0.8, "press"},
+                       {"heaviness", 0.7, "lateral"},  {"vibration", 0.5, "rest"}};
+  for (const Shown& each : all) {
+    Declared declared("material m { perceptual { " + std::string(each.percept) + " " + std::to_string(each.level) +
+                      " } }\n");
+    const FeltReport report = felt(declared.program(), each.hand, 6);
+    ASSERT_EQ(report.levels.size(), 1u) << each.percept;
+    ASSERT_TRUE(report.levels[0].back) << each.percept << ": " << in_words(report.levels[0].back.error());
+    EXPECT_NEAR(report.levels[0].back->level, each.level, 0.1 * each.level) << each.percept << '\n'
+                                                                            << felt_text(report);
+    EXPECT_NEAR(report.asked[0], each.level, 1e-6);
+  }
+}
+
+TEST(HandMotion, AHandThatCannotShowAPerceptSaysWhichOneDoes) {
+  Declared wall("material m { perceptual { hardness 0.5 } }\n");
+  const std::string none = felt_text(felt(wall.program(), "press along 180 deg", 6));
+  EXPECT_NE(none.find("the hand hardly pressed into its wall"), std::string::npos) << none;
+  EXPECT_NE(none.find("--hand \"press along 0 deg at 20 mm, 0 mm\""), std::string::npos) << none;
+  EXPECT_TRUE(felt(wall.program(), "press along 0 deg at 20 mm, 0 mm", 6).levels.at(0).back);
+  Declared sticky("material m { perceptual { stickiness 0.5 } }\n");
+  const std::string resting = felt_text(felt(sticky.program(), "rest", 6));
+  EXPECT_NE(resting.find("the hand hardly slid over it"), std::string::npos) << resting;
+  EXPECT_NE(resting.find("`lateral`"), std::string::npos) << resting;
+}
+
 TEST(HandMotion, ARunIsAsLongAsItsReadBackNeeds) {
   Declared declared(
       "material m { perceptual { bumpiness 0.5 } physical { force = bumps(grating(x, period: 25 mm, smooth: 0.25)) } "

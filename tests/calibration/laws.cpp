@@ -208,7 +208,8 @@ TEST(Minsky1995, SpreadOfTheObserversExponents) {
   EXPECT_NEAR(sum / 15, 0.76, 1e-9);
   EXPECT_NEAR((3 * 0.9 + 2.1) / 4, 1.2, 1e-9);
   const Declared declared("");
-  EXPECT_NEAR(declared.map("minsky1995.figure19").uncertainty.spread, std::sqrt((squares - sum * sum / 15) / 14), 0.005);
+  EXPECT_NEAR(declared.map("minsky1995.figure19").uncertainty.spread, std::sqrt((squares - sum * sum / 15) / 14),
+              0.005);
 }
 
 /// At constant height the force of a grating is proportional to 1 / period, so Minsky's map must have nearly the

@@ -128,7 +128,10 @@ std::vector<std::string> faults_of(const RecordDecl& record, const SyntaxTree& t
     // The grades of the slope and of a tied anchor are those of figures; the handle is a device.
     if (setting.key.text == "evidence")
       for (const char* grade : {"slope measured", "slope published", "anchor measured", "anchor published"})
-        published = published || text.find(grade) != std::string::npos || kind->first == "rule";
+        published = published || text.find(grade) != std::string::npos;
+    // A rule has one grade.
+    if (setting.key.text == "evidence" && kind->first == "rule")
+      published = text.find("measured") != std::string::npos || text.find("published") != std::string::npos;
     if (setting.key.text == "quote")
       for (const SettingItem& item : setting.items)
         if (const auto* literal = std::get_if<TextLiteral>(&tree.expr(*item.value)))

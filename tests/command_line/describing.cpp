@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "tests/command_line/running.hpp"
 
@@ -121,15 +122,32 @@ TEST(Describe, HasUsualRangesWhereTheyAreNarrower) {
 
 TEST(Describe, SaysWhyThereIsNoPercept) {
   const TemporaryFolder folder;
-  const auto reason = [&](const std::string& force) {
+  const auto reason = [&](const std::string& force, const char* of) {
     const std::string file = folder.write("a.wale", "wale 1\nmaterial a { physical { force = " + force + " } }\n");
-    return wale({"describe", file, "--json"}).json().at("no_percept").get<std::string>();
+    return wale({"describe", file, "--json"}).json().at(of).get<std::string>();
   };
-  EXPECT_TRUE(contains(reason("-2 N s/m * velocity"), "the hand's velocity"));
-  EXPECT_TRUE(contains(reason("spring(20 N/m)"), "depends on the position"));
-  EXPECT_TRUE(contains(reason("spring(20 N/m) * sin(time * 6 / 1 s)"), "time"));
-  EXPECT_TRUE(contains(reason("0 N/m * hand"), "does not push"));
+  EXPECT_TRUE(contains(reason("-2 N s/m * velocity", "no_texture"), "the hand's velocity"));
+  EXPECT_TRUE(contains(reason("spring(20 N/m)", "no_texture"), "depends on the position"));
+  EXPECT_TRUE(contains(reason("spring(20 N/m) * sin(time * 6 / 1 s)", "no_texture"), "time"));
+  EXPECT_TRUE(contains(reason("vector(1 N, 0 N)", "no_percept"), "the same everywhere"));
+  EXPECT_TRUE(contains(reason("lateral(sin(2 pi * x / 0.3 mm), amplitude: 1 N)", "no_percept"), "0.3 mm"));
+  EXPECT_TRUE(contains(reason("0 N/m * hand", "no_percept"), "does not push"));
   EXPECT_FALSE(wale({"describe", corduroy, "--json"}).json().contains("no_percept"));
+  EXPECT_FALSE(wale({"describe", corduroy, "--json"}).json().contains("no_texture"));
+}
+
+/// The lines that LANGUAGE.md says `describe` prints of the corduroy.
+TEST(Describe, SaysOfTheCorduroyWhatItsPageSays) {
+  const std::string page = bytes_of(std::string(WALE_SOURCE_DIR) + "/schema/LANGUAGE.md");
+  const std::string from = "```text\nfeels\n";
+  const auto begin = page.find(from);
+  ASSERT_NE(begin, std::string::npos);
+  std::istringstream block(page.substr(begin + 8, page.find("```", begin + 8) - begin - 8));
+  const std::string said = wale({"describe", corduroy}).out;
+  int lines = 0;
+  for (std::string line; std::getline(block, line); ++lines)
+    EXPECT_TRUE(contains(said, line + "\n")) << line << "\n" << said;
+  EXPECT_GT(lines, 20);
 }
 
 TEST(Describe, ListsTheExportsOfAModule) {

@@ -73,7 +73,9 @@ TEST(OwnDevices, OfTheFileItselfAreSimulated) {
   Declared declared;
   declared.material = declared.folder.write("two.wale", bytes_of(declared.material) + Declared::text("mine", false));
   for (const auto& words : declared.verbs("mine"))
-    if (words.front() != "levels") EXPECT_EQ(wale(words).status, 0) << testing::PrintToString(words);
+    if (words.front() != "levels") {
+      EXPECT_EQ(wale(words).status, 0) << testing::PrintToString(words);
+    }
   const Outcome real = wale({"feel", declared.material, "--device", "mine", "--seconds", "0.1"});
   EXPECT_TRUE(real.status == 0 && contains(real.out, "simulated mine")) << real.out << real.err;
 }
@@ -239,7 +241,9 @@ TEST(OwnDevices, OfOneNameTheFirstCountsAndTheOthersAreNamed) {
   }
   const Outcome listed = wale({"devices", "--json", "--devices", second, "--devices", declared.file});
   for (const auto& device : listed.json()) {
-    if (device["name"] == "mine") EXPECT_EQ(device["rate_hz"], 900);
+    if (device["name"] == "mine") {
+      EXPECT_EQ(device["rate_hz"], 900);
+    }
   }
   EXPECT_TRUE(contains(listed.err, "W0214")) << listed.err;
 }

@@ -141,7 +141,7 @@ TEST(Depth, OfExpressionsCountsThoseOfTheFunctionsCalled) {
 
 TEST(Depth, OfASmallStackIsEnoughForWhatIsShipped) {
   const TemporaryFolder folder;
-  for (const std::string words : {std::string("describe "), std::string("build -o ") + quoted(folder / "o.wpp") + " "})
+  for (const std::string& words : {std::string("describe "), std::string("build -o ") + quoted(folder / "o.wpp") + " "})
     EXPECT_EQ(wale_within("ulimit -s 128", words + quoted(corduroy)).status, 0) << words;
 }
 

@@ -166,15 +166,14 @@ TEST(Compare, AFieldThatNoOtherCueReadsIsComparedByItsForce) {
   EXPECT_EQ(compare(dish, dome).verdict, Verdict::apart);
   EXPECT_EQ(compare(dish, dish).verdict, Verdict::alike);
   const Cues constant = cues("force = vector(2 N, 0 N)");
-  EXPECT_NEAR(*constant[CueKind::other_force], 2, 1e-6);
+  EXPECT_NEAR(*constant[CueKind::push_x], 2, 1e-6);
+  EXPECT_FALSE(constant[CueKind::push_y] || constant[CueKind::other_force]);
   EXPECT_EQ(compare(nothing, constant).verdict, Verdict::apart);
-  // 4 N s/m resist along x and push along y, so the mean over all strokes is 0.
+  // 4 N s/m resist along x and push along y, so the mean over all directions is 0.
   const Cues askew = cues("active 0.1 W\nforce = 4 N s/m * vector(-velocity.x, velocity.y)");
-  EXPECT_FALSE(askew[CueKind::viscosity]);
-  // Strokes of these speeds along either axis: 4 N s/m times the root of their mean square.
-  double squares = 0;
-  for (const double speed : {0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2, 0.4}) squares += speed * speed / 8;
-  EXPECT_NEAR(*askew[CueKind::other_force], 4 * std::sqrt(squares), 1e-3);
+  EXPECT_NEAR(askew[CueKind::viscosity].value_or(0), 4, 1e-3);
+  EXPECT_NEAR(askew[CueKind::viscosity_across].value_or(0), -4, 1e-3);
+  EXPECT_FALSE(askew[CueKind::other_force]);
   EXPECT_EQ(compare(nothing, askew).verdict, Verdict::apart);
   // A force that another cue describes is not counted twice.
   for (const char* force : {"vector(1.2 N * sin(2 * pi * x / 2.5 mm), 0 N)", "-120 N/m * hand", "-7 N s/m * velocity"})

@@ -97,6 +97,27 @@ TEST(AskedAndRead, GratingsInPhaseOppositionReadAsWhatIsLeft) {
   EXPECT_TRUE(json["evidence"].is_string());
 }
 
+// The compiler corrects the fates of a program, and `describe` those at chosen parameters: at the defaults, the same.
+TEST(AskedAndRead, FatesAtTheDefaultsAreThoseOfTheProgram) {
+  const std::pair<const char*, std::string> cases[] = {
+      {"roughness 0.6", against("1.5 N")},
+      {"roughness 0.6", "    force = lateral(grating(x, period: 2.5 mm))"},
+      {"roughness 0.4", against("0.2 N")},
+      {"roughness 0.6", "    force = lateral(grating(x, period: 14 mm))"},
+      {"bumpiness 0.5", "    force = bumps(grating(x, period: 25 mm, smooth: 0.25)) + spring(60 N/m)"}};
+  for (const auto& [perceptual, physical] : cases) {
+    const Made made(perceptual, physical);
+    const Description description = made.description();
+    for (const FateRecord& kept : made.program.description().fates) {
+      if (!kept.percept) continue;
+      const FateRecord& now = fate(description, kept.name);
+      EXPECT_EQ(now.fate, kept.fate) << physical;
+      EXPECT_EQ(now.given, kept.given) << physical;
+      EXPECT_EQ(now.reason, kept.reason) << physical;
+    }
+  }
+}
+
 TEST(AskedAndRead, GratingsThatCancelReadAsNothing) {
   // 1.93406 N is the size for 0.6.
   const Made made("roughness 0.6", against("1.93406 N"));
@@ -216,8 +237,9 @@ TEST(Outside, ARateIsSaid) {
   EXPECT_EQ(inside.codes().find("W0407"), std::string::npos);
   const Made made("vibration 0.3", "    active 100 W\n    force = vibrate(rate: 400 Hz)");
   EXPECT_NE(made.codes().find("W0407"), std::string::npos);
-  EXPECT_NE(description_text(made.description()).find("outside what was measured (rate 400 Hz, assumed to 350)"),
-            std::string::npos)
+  EXPECT_NE(
+      description_text(made.description()).find("outside the range assumed for its map (rate 400 Hz, assumed to 350)"),
+      std::string::npos)
       << description_text(made.description());
 }
 

@@ -101,11 +101,14 @@ TEST(Bands, SumsOfSinesShareTheirSizeBetweenRoughnessAndBumpiness) {
   EXPECT_LE(wrong, 1) << "of " << programs;
 }
 
-TEST(Bands, WavesWithASmallCommonMultipleCountByIt) {
-  // Of 2 and of 3 periods in 0.96 mm neither counts alone, and what repeats after 0.96 mm does.
-  const std::vector<Sine> sines = {{0.48, 1, 0, 0.3}, {0.32, 0.8, 0, 1}};
-  const Program program = compiling::compiled(sines[0].force() + sines[1].force());
-  EXPECT_NEAR(carrier(program, "roughness"), percentile_99(sines), 0.04);
+TEST(Bands, WavesWithASmallCommonMultipleCountByTheirOwnPeriods) {
+  // Nothing pushes with the period after which both repeat: 20 mm, 30 mm, 0.96 mm.
+  for (const auto& [first, second] : {std::pair(4.0, 5.0), {6.0, 15.0}, {0.48, 0.32}}) {
+    const std::vector<Sine> sines = {{first, 1, 0, 0.3}, {second, 0.8, 0, 1}};
+    const Program program = compiling::compiled(sines[0].force() + sines[1].force());
+    EXPECT_NEAR(carrier(program, "roughness"), due(sines, 0.7, 10), 0.04) << first;
+    EXPECT_NEAR(carrier(program, "bumpiness"), due(sines, 10, 100), 0.04) << first;
+  }
 }
 
 TEST(Bands, AFineWaveOnACoarseOneIsNoHarmonicOfIt) {

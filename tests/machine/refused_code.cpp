@@ -119,7 +119,7 @@ TEST(Documentation, VerificationHasTheFiguresOfTheCode) {
     EXPECT_NE(page.find(sentence), std::string::npos) << sentence;
   }
   EXPECT_EQ(tick_share_of_period, 0.25);
-  EXPECT_EQ(setup_cost_limit, 1e9);
+  EXPECT_EQ(setup_cost_limit, 1'000'000'000u);
 }
 
 }  // namespace

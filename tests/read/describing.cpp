@@ -44,6 +44,7 @@ TEST(DescribingForces, TheRoughestStimulusOfTable6IsLevelOneHoweverItIsWritten) 
   ASSERT_TRUE(intervals.people);
   EXPECT_NEAR(std::log10(intervals.people->high / roughness->level), 2.0484 * 0.0519 * std::sqrt(15), 2e-3);
   EXPECT_TRUE(description.no_percept.empty());
+  EXPECT_TRUE(description.no_texture.empty());
 }
 
 TEST(DescribingForces, AQuarterOfTheForceIsAThirdAsRough) {
@@ -157,7 +158,7 @@ TEST(DescribingForces, WithoutATextureHaveNoRoughnessAndAReason) {
         Case{"active 1 W\nforce = 3 N s/m * velocity", "slick", 0.11}}) {
     const Description description = described(each.force);
     EXPECT_FALSE(percept(description, "roughness")) << each.force;
-    EXPECT_FALSE(description.no_percept.empty()) << each.force;
+    EXPECT_FALSE(description.no_texture.empty()) << each.force;
     EXPECT_EQ(description.texture->kind, each.kind);
     EXPECT_EQ(description.texture->force.amplitude, 0) << each.force;
     ASSERT_TRUE(description.texture->confidence_mean) << each.force;

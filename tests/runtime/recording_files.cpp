@@ -188,7 +188,9 @@ TEST(RecordingFile, OfACutFileAllWholeTicksBeforeTheCutCanBeRead) {
                                  : "the " + std::to_string(ticks) +
                                        " ticks before it are intact: read them with --ticks " + std::to_string(ticks);
     const bool at_a_chunk = (size - first_chunk) % chunk_size == 0;
-    if (!at_a_chunk) EXPECT_EQ(refused(read), "the file is cut short at byte " + std::to_string(size) + "; " + left);
+    if (!at_a_chunk) {
+      EXPECT_EQ(refused(read), "the file is cut short at byte " + std::to_string(size) + "; " + left);
+    }
     if (ticks == 0) continue;
     const auto before = Recording::read(cut, "cut", ticks);
     ASSERT_TRUE(before) << refused(before);

@@ -133,5 +133,37 @@ TEST(Noise, JumpsFromPixelToPixelWithinItsLargestForce) {
   }
 }
 
+// On a rectangle through the middles of two pixels side by side, the two legs along x cross the same forces and cancel.
+// The legs along y lie each within one pixel, so a turn gains their length times the difference of both forces.
+TEST(Noise, AClosedPathAcrossTwoPixelsGainsTheEnergyThatIsDeclared) {
+  const std::pair<const char*, const char*> materials[] = {{"chapter4.wale", "Noise20"},
+                                                           {"chapter4.wale", "Noise35"},
+                                                           {"chapter4.wale", "Noise50"},
+                                                           {"appendix_a.wale", "noise_map"},
+                                                           {"jitter.wale", "Noise"}};
+  constexpr double pixel = 0.37e-3, least_declared = 0.01;
+  constexpr double pace = 0.25;  // m/s, of the hand by which a material's energy is judged
+  for (const auto& [file, name] : materials) {
+    const Program program = Module(file).program(name);
+    ASSERT_GT(program.description().active_watt, 0) << name;
+    Bank bank(program);
+    double most = 0;
+    for (int i = -80; i < 80; ++i) {
+      const double left = (i + 0.5) * pixel, right = left + pixel, low = 0.1 * pixel, high = 0.9 * pixel;
+      double joule = 0;
+      constexpr int parts = 100;
+      for (int part = 0; part < parts; ++part) {
+        const double x = left + (part + 0.5) / parts * (right - left), y = low + (part + 0.5) / parts * (high - low);
+        joule += (at(bank, x, low).x - at(bank, x, high).x) * (right - left) / parts;
+        joule += (at(bank, right, y).y - at(bank, left, y).y) * (high - low) / parts;
+      }
+      const double expected = (at(bank, right, low).y - at(bank, left, low).y) * (high - low);
+      ASSERT_NEAR(joule, expected, 1e-8) << name << ", pixel " << i;
+      most = std::max(most, std::abs(joule) * pace / (2 * (right - left + high - low)));
+    }
+    EXPECT_GT(most, least_declared) << name;
+  }
+}
+
 }  // namespace
 }  // namespace wale::sandpaper::irregular_test

@@ -27,18 +27,18 @@ glm::dvec2 place(std::size_t i, glm::dvec2 half) {
   return (2.0 * unit - 1.0) * half;
 }
 
-std::optional<std::size_t> band_of(double period) {
-  for (const double edge : bands)
-    if (std::abs(period - edge) < near_edge * edge) return std::nullopt;
-  return static_cast<std::size_t>(std::ranges::count_if(bands, [&](double edge) { return period > edge; }));
-}
-
 /// What a class says of its programs comes before what follows from their laws.
 void settle(Expected& expected, Expected found) {
   if (expected.kind == Expected::Kind::none) expected = found;
 }
 
 }  // namespace
+
+std::optional<std::size_t> band_of(double period) {
+  for (const double edge : bands)
+    if (std::abs(period - edge) < near_edge * edge) return std::nullopt;
+  return static_cast<std::size_t>(std::ranges::count_if(bands, [&](double edge) { return period > edge; }));
+}
 
 double rounded(double value, int digits) {
   if (value == 0) return 0;
@@ -57,6 +57,11 @@ std::string millimetres(double metres) { return number(1e3 * metres) + " mm"; }
 double any_orientation(Chance& chance) {
   if (chance.happens(0.4)) return chance.one_of({0.0, pi / 2});
   return rounded(chance.between(0, pi), 3);
+}
+
+/// The waves of which a waveform is the sum, or itself.
+std::vector<Waveform::Part> parts_of(const Waveform& form) {
+  return form.parts.empty() ? std::vector<Waveform::Part>{{1, form.force, form.slope}} : form.parts;
 }
 
 std::string unit_vector(double angle) {
@@ -97,7 +102,12 @@ void Composition::push_wave(const Wave& wave, std::optional<double> along) {
   const ForceLaw law = [wave, direction](const Sample& hand) {
     return wave.amplitude * wave.form.force(wave.turns(hand.position)) * direction;
   };
-  relief_.push_back({law, {wave.period, wave.orientation}});
+  for (const Waveform::Part& part : parts_of(wave.form))
+    relief_.push_back({[wave, direction, part](const Sample& hand) {
+                         return wave.amplitude * part.force(wave.turns(hand.position)) * direction;
+                       },
+                       {wave.period / part.number, wave.orientation},
+                       {wave.period, wave.orientation}});
   reliefs_.push_back(law);
   allow(wave.amplitude * 20 * half_.x / wave.period * 0x1p-24);  // 20: the third harmonic, in rad for each turn
 }
@@ -106,8 +116,11 @@ void Composition::push_height(const std::vector<Wave>& waves, double amplitude) 
   std::string height;
   for (const Wave& wave : waves)
     height += (height.empty() ? "" : " + ") + number(wave.amplitude) + " * " + wave.form.height_text(turns_of(wave));
-  const auto gradient = [](const Wave& wave, const Sample& hand) {
-    return wave.amplitude * wave.form.slope(wave.turns(hand.position)) / wave.period * wave.direction();
+  const auto gradient_by = [](const Wave& wave, const std::function<double(double)>& slope, const Sample& hand) {
+    return wave.amplitude * slope(wave.turns(hand.position)) / wave.period * wave.direction();
+  };
+  const auto gradient = [gradient_by](const Wave& wave, const Sample& hand) {
+    return gradient_by(wave, wave.form.slope, hand);
   };
   const ForceLaw whole = [waves, gradient](const Sample& hand) {
     glm::dvec2 sum{0};
@@ -118,8 +131,12 @@ void Composition::push_height(const std::vector<Wave>& waves, double amplitude) 
   statement(fmt::format("height h{0} = {1}\n    force layer{0} = lateral(h{0}, amplitude: {2} N)", ++names_, height,
                         number(amplitude)));
   for (const Wave& wave : waves)
-    relief_.push_back({[wave, gradient, scale](const Sample& hand) { return -scale * gradient(wave, hand); },
-                       {wave.period, wave.orientation}});
+    for (const Waveform::Part& part : parts_of(wave.form))
+      relief_.push_back({[wave, gradient_by, part, scale](const Sample& hand) {
+                           return -scale * gradient_by(wave, part.slope, hand);
+                         },
+                         {wave.period / part.number, wave.orientation},
+                         {wave.period, wave.orientation}});
   reliefs_.push_back([whole, scale, amplitude](const Sample& hand) {
     const glm::dvec2 force = -scale * whole(hand);
     return glm::length(force) > amplitude ? amplitude * glm::normalize(force) : force;
@@ -158,14 +175,12 @@ void Composition::judge_carriers(Truth& truth, const std::vector<double>& square
   double rough = 0, bumpy = 0;
   bool clear = true;
   for (std::size_t i = 0; i < relief_.size(); ++i) {
+    // A sum of waves is felt by its parts, whose common multiple may lie in another band.
     const auto band = band_of(relief_[i].wave.period);
     clear = clear && band;
     if (band == 1u) rough += squares[i];
     if (band == 2u) bumpy += squares[i];
-    // A common multiple may belong to another percept than its waves.
-    if (truth[Cue::period].kind == Expected::Kind::value) clear = clear && band == band_of(truth[Cue::period].value);
   }
-  if (relief_.size() > 1 && truth[Cue::period].kind != Expected::Kind::value) clear = true;
   const auto size = [&](double share) {
     if (!clear) return open;
     return share > 0 ? valued(amplitude * std::sqrt(share / all)) : Expected{};
@@ -185,15 +200,21 @@ void Composition::judge_relief(Truth& truth) const {
   for (const Relief& relief : relief_) squares.push_back(mean_square(relief.law));
   const std::size_t strongest = static_cast<std::size_t>(std::ranges::max_element(squares) - squares.begin());
   bool plain = true, parallel = true;
+  const auto of_strongest = [&](const Relief& each) {
+    return each.sum.period == relief_[strongest].sum.period &&
+           each.sum.orientation == relief_[strongest].sum.orientation;
+  };
+  double of_the_strongest = 0;
+  for (std::size_t i = 0; i < relief_.size(); ++i) of_the_strongest += of_strongest(relief_[i]) ? squares[i] : 0;
   for (std::size_t i = 0; i < relief_.size(); ++i) {
-    plain = plain && (i == strongest || squares[strongest] > dominant * squares[i]);
+    plain = plain && (of_strongest(relief_[i]) || of_the_strongest > dominant * squares[i]);
     parallel = parallel && relief_[i].wave.orientation == relief_[0].wave.orientation;
     if (truth.waves) truth.waves->push_back(relief_[i].wave);
   }
   if (std::ranges::min(squares) < least_share * std::accumulate(squares.begin(), squares.end(), 0.0))
     truth.waves.reset();
   judge_carriers(truth, squares, amplitude);
-  settle(truth[Cue::period], plain ? valued(relief_[strongest].wave.period) : open);
+  settle(truth[Cue::period], plain ? valued(relief_[strongest].sum.period) : open);
   settle(truth[Cue::orientation], parallel ? valued(relief_[0].wave.orientation) : open);
 }
 

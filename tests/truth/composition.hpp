@@ -41,6 +41,8 @@ struct Wave {
   double turns(glm::dvec2 position) const { return glm::dot(direction(), position) / period + phase; }
 };
 
+std::optional<std::size_t> band_of(double period);
+
 /// Puts programs together from parts whose feel is known.
 class Composition {
  public:
@@ -79,6 +81,7 @@ class Composition {
   struct Relief {
     ForceLaw law;
     WaveTruth wave;
+    WaveTruth sum;  ///< the wave of which it is a part, or itself
   };
 
   std::string turns_of(const Wave& wave);

@@ -21,6 +21,7 @@ std::vector<Family> motion_families();
 std::vector<Family> time_families();
 std::vector<Family> memory_families();
 std::vector<Family> mixture_families();
+std::vector<Family> axis_families();
 
 /// All of them.
 std::vector<Family> families();

@@ -15,7 +15,7 @@ constexpr double huge_error = 1000;  // of what is there and not read, or read a
 double between_lines(double a, double b) { return std::abs(std::remainder(a - b, std::numbers::pi)); }
 
 double error_of(const CueRule& rule, double expected, double read) {
-  if (rule.cue == Cue::orientation) return between_lines(expected, read) / rule.relative;
+  if (rule.cue == Cue::orientation || rule.cue == Cue::axis) return between_lines(expected, read) / rule.relative;
   return std::abs(read - expected) / std::max(rule.relative * std::abs(expected), rule.least);
 }
 
@@ -76,6 +76,13 @@ const std::array<CueRule, cue_count>& cue_rules() {
       {Cue::sway, "sway", "N", 1, 0.03, 0.01},
       {Cue::sway_rate, "sway rate", "Hz", 1, 0.02, 0},
       {Cue::constant, "constant", "N", 1, 0.03, 0.01},
+      {Cue::stiffness_across, "across", "N/m", 1, 0.03, 2},
+      {Cue::viscosity_across, "across", "N s/m", 1, 0.03, 0.05},
+      {Cue::friction_across, "across", "N", 1, 0.03, 0.01},
+      {Cue::mass_across, "across", "kg", 1, 0.03, 1e-3},
+      {Cue::axis, "axis", "degrees", 180 / std::numbers::pi, 2 * std::numbers::pi / 180, 0},
+      {Cue::wall_damping, "damping", "N s/m", 1, 0.03, 0.05},
+      {Cue::face, "face", "mm", 1e3, 0.02, 0.3e-3},
   }};
   return rules;
 }

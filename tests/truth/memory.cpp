@@ -16,6 +16,7 @@ Composition tiring_springs(Chance& chance) {
                              number(rounded(chance.between(1, 5), 2))));
   made.push(fmt::format("-{} N/m * (1 - {} * tired) * hand", number(stiffness), number(share)));
   made.truth[Cue::stiffness] = valued(stiffness);
+  made.truth[Cue::constant] = some;  // what it loses while it is held is no other cue's
   return made;
 }
 

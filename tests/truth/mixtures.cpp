@@ -26,8 +26,6 @@ Composition texture_and_wall(Chance& chance) {
   Composition made = any_patch(chance);
   add_any_texture(made, chance, 8e-3);
   add_wall(made, chance);
-  // The device's limit takes some of the relief where the wall is hard.
-  for (const Cue cue : {Cue::amplitude, Cue::roughness, Cue::bumpiness}) made.truth[cue] = open;
   return made;
 }
 
@@ -81,7 +79,7 @@ std::vector<Family> mixture_families() {
 std::vector<Family> families() {
   std::vector<Family> all;
   for (const auto& part : {texture_families(), sum_families(), aperiodic_families(), trend_families(),
-                           motion_families(), time_families(), memory_families(), mixture_families()})
+                           motion_families(), time_families(), memory_families(), mixture_families(), axis_families()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

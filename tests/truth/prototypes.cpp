@@ -30,7 +30,7 @@ const std::vector<Prototype>& prototypes() {
       {"spring", "force = -50 N/m * hand", {{stiffness, valued(50)}}},
       {"wall",
        "force = vector(-600 N/m * max(0 mm, x - 20 mm), 0 N)",
-       {{wall_stiffness, valued(600)}, {constant, open}}},
+       {{wall_stiffness, valued(600)}, {face, valued(20e-3)}}},
       {"viscosity", "force = -3 N s/m * velocity", {{viscosity, valued(3)}}},
       {"friction", "force = hold(-200 N s/m * velocity, 0.8 N)", {{friction, valued(0.8)}, {breakaway, open}}},
       {"mass", "force = -0.2 kg * acceleration", {{mass, valued(0.2)}}},

@@ -34,6 +34,11 @@ constexpr std::pair<Cue, CueKind> words[] = {
     {Cue::sway, CueKind::sway},
     {Cue::sway_rate, CueKind::sway_frequency},
     {Cue::constant, CueKind::other_force},
+    {Cue::stiffness_across, CueKind::stiffness_across},
+    {Cue::viscosity_across, CueKind::viscosity_across},
+    {Cue::friction_across, CueKind::friction_across},
+    {Cue::mass_across, CueKind::mass_across},
+    {Cue::wall_damping, CueKind::wall_damping},
 };
 
 }  // namespace
@@ -44,11 +49,26 @@ Reading reading_of(const Program& program) {
   const Cues cues = cues_of(bank, found);
   Reading reading;
   for (const auto& [cue, kind] : words) reading[cue] = cues[kind];
+  if (cues[CueKind::push_x] || cues[CueKind::push_y])
+    reading[Cue::constant] = std::hypot(cues[CueKind::push_x].value_or(0), cues[CueKind::push_y].value_or(0));
+  for (const CueKind kind :
+       {CueKind::stiffness_axis, CueKind::viscosity_axis, CueKind::friction_axis, CueKind::mass_axis})
+    if (cues[kind]) reading[Cue::axis] = cues[kind];
+  if (found.wall) reading[Cue::face] = glm::dot(found.wall->place, found.wall->inward);
   reading[Cue::roughness] = carrier_of(found, *declarations().percepts.find("roughness"), declarations());
   reading[Cue::bumpiness] = carrier_of(found, *declarations().percepts.find("bumpiness"), declarations());
   if (cues[CueKind::amplitude] && found.relief().regular())
     for (const ReliefWave& wave : found.relief().waves) reading.waves.push_back({wave.period, wave.orientation});
   return reading;
+}
+
+ShapeReading shape_of(const Program& program) {
+  const ForceReading found = read(Bank(program), declarations());
+  const auto carrier = [&](const char* percept) {
+    return carrier_of(found, *declarations().percepts.find(percept), declarations());
+  };
+  return {found.relief().crest, found.relief().regularity, carrier("sharpness"), carrier("crispness"),
+          carrier("bumpiness")};
 }
 
 std::array<std::optional<double>, cue_count> differences_of(const Program& a, const Program& b) {
@@ -74,8 +94,9 @@ std::optional<double> difference_of(Cue cue, double a, double b) {
 }
 
 bool says_outside(const Program& program) {
-  return description_text(describe(Bank(program), declarations())).find("outside what was measured") !=
-         std::string::npos;
+  const std::string text = description_text(describe(Bank(program), declarations()));
+  return text.find("outside what was measured") != std::string::npos ||
+         text.find("outside the range assumed for its map") != std::string::npos;
 }
 
 }  // namespace wale::truth

@@ -28,7 +28,7 @@ void add_waves(Composition& made, Chance& chance, std::vector<Wave> waves) {
   made.push_height(waves, size);
 }
 
-/// Two sines along one direction whose periods go p and q times into their common multiple, which is the period of
+/// Two waves along one direction whose periods go p and q times into their common multiple, which is the period of
 /// both.
 Composition collinear(Chance& chance) {
   Composition made = any_patch(chance);
@@ -36,13 +36,19 @@ Composition collinear(Chance& chance) {
   const double multiple = rounded(chance.octaves(1e-3, made.longest_period()), 3);
   const double orientation = any_orientation(chance), size = chance.octaves(0.05, 2);
   made.truth[Cue::period] = valued(multiple);
+  const double other = size * chance.between(0.6, 1.4);
+  const auto form = [&] { return chance.happens(0.5) ? sine() : smooth_bumps(rounded(chance.between(0.06, 0.1), 3)); };
+  const Waveform first = form(), second = form();
+  // Nothing tells which of two waves a harmonic belongs to that both may have.
+  if (first.name != sine().name || second.name != sine().name)
+    if (band_of(multiple / p) != band_of(multiple / q)) made.truth[Cue::roughness] = made.truth[Cue::bumpiness] = open;
   add_waves(made, chance,
-            {wave_of(chance, sine(), multiple / p, orientation, size),
-             wave_of(chance, sine(), multiple / q, orientation, size * chance.between(0.6, 1.4))});
+            {wave_of(chance, first, multiple / p, orientation, size),
+             wave_of(chance, second, multiple / q, orientation, other)});
   return made;
 }
 
-/// Two sines along one direction without a small common multiple: the period of the stronger.
+/// Two waves along one direction without a small common multiple: the period of the stronger.
 Composition incommensurate(Chance& chance) {
   Composition made = any_patch(chance);
   const double longer = rounded(chance.octaves(0.5e-3, made.longest_period()), 4);
@@ -50,9 +56,11 @@ Composition incommensurate(Chance& chance) {
   const double orientation = any_orientation(chance), size = chance.octaves(0.05, 2);
   const double other = size * chance.between(0.4, 0.75);
   const bool first = chance.happens(0.5);
+  const auto form = [&] { return chance.happens(0.5) ? sine() : smooth_bumps(rounded(chance.between(0.06, 0.1), 3)); };
+  const Waveform one = form(), two = form();
   add_waves(made, chance,
-            {wave_of(chance, sine(), longer, orientation, first ? size : other),
-             wave_of(chance, sine(), rounded(longer / ratio, 4), orientation, first ? other : size)});
+            {wave_of(chance, one, longer, orientation, first ? size : other),
+             wave_of(chance, two, rounded(longer / ratio, 4), orientation, first ? other : size)});
   return made;
 }
 

@@ -39,7 +39,8 @@ Composition grooves(Chance& chance) {
   made.push(fmt::format("-{} N/m * ({} * x + {} * y) * {}", number(stiffness), number(way.x), number(way.y),
                         unit_vector(angle)),
             [=](const Sample& hand) { return -stiffness * glm::dot(way, hand.position) * way; });
-  made.truth[Cue::stiffness] = open;
+  made.truth[Cue::stiffness] = valued(stiffness), made.truth[Cue::stiffness_across] = valued(0);
+  made.truth[Cue::axis] = valued(std::fmod(angle, 3.14159265358979));
   return made;
 }
 
@@ -95,7 +96,7 @@ void add_constant(Composition& made, Chance& chance, double strongest) {
 void add_wall(Composition& made, Chance& chance) {
   // The device's 10 N end the wall some way behind its face.
   const double stiffness = rounded(chance.octaves(100, 2000), 3), face = rounded(chance.between(-0.01, 0.03), 3);
-  made.truth[Cue::wall_stiffness] = valued(stiffness);
+  made.truth[Cue::wall_stiffness] = valued(stiffness), made.truth[Cue::face] = valued(face);
   made.truth[Cue::constant] = open;
   if (chance.happens(0.3)) {
     made.push(fmt::format("firm({} N/m, face: {})", number(stiffness), millimetres(face)), [=](const Sample& hand) {

@@ -26,8 +26,16 @@ enum class Cue {
   sway,            ///< N: amplitude below 10 Hz
   sway_rate,       ///< Hz
   constant,        ///< N: size of a force that is the same everywhere
+  // Where it resists differently with the direction: the smaller principal value, and the direction of the greater.
+  stiffness_across,  ///< N/m
+  viscosity_across,  ///< N s/m
+  friction_across,   ///< N
+  mass_across,       ///< kg
+  axis,              ///< rad in [0, pi)
+  wall_damping,      ///< N s/m: what a wall adds to the drag outside of it
+  face,              ///< m from the patch's centre: where a wall begins
 };
-inline constexpr std::size_t cue_count = 16;
+inline constexpr std::size_t cue_count = 23;
 
 struct CueRule {
   Cue cue;

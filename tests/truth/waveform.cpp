@@ -59,10 +59,14 @@ Waveform ridge(double duty) {
 
 Waveform missing_fundamental(double third) {
   const std::string b = number(third);
-  return {"missing fundamental", text(fmt::format("(sin(4 * pi * #) + {} * sin(6 * pi * # + 1))", b)),
+  return {"missing fundamental",
+          text(fmt::format("(sin(4 * pi * #) + {} * sin(6 * pi * # + 1))", b)),
           [third](double t) { return std::sin(4 * pi * t) + third * std::sin(6 * pi * t + 1); },
           text(fmt::format("(cos(4 * pi * #) / 2 + {} * cos(6 * pi * # + 1) / 3)", b)),
-          [third](double t) { return -2 * pi * (std::sin(4 * pi * t) + third * std::sin(6 * pi * t + 1)); }};
+          [third](double t) { return -2 * pi * (std::sin(4 * pi * t) + third * std::sin(6 * pi * t + 1)); },
+          {{2, [](double t) { return std::sin(4 * pi * t); }, [](double t) { return -2 * pi * std::sin(4 * pi * t); }},
+           {3, [third](double t) { return third * std::sin(6 * pi * t + 1); },
+            [third](double t) { return -2 * pi * third * std::sin(6 * pi * t + 1); }}}};
 }
 
 Waveform smooth_bumps(double width) {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tests/truth/chance.hpp"
 
@@ -15,6 +16,12 @@ struct Waveform {
   /// A height whose slope is of the same kind, and that slope by turns.
   std::function<std::string(const std::string& t)> height_text;
   std::function<double(double t)> slope;
+  /// A wave of which this one is the sum, if it has no fundamental of its own.
+  struct Part {
+    int number = 1;  ///< of its periods in one of the sum's
+    std::function<double(double t)> force, slope;
+  };
+  std::vector<Part> parts = {};
 };
 
 Waveform sine();

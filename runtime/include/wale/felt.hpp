@@ -32,6 +32,18 @@ struct FeltVibration {
   long ticks = 0;                 ///< within the patch
 };
 
+/// What a force would be by each of these laws if it obeyed that one alone; nothing where the hand's motion could not
+/// show it.
+struct FeltResponse {
+  std::optional<float> drag;            ///< N: against the motion, at 20 mm/s and above
+  std::optional<float> viscosity;       ///< N s/m: against the motion, over its speed
+  std::optional<float> stiffness;       ///< N/m: along the axis on which the hand moves more
+  std::optional<float> wall_stiffness;  ///< N/m: of a force that pushes one way, where it pushes
+  std::optional<float> wall_damping;    ///< N s/m: of such a force, against a hand that moves in
+  std::optional<float> mass;            ///< kg: against changes of velocity
+  std::optional<float> shaking;         ///< N: the amplitude of a sine with the force's variance
+};
+
 /// The figures of a run. A run on a pad has the vibration, and its forces are 0.
 struct Felt {
   long ticks = 0;                                ///< measured: after settling
@@ -46,7 +58,8 @@ struct Felt {
   /// The alternations during which the hand keeps its direction: the flanks of a texture. A limit cycle at one place, a
   /// spring and oil have none.
   long crossings = 0;
-  double stuck = 0;                        ///< fraction of the measured ticks within the patch; 0 when there are none
+  double stuck = 0;  ///< fraction of the measured ticks within the patch; 0 when there are none
+  FeltResponse response;
   std::optional<FeltVibration> vibration;  ///< of a run on a pad
   double position_rms = 0;                 ///< m about the mean position
   double position_range = 0;               ///< m, the larger of the two axes'
@@ -59,12 +72,14 @@ struct LevelBack {
   std::size_t percept = 0;        ///< index into the program's percepts
   std::string name;               ///< "roughness"
   float predicted_amplitude = 0;  ///< what the program aims at, in the carrier's unit
+  float size = 0;                 ///< of the carrier as measured, in its unit; 0 if it was not
   Result<Prediction> back;        ///< error: `not_measured`
 };
 
-/// Reads every percept back from the actuator's P99 while rubbing, through the map that the program carries; on a pad,
-/// from the P99 of its acceleration within the patch. A level is an error if there are fewer than `least_crossings`
-/// crossings, if a static lateral force does not carry the percept, or if its carrier is not the only force.
+/// Reads every percept back through the map that the program carries: a texture from the actuator's P99 while rubbing,
+/// other percepts from the response of the force (`Felt::response`), on a pad from the P99 of its acceleration within
+/// the patch. A level is an error if there are fewer than `least_crossings` crossings of a texture, if the hand's
+/// motion could not show the carrier, or if the carrier is not the only force.
 std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long least_crossings = 50);
 
 /// The lateral force (N) or a pad's acceleration (m/s^2) that the program aims at, for `MeasureOptions`. It belongs to

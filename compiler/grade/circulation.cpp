@@ -1,0 +1,169 @@
+#include "compiler/grade/circulation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <vector>
+
+namespace wale {
+namespace {
+
+using std::numbers::pi;
+constexpr std::size_t tiles = 4;         // per side of the patch, over which the mean of the curl is taken
+constexpr double significant = 4;        // in standard errors of a mean
+constexpr double share_of_slope = 0.02;  // of the usual slope; smaller curl is rounding and clipping
+constexpr std::size_t circled = 8;       // places of each kind around which a hand circles
+constexpr double share_with_curl =
+    0.02;  // of the places; on fewer, only circles around the places of most curl are tried
+constexpr double fewest_counts_of_radius = 8;
+constexpr std::size_t first_points = 64, most_points = 4096;  // on a circle
+constexpr std::size_t checked_circles = 12;
+constexpr double share_of_path = 0.2;  // of the work done on the way in both directions
+constexpr double settled = 0.05;       // of an integral, between two numbers of points
+
+struct Circle {
+  glm::dvec2 centre;
+  double radius;
+  double joule = 0, both_ways = 0;  ///< gained, and the sum of its sizes
+};
+
+/// Integrates the force along the circle by the rule of midpoints, which is exact for few waves.
+void integrate(const Bank& bank, std::span<Circle> circles, std::size_t points) {
+  std::vector<Hand> hands;
+  std::vector<glm::dvec2> steps;
+  for (const Circle& circle : circles)
+    for (std::size_t i = 0; i < points; ++i) {
+      const double angle = 2 * pi * (static_cast<double>(i) + 0.5) / static_cast<double>(points);
+      Hand& hand = hands.emplace_back();
+      hand.position = hand.workspace =
+          glm::vec2(circle.centre + circle.radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+      steps.push_back(circle.radius * 2 * pi / static_cast<double>(points) *
+                      glm::dvec2(-std::sin(angle), std::cos(angle)));
+    }
+  std::vector<Force> forces(hands.size());
+  tick_all(bank, hands, forces);
+  for (std::size_t circle = 0; circle < circles.size(); ++circle) {
+    circles[circle].joule = circles[circle].both_ways = 0;
+    for (std::size_t i = circle * points; i < (circle + 1) * points; ++i) {
+      circles[circle].joule += glm::dot(glm::dvec2(forces[i]), steps[i]);
+      circles[circle].both_ways += std::abs(glm::dot(glm::dvec2(forces[i]), steps[i]));
+    }
+  }
+}
+
+/// Half the sides of the patch less its rim, m. In the rim heights fade, and limits at their amplitude give a curl
+/// there that no author means.
+glm::vec2 inside(const Bank& bank) {
+  return 0.5f * glm::vec2(bank.size().width, bank.size().height) - glm::vec2(bank.size().rim);
+}
+
+/// The circle around one of `centres` that gains the most power, W.
+double strongest_circle(const Bank& bank, std::span<const glm::vec2> centres, const GradingHand& hand,
+                        double least_watt) {
+  const glm::dvec2 half(inside(bank));
+  const double least = fewest_counts_of_radius * bank.program().description().device.position_step();
+  std::vector<Circle> circles;
+  for (const glm::vec2 centre : centres) {
+    const double room = std::min(half.x - std::abs(centre.x), half.y - std::abs(centre.y));
+    for (double radius = hand.radius; radius >= least; radius /= std::numbers::sqrt2)
+      if (radius <= room) circles.push_back({centre, radius});
+  }
+  const auto watt = [&](const Circle& circle) {
+    return std::abs(circle.joule) * hand.speed() / (2 * pi * circle.radius);
+  };
+  const auto counts = [&](const Circle& circle) {
+    return watt(circle) > least_watt && std::abs(circle.joule) > share_of_path * circle.both_ways;
+  };
+  integrate(bank, circles, first_points);
+  std::erase_if(circles, [&](const Circle& circle) { return !counts(circle); });
+  std::ranges::stable_sort(circles, [&](const Circle& a, const Circle& b) { return watt(a) > watt(b); });
+  circles.resize(std::min(circles.size(), checked_circles));
+  double best = 0;
+  for (Circle& circle : circles) {
+    if (watt(circle) <= best) continue;
+    // A detail between two points may look like a gain, so the points are doubled until the integral stays.
+    double before = circle.joule;
+    for (std::size_t points = 2 * first_points; points <= most_points; points *= 2) {
+      integrate(bank, {&circle, 1}, points);
+      if (!counts(circle)) break;
+      if (std::abs(circle.joule - before) <= settled * std::abs(circle.joule)) {
+        best = std::max(best, watt(circle));
+        break;
+      }
+      before = circle.joule;
+    }
+  }
+  return best;
+}
+
+/// The curl of hands at rest, and the usual slope of their force.
+struct Curls {
+  std::vector<double> sizes;  ///< N/m, of each hand; 0 if it does not count
+  double over_tiles = 0;      ///< N/m, the largest mean over a tile of the patch
+  std::size_t counted = 0;    ///< hands whose curl counts
+};
+
+Curls curls_of(const LookedAt& looked_at, glm::vec2 extent, glm::vec2 less_rim) {
+  struct Sum {
+    double count = 0, sum = 0, squares = 0;
+  };
+  std::array<Sum, tiles * tiles> sums;
+  Curls found;
+  found.sizes.resize(looked_at.hands.size());
+  double squares = 0, hands = 0;
+  for (std::size_t i = 0; i < looked_at.hands.size(); ++i) {
+    const Hand& hand = looked_at.hands[i];
+    const auto& place = looked_at.at[i].place;
+    const double curl = place[1][0] - place[0][1];
+    if (hand.velocity != glm::vec2(0.0f) || !std::isfinite(curl)) continue;
+    const auto tile = [](float along, float half) {
+      const double share = (along / half + 1) / 2 * tiles;
+      return static_cast<std::size_t>(std::clamp(share, 0.0, static_cast<double>(tiles - 1)));
+    };
+    Sum& sum = sums[tile(hand.position.y, extent.y) * tiles + tile(hand.position.x, extent.x)];
+    sum.count += 1, sum.sum += curl, sum.squares += curl * curl;
+    const double steep = steepness(place);
+    squares += steep * steep, hands += 1;
+    if (std::abs(hand.position.x) < less_rim.x && std::abs(hand.position.y) < less_rim.y)
+      found.sizes[i] = std::abs(curl);
+  }
+  const double least = share_of_slope * (hands > 0 ? std::sqrt(squares / hands) : 0);
+  for (const Sum& sum : sums) {
+    if (sum.count < 8) continue;
+    const double mean = sum.sum / sum.count;
+    const double error = std::sqrt(std::max(0.0, sum.squares / sum.count - mean * mean) / sum.count);
+    if (std::abs(mean) > significant * error && std::abs(mean) > least)
+      found.over_tiles = std::max(found.over_tiles, std::abs(mean));
+  }
+  for (double& size : found.sizes)
+    if (size > least)
+      ++found.counted;
+    else
+      size = 0;
+  return found;
+}
+
+}  // namespace
+
+double curl_watt(const Bank& bank, const LookedAt& looked_at, std::span<const ForceStep> jumps, const GradingHand& hand,
+                 double least_watt) {
+  const glm::vec2 extent = 0.5f * glm::vec2(bank.size().width, bank.size().height);
+  const Curls curls = curls_of(looked_at, extent, inside(bank));
+  const double on_tiles = curls.over_tiles * pi * hand.radius * hand.radius * hand.frequency;
+  std::vector<glm::vec2> centres;
+  if (curls.counted > 0)
+    for (const std::size_t i : greatest_of(curls.sizes, circled)) centres.push_back(looked_at.hands[i].position);
+  if (static_cast<double>(curls.counted) > share_with_curl * static_cast<double>(looked_at.hands.size()))
+    for (std::size_t i = 0; i < circled; ++i) centres.push_back(looked_at.hands[i].position);
+  for (const ForceStep& step : jumps)
+    if (step.jumps()) centres.push_back(step.hand.position);
+  if (on_tiles > 0) centres.emplace_back(0.0f);
+  if (centres.empty()) return 0;
+  // The mean over a tile tells less than a circle, but finds a weak curl under a strong texture.
+  const double on_circles = strongest_circle(bank, centres, hand, least_watt);
+  return on_circles > 0 ? on_circles : on_tiles;
+}
+
+}  // namespace wale

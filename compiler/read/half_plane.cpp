@@ -1,0 +1,275 @@
+#include "compiler/read/half_plane.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "compiler/read/still_forces.hpp"
+#include "compiler/read/tolerances.hpp"
+
+namespace wale {
+namespace {
+
+constexpr double unexplained = 0.03;    // of what a line leaves, by a face that explains nearly all
+constexpr double of_one_axis = 0.8;     // of what a line leaves: a face pushes along one axis only
+constexpr double least_inside = 0.012;  // of the places
+constexpr std::size_t places_fitted = 6400;
+constexpr int rounds = 4;
+constexpr double turned_enough = 1e-5;   // rad: smaller turns end the rounds
+constexpr double worth_a_preload = 0.3;  // of what a face without a preload leaves, at most
+constexpr std::size_t profile_places = 1024;
+
+/// Solves a small symmetric system by Gauss and Jordan; false if it is singular.
+template <std::size_t N>
+bool solve(std::array<std::array<double, N + 1>, N>& rows) {
+  for (std::size_t i = 0; i < N; ++i) {
+    std::size_t best = i;
+    for (std::size_t k = i + 1; k < N; ++k)
+      if (std::abs(rows[k][i]) > std::abs(rows[best][i])) best = k;
+    std::swap(rows[i], rows[best]);
+    if (!(std::abs(rows[i][i]) > 1e-12)) return false;
+    for (std::size_t k = 0; k < N; ++k) {
+      if (k == i) continue;
+      const double times = rows[k][i] / rows[i][i];
+      for (std::size_t column = i; column <= N; ++column) rows[k][column] -= times * rows[i][column];
+    }
+  }
+  for (std::size_t i = 0; i < N; ++i) rows[i][N] /= rows[i][i];
+  return true;
+}
+
+/// A face, the even force beside it, and the mean square that both leave, N^2.
+struct FaceFit {
+  HalfPlane face;
+  LinearForce even;
+  double left = HUGE_VAL;
+};
+
+/// Where along one coordinate a line bends or jumps. Of the values beyond the bend: their slope is steeper by `slope`,
+/// and they are larger by `jump` at the bend.
+struct Bend {
+  double at = 0, slope = 0, jump = 0, left = HUGE_VAL;
+};
+
+struct PlaceOnLine {
+  double at = 0, value = 0;
+};
+
+/// The best bend of all, with or without a jump there: least squares of (1, u, depth, step) for each place of the bend.
+Bend best_bend(std::vector<PlaceOnLine> line, bool may_jump) {
+  std::ranges::sort(line, {}, &PlaceOnLine::at);
+  // Centred and in units of the line's length, so that the sums are well conditioned.
+  const double low = line.front().at, length = line.back().at - low;
+  if (!(length > 0)) return {};
+  const auto count = static_cast<double>(line.size());
+  double u1 = 0, u2 = 0, s1 = 0, us = 0, ss = 0;
+  for (PlaceOnLine& each : line) {
+    each.at = (each.at - low) / length;
+    u1 += each.at, u2 += each.at * each.at, s1 += each.value, us += each.at * each.value, ss += each.value * each.value;
+  }
+  // Of the places beyond the bend.
+  double n = count, v1 = u1, v2 = u2, t1 = s1, vt = us;
+  const auto margin = std::max<std::size_t>(8, static_cast<std::size_t>(least_inside * count));
+  Bend best;
+  for (std::size_t i = 0; i + margin < line.size(); ++i) {
+    const double u = line[i].at, value = line[i].value;
+    n -= 1, v1 -= u, v2 -= u * u, t1 -= value, vt -= u * value;
+    if (i < margin) continue;
+    const double d = u, h1 = v1 - n * d, h2 = v2 - 2 * d * v1 + n * d * d, hu = v2 - d * v1, hs = vt - d * t1;
+    std::array<double, 4> found{};
+    double explained = 0;
+    if (may_jump) {
+      std::array<std::array<double, 5>, 4> rows = {
+          {{count, u1, h1, n, s1}, {u1, u2, hu, v1, us}, {h1, hu, h2, h1, hs}, {n, v1, h1, n, t1}}};
+      if (!solve<4>(rows)) continue;
+      found = {rows[0][4], rows[1][4], rows[2][4], rows[3][4]};
+    } else {
+      std::array<std::array<double, 4>, 3> rows = {{{count, u1, h1, s1}, {u1, u2, hu, us}, {h1, hu, h2, hs}}};
+      if (!solve<3>(rows)) continue;
+      found = {rows[0][3], rows[1][3], rows[2][3], 0};
+    }
+    explained = found[0] * s1 + found[1] * us + found[2] * hs + found[3] * t1;
+    const double left = (ss - explained) / count;
+    if (left < best.left) best = {low + length * d, found[2] / length, found[3], left};
+  }
+  return best;
+}
+
+/// The axis along which what a line leaves pushes; nothing if it pushes along both.
+std::optional<glm::dvec2> axis_of(std::span<const glm::dvec2> rest) {
+  double xx = 0, xy = 0, yy = 0;
+  for (const glm::dvec2& each : rest) xx += each.x * each.x, xy += each.x * each.y, yy += each.y * each.y;
+  const double apart = std::hypot(0.5 * (xx - yy), xy), larger = 0.5 * (xx + yy) + apart;
+  if (!(larger > of_one_axis * (xx + yy))) return std::nullopt;
+  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+  return glm::dvec2(std::cos(angle), std::sin(angle));
+}
+
+/// Fits the even force, the stiffness and the direction together about a fit.
+void turn_better(FaceFit& fit, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+  constexpr std::size_t unknown = 9;  // mean, by_x, by_y, stiffness, angle, and where it begins or its preload
+  std::array<std::array<double, unknown + 1>, unknown> rows{};
+  const glm::dvec2 in = fit.face.inward, across(-in.y, in.x);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const glm::dvec2 off = forces[i] - fit.even.at(places[i]) - fit.face.at(places[i]);
+    const double depth = glm::dot(places[i], in) - fit.face.offset;
+    glm::dvec2 by_stiffness{0}, by_angle{0}, by_push{0};
+    if (depth > 0) {
+      by_push = -in;
+      by_stiffness = -depth * in;
+      by_angle = -fit.face.stiffness * glm::dot(places[i], across) * in -
+                 (fit.face.preload + fit.face.stiffness * depth) * across;
+    }
+    for (const int axis : {0, 1}) {
+      const double one = axis == 0 ? 1.0 : 0.0, other = 1 - one;
+      // Lengths in decimetres and stiffness in the fit's own, so that all columns are of like sizes.
+      const std::array<double, unknown> columns = {one,
+                                                   other,
+                                                   10 * one * places[i].x,
+                                                   10 * other * places[i].x,
+                                                   10 * one * places[i].y,
+                                                   10 * other * places[i].y,
+                                                   10 * by_stiffness[axis],
+                                                   by_angle[axis] / std::max(1.0, 0.1 * fit.face.stiffness),
+                                                   by_push[axis]};
+      for (std::size_t row = 0; row < unknown; ++row) {
+        for (std::size_t column = 0; column < unknown; ++column) rows[row][column] += columns[row] * columns[column];
+        rows[row][unknown] += columns[row] * off[axis];
+      }
+    }
+  }
+  if (!solve<unknown>(rows)) return;
+  const auto step = [&](std::size_t i) { return rows[i][unknown]; };
+  fit.even.mean += glm::dvec2(step(0), step(1));
+  fit.even.by_x += 10.0 * glm::dvec2(step(2), step(3));
+  fit.even.by_y += 10.0 * glm::dvec2(step(4), step(5));
+  // A face with a preload begins where it jumps; without one, a larger push is an earlier beginning.
+  if (fit.face.preload != 0)
+    fit.face.preload += step(8);
+  else
+    fit.face.offset -= step(8) / fit.face.stiffness;
+  fit.face.stiffness += 10 * step(6);
+  const double turn = std::clamp(step(7) / std::max(1.0, 0.1 * fit.face.stiffness), -0.1, 0.1);
+  fit.face.inward = glm::normalize(in + turn * across);
+}
+
+double left_by(const FaceFit& fit, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+  double sum = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const glm::dvec2 off = forces[i] - fit.even.at(places[i]) - fit.face.at(places[i]);
+    sum += glm::dot(off, off);
+  }
+  return sum / static_cast<double>(places.size());
+}
+
+/// Fits a face along an axis, whose direction may turn.
+FaceFit fit_face(glm::dvec2 axis, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+                 bool may_jump) {
+  FaceFit fit;
+  fit.face.inward = axis;
+  double aside = 0;  // N/m: by how much the push along the axis changes across it
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<PlaceOnLine> line(places.size());
+    const glm::dvec2 in = fit.face.inward, across(-in.y, in.x);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      line[i] = {glm::dot(places[i], in), glm::dot(forces[i], in) - aside * glm::dot(places[i], across)};
+    const Bend bend = best_bend(std::move(line), may_jump);
+    if (!(bend.left < HUGE_VAL) || bend.slope == 0) return {};
+    fit.face = {in, bend.at, -bend.slope, -bend.jump};
+    // If it is less steep beyond the bend, the face is on the other side, and the steep side is the even one.
+    if (bend.slope > 0) fit.face = {-in, -bend.at, bend.slope, -bend.jump};
+    std::vector<glm::dvec2> beside(forces.begin(), forces.end());
+    for (std::size_t i = 0; i < places.size(); ++i) beside[i] -= fit.face.at(places[i]);
+    fit.even = linear_force(places, beside);
+    turn_better(fit, places, forces);
+    const glm::dvec2 now = fit.face.inward, by_across = -now.y * fit.even.by_x + now.x * fit.even.by_y;
+    aside = glm::dot(by_across, now);
+    if (round > 0 && std::abs(now.x * in.y - now.y * in.x) < turned_enough) break;
+  }
+  fit.left = left_by(fit, places, forces);
+  return fit;
+}
+
+/// Every so-many-th, so that about `most` are left.
+std::vector<glm::dvec2> thinned(std::span<const glm::dvec2> all, std::size_t most) {
+  std::vector<glm::dvec2> some;
+  // The next prime does not stay within some columns of the lattice.
+  constexpr std::array<std::size_t, 5> primes = {1, 3, 7, 11, 13};
+  std::size_t every = primes.back();
+  for (const std::size_t prime : primes)
+    if (prime * most >= all.size() * 3 / 4) every = std::min(every, prime);
+  for (std::size_t i = 0; i < all.size(); i += every) some.push_back(all[i]);
+  return some;
+}
+
+/// N^2: the part of a mean square that changes from one of these means to the next, as a texture's.
+double jitter_of(std::span<const glm::dvec2> even) {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < even.size(); ++i) {
+    const glm::dvec2 off = even[i - 1] - 2.0 * even[i] + even[i + 1];
+    sum += std::min(glm::dot(off, off) / 6, 1e6);
+  }
+  return even.size() > 2 ? sum / static_cast<double>(even.size() - 2) : 0;
+}
+
+}  // namespace
+
+std::optional<HalfPlane> find_half_plane(std::span<const glm::dvec2> even_places, std::span<const glm::dvec2> even,
+                                         std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+  const LinearForce line = linear_force(even_places, even);
+  std::vector<glm::dvec2> rest(even.begin(), even.end());
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= line.at(even_places[i]);
+  const double by_line = mean_square(rest);
+  if (by_line < least_force * least_force) return std::nullopt;
+  const auto axis = axis_of(rest);
+  if (!axis) return std::nullopt;
+  const FaceFit coarse = fit_face(*axis, even_places, even, false);
+  const FaceFit jumping = fit_face(*axis, even_places, even, true);
+  const double jitter = std::min(jitter_of(rest), 0.1 * by_line);
+  const double most_left = unexplained * by_line + 1.5 * jitter;
+  if (std::min(coarse.left, jumping.left) > most_left) return std::nullopt;
+  const std::vector<glm::dvec2> some_places = thinned(places, places_fitted), some = thinned(forces, places_fitted);
+  FaceFit fine = fit_face(coarse.left < HUGE_VAL ? coarse.face.inward : *axis, some_places, some, false);
+  const FaceFit with_jump = fit_face(fine.left < HUGE_VAL ? fine.face.inward : *axis, some_places, some, true);
+  if (with_jump.left < worth_a_preload * fine.left && with_jump.face.preload > least_force)
+    fine = with_jump;
+  else if (coarse.left > most_left)
+    return std::nullopt;  // it jumps, as an edge
+  if (!(fine.left < HUGE_VAL)) return std::nullopt;
+  std::size_t inside = 0;
+  double deepest = 0;
+  for (const glm::dvec2& place : places) {
+    const double depth = glm::dot(place, fine.face.inward) - fine.face.offset;
+    inside += depth > 0, deepest = std::max(deepest, depth);
+  }
+  const double share = static_cast<double>(inside) / static_cast<double>(places.size());
+  if (share < least_inside || share > 1 - least_inside) return std::nullopt;
+  // A step that hardly rises behind is an edge.
+  const double rise = fine.face.stiffness * deepest;
+  if (fine.face.stiffness < least_stiffness || rise < 0.02 || std::abs(fine.face.preload) > rise) return std::nullopt;
+  return fine.face;
+}
+
+Feature feature_of(const HalfPlane& face, std::span<const glm::dvec2> places) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const glm::dvec2& place : places) {
+    const double at = glm::dot(place, face.inward);
+    low = std::min(low, at), high = std::max(high, at);
+  }
+  Feature feature{.direction = face.inward};
+  feature.step = (high - low) / static_cast<double>(profile_places);
+  // One of the profile's places is where the face begins.
+  const auto before = static_cast<std::size_t>(std::max(1.0, std::ceil((face.offset - low) / feature.step)));
+  feature.low = face.offset - static_cast<double>(before) * feature.step;
+  for (std::size_t i = 0; feature.low + feature.step * (static_cast<double>(i) - 1) < high || i < before + 2; ++i) {
+    const double depth = feature.step * (static_cast<double>(i) - static_cast<double>(before));
+    feature.profile.push_back(i <= before ? glm::dvec2(0) : -(face.preload + face.stiffness * depth) * face.inward);
+  }
+  feature.range = glm::length(feature.profile.back());
+  feature.monotone = true;
+  return feature;
+}
+
+}  // namespace wale

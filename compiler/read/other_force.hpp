@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "compiler/read/swing.hpp"
+
+namespace wale {
+
+/// Forces that none of the other cues reads, N, by what brings them about.
+struct OtherForce {
+  double button = 0;      ///< on a hand that presses the button
+  double slowly = 0;      ///< on a hand that holds still: it changes slower than a sway, or once
+  double remembered = 0;  ///< on a hand that has been elsewhere before; no friction is so large
+
+  double largest() const;
+};
+
+/// Rehearses hands that press the button, hold still, and come back to rest from a tour of the patch. `felt` are the
+/// forces on hands that hold still (`felt_at_rest`), with their swings; `held` (N) is what friction holds a resting
+/// hand with at most.
+OtherForce other_force(const Bank& bank, const std::vector<std::vector<Force>>& felt, const Swing& sway,
+                       const Swing& vibration, double held);
+
+}  // namespace wale

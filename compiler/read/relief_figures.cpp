@@ -1,0 +1,302 @@
+#include "compiler/read/relief_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "compiler/read/fundamental.hpp"
+#include "compiler/read/sign_changes.hpp"
+#include "compiler/read/tolerances.hpp"
+#include "compiler/read/window_spectrum.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::size_t change_places = 1024;
+constexpr double difference = 1e-5;       // m: half the step for the change of the force
+constexpr double small_part = 0.04;       // of the mean square: not worth its own spectrum
+constexpr double no_direction = 0.05;     // below this anisotropy the direction is chance
+constexpr double weak = 0.02;             // of the mean square: a wave that is not told
+constexpr double along_one_axis = 0.95;   // of the mean square of a relief's forces
+constexpr std::size_t octave_parts = 12;  // in which the periods of irregular parts are counted
+
+/// The direction in [0, pi). Hardly less than half a turn is none.
+double half_turned(double angle) {
+  angle = std::fmod(angle, std::numbers::pi);
+  if (angle < 0) angle += std::numbers::pi;
+  return std::numbers::pi - angle < 1e-3 ? 0 : angle;
+}
+
+/// Adds up where the mean square lies: by period, and by direction.
+struct Distribution {
+  std::vector<double> octaves = std::vector<double>(24 * octave_parts, 0.0);  // from a micrometre on
+  std::complex<double> doubled = 0;  // power times the direction of twice the angle
+  double sum = 0;
+
+  void add(glm::dvec2 waves, double share) {
+    const double far = glm::length(waves);
+    const double place = std::log2(1e6 / far) * octave_parts;
+    octaves[std::clamp<std::size_t>(static_cast<std::size_t>(std::max(place, 0.0)), 0, octaves.size() - 1)] += share;
+    const std::complex<double> direction(waves.x / far, waves.y / far);
+    doubled += share * direction * direction;
+    sum += share;
+  }
+  static double period(std::size_t place) {
+    return 1e-6 * std::exp2((static_cast<double>(place) + 0.5) / octave_parts);
+  }
+  /// The period in the middle of the irregular parts.
+  double middle() const {
+    double all = 0, part = 0;
+    for (const double share : octaves) all += share;
+    for (std::size_t i = 0; i < octaves.size(); ++i)
+      if ((part += octaves[i]) >= 0.5 * all) return period(i);
+    return 0;
+  }
+};
+
+/// Tells the figures of one relief.
+class ReliefFigures {
+ public:
+  explicit ReliefFigures(const SplitRelief& from) : from_(from) {}
+
+  /// `felt` (N): the forces where they are felt. Less than `misfit` (N) without a wave is what a trend leaves.
+  Relief told(const std::vector<glm::dvec2>& felt, double misfit) {
+    if (felt.empty()) return relief_;
+    std::vector<double> sizes;
+    sizes.reserve(felt.size());
+    double sum = 0, squares = 0;
+    for (const glm::dvec2& force : felt) {
+      sizes.push_back(glm::length(force));
+      sum += sizes.back(), squares += glm::dot(force, force);
+      relief_.maximum = std::max(relief_.maximum, sizes.back());
+    }
+    const auto count = static_cast<double>(sizes.size());
+    relief_.mean = sum / count, relief_.rms = std::sqrt(squares / count);
+    relief_.amplitude = percentile(sizes, percentile_of_amplitude);
+    const bool waved = !from_.waves.waves.empty() || from_.waves.lattice;
+    if (relief_.amplitude < least_amplitude || (!waved && relief_.amplitude < misfit)) return {};
+    const bool hilly = std::ranges::any_of(from_.features, [](const Feature& each) { return !each.monotone; });
+    tell_parts(hilly);
+    tell_push();
+    tell_sign_changes();
+    tell_steepness();
+    return relief_;
+  }
+
+ private:
+  /// The axis along which the relief pushes, if it pushes along one.
+  void tell_push() {
+    double xx = 0, xy = 0, yy = 0;
+    for (const glm::dvec2& force : from_.forces)
+      xx += force.x * force.x, xy += force.x * force.y, yy += force.y * force.y;
+    const double apart = std::hypot(0.5 * (xx - yy), xy);
+    if (0.5 * (xx + yy) + apart < along_one_axis * (xx + yy)) return;
+    relief_.push = half_turned(0.5 * std::atan2(2 * xy, xx - yy));
+  }
+
+  /// Where the mean square lies: waves by their fundamental, a hill, and the irregular rest.
+  void tell_parts(bool hilly) {
+    const double all = relief_.rms * relief_.rms;
+    Distribution regular, irregular;
+    double of_waves = 0;
+    for (const FoundWave& each : from_.waves.waves) of_waves += each.power;
+    double rest = std::min(all, mean_square(from_.waves.rest));
+    if (hilly) rest = std::max(rest, all - of_waves);
+    if (from_.waves.local || from_.waves.lattice) rest = (1 - from_.waves.share) * all;
+    if (rest < small_part * all) rest = 0;
+    const double scale = of_waves > 0 ? (all - rest) / of_waves : 0;
+    for (const FoundWave& each : from_.waves.waves) {
+      const double share = each.power * scale / all;
+      const std::vector<WavePart> parts = parts_of(each);
+      // A sum of waves repeats after their common multiple, but is felt by its waves.
+      for (const WavePart& part : parts)
+        relief_.parts.push_back({each.wave.period() / static_cast<double>(part.number), share * part.share});
+      regular.add(each.wave.waves, share);
+      tell_wave(each, share, parts);
+    }
+    if (from_.waves.lattice && from_.waves.waves.empty()) {
+      relief_.parts.push_back({from_.waves.lattice->period(), from_.waves.share});
+      // Its directions are those of all its waves, not of two.
+      WindowSpectrum(from_.whole, from_.forces).each([&](glm::dvec2 waves, double part) {
+        if (waves != glm::dvec2(0)) regular.add(waves, part * from_.waves.share);
+      });
+      for (const glm::dvec2 waves : {from_.waves.lattice->one, from_.waves.lattice->other}) {
+        relief_.waves.push_back(
+            {1 / glm::length(waves), half_turned(std::atan2(waves.y, waves.x)), 0.5 * from_.waves.share});
+      }
+    }
+    for (const Relief::Part& each : relief_.parts) relief_.regularity += each.share;
+    relief_.regularity = std::min(1.0, relief_.regularity);
+    // A hill is no part of the texture that it carries.
+    if (hilly && of_waves > 0) relief_.regularity = of_waves / (of_waves + mean_square(from_.waves.rest));
+    if (rest > 0 && hilly)
+      relief_.parts.push_back({0.5 * std::min(from_.whole.size.x, from_.whole.size.y), rest / all});
+    else if (rest > 0)
+      distribute(irregular, rest / all);
+    for (std::size_t i = 0; i < irregular.octaves.size(); ++i)
+      if (irregular.octaves[i] > 0) relief_.parts.push_back({Distribution::period(i), irregular.octaves[i]});
+    tell_direction(regular, irregular);
+    if (relief_.regular()) {
+      const bool lattice = from_.waves.lattice && (from_.waves.waves.empty() || from_.waves.share > 0.5);
+      relief_.period = lattice ? from_.waves.lattice->period() : from_.waves.period(from_.whole.size);
+    } else if (!hilly) {
+      relief_.period = irregular.middle();
+    }
+  }
+
+  void tell_wave(const FoundWave& each, double share, const std::vector<WavePart>& parts) {
+    const double orientation = half_turned(std::atan2(each.wave.waves.y, each.wave.waves.x));
+    if (share >= weak)
+      for (const WavePart& part : parts)
+        relief_.waves.push_back(
+            {each.wave.period() / static_cast<double>(part.number), orientation, share * part.share});
+    if (relief_.crest > 0) return;
+    // The strongest wave's own waveform, along the direction in which it pushes most.
+    glm::dvec2 way{0};
+    double largest = 0;
+    for (const glm::dvec2& force : each.wave.profile)
+      if (glm::length(force) > largest) largest = glm::length(force), way = force / largest;
+    double squares = 0, most = 0;
+    int changes = 0, sign = 0;
+    for (int round : {0, 1})
+      for (const glm::dvec2& force : each.wave.profile) {
+        const double along = glm::dot(force, way);
+        squares += round * along * along, most = std::max(most, std::abs(along));
+        if (std::abs(along) < 0.05 * largest) continue;
+        const int now = along > 0 ? 1 : -1;
+        changes += round == 1 && now != sign;
+        sign = now;
+      }
+    relief_.crest = most / std::sqrt(squares / static_cast<double>(each.wave.profile.size()));
+    relief_.transitions = changes / each.wave.period();
+  }
+
+  /// Spreads a share of the mean square over the periods of what the waves leave.
+  void distribute(Distribution& irregular, double share) const {
+    // Features that are trends have been taken off; they are no noise.
+    std::vector<glm::dvec2> forces = from_.forces;
+    if (!from_.waves.local && !from_.waves.lattice)
+      for (std::size_t i = 0; i < forces.size(); ++i)
+        for (const FoundWave& each : from_.waves.waves) forces[i] -= each.wave.at(from_.whole.places[i]);
+    StillForces window = from_.whole;
+    double coarser = HUGE_VAL;
+    const double longest = std::max(from_.whole.size.x, from_.whole.size.y);
+    for (double closer : {4.0, 16.0, 0.0}) {
+      const WindowSpectrum spectrum(window, forces);
+      double known = 0;
+      spectrum.each([&](glm::dvec2 waves, double part) { known += glm::length(waves) * coarser > 1 ? part : 0; });
+      const double fine = spectrum.finer();
+      if (!(known + fine > 0)) break;
+      spectrum.each([&](glm::dvec2 waves, double part) {
+        const double far = glm::length(waves);
+        if (far > 0 && far * coarser > 1) irregular.add(waves, share * part / (known + fine));
+      });
+      share *= fine / (known + fine);
+      if (share < small_part || closer == 0) {
+        if (share > 0) irregular.add({0.5 * std::numbers::sqrt2 * 2 / spectrum.finest(), 1 / spectrum.finest()}, share);
+        return;
+      }
+      coarser = spectrum.finest();
+      const glm::dvec2 size = glm::min(glm::dvec2(longest / closer), from_.whole.size),
+                       room = 0.5 * (from_.whole.size - size);
+      window = still_forces(from_.field, glm::clamp(busiest_place(from_.whole, from_.forces), -room, room), size, 128);
+      forces = window.forces;
+      for (std::size_t i = 0; i < forces.size(); ++i) {
+        forces[i] -= from_.trend.at(window.places[i]);
+        if (!from_.waves.local && !from_.waves.lattice)
+          for (const FoundWave& each : from_.waves.waves) forces[i] -= each.wave.at(window.places[i]);
+      }
+    }
+  }
+
+  void tell_direction(const Distribution& regular, const Distribution& irregular) {
+    std::complex<double> doubled = regular.doubled + irregular.doubled;
+    double sum = regular.sum + irregular.sum;
+    // Single features change along their own directions.
+    const bool only_features = !(sum > 0);
+    for (const Feature& each : from_.features) {
+      if (each.monotone || !only_features) continue;
+      const double weight = each.range * each.range;
+      const std::complex<double> direction(each.direction.x, each.direction.y);
+      doubled += weight * direction * direction, sum += weight;
+    }
+    if (!(sum > 0)) return;
+    relief_.anisotropy = std::min(1.0, std::abs(doubled) / sum);
+    if (!from_.waves.waves.empty() && (relief_.anisotropy < no_direction || from_.waves.waves.size() == 1)) {
+      const glm::dvec2 waves = from_.waves.waves.front().wave.waves;
+      relief_.orientation = half_turned(std::atan2(waves.y, waves.x));
+    } else {
+      relief_.orientation = half_turned(0.5 * std::arg(doubled));
+    }
+  }
+
+  /// Those of a single wave are known from its waveform.
+  void tell_sign_changes() {
+    if (relief_.parts.size() == 1 && relief_.transitions > 0) return;
+    double finest = 0, seen = 0;
+    std::vector<Relief::Part> parts = relief_.parts;
+    std::ranges::sort(parts, std::ranges::greater{}, &Relief::Part::period);
+    for (const Relief::Part& each : parts) {
+      // What is finer than all but a twentieth changes few signs.
+      if (seen < 0.95) finest = each.period;
+      seen += each.share;
+    }
+    if (finest > 0) relief_.transitions = sign_changes(from_, relief_, finest);
+  }
+
+  /// The steepness of the relief, relative to its size.
+  void tell_steepness() {
+    std::vector<glm::dvec2> places;
+    const std::size_t every = from_.whole.places.size() / change_places;
+    for (std::size_t i = every / 2; i < from_.whole.places.size(); i += every)
+      for (const glm::dvec2 aside : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)})
+        places.push_back(from_.whole.places[i] + difference * aside);
+    const std::vector<glm::dvec2> forces = from_.field(places);
+    std::vector<double> changes;
+    for (std::size_t i = 0; i < forces.size(); i += 4) {
+      const glm::dvec2 x = (forces[i] - forces[i + 1]) / (2 * difference) - from_.trend.by_x;
+      const glm::dvec2 y = (forces[i + 2] - forces[i + 3]) / (2 * difference) - from_.trend.by_y;
+      changes.push_back(std::sqrt(glm::dot(x, x) + glm::dot(y, y)));
+    }
+    relief_.steepness = percentile(changes, percentile_of_amplitude) / relief_.amplitude;
+  }
+
+  const SplitRelief& from_;
+  Relief relief_;
+};
+
+}  // namespace
+
+double percentile(const std::vector<double>& values, double share) {
+  if (values.empty()) return 0;
+  const auto rank = std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
+  // Only the values above what a sample puts well below it are put in order.
+  constexpr std::size_t every = 16;
+  std::vector<double> sample;
+  for (std::size_t i = 0; i < values.size(); i += every) sample.push_back(values[i]);
+  const auto below = static_cast<std::ptrdiff_t>((2 * share - 1) * static_cast<double>(sample.size()));
+  std::ranges::nth_element(sample, sample.begin() + below);
+  const double least = sample[static_cast<std::size_t>(below)];
+  std::vector<double> top;
+  for (const double value : values)
+    if (value >= least) top.push_back(value);
+  if (top.size() < values.size() - rank) top = values;
+  const auto from_the_top = static_cast<std::ptrdiff_t>(top.size() - (values.size() - rank));
+  std::ranges::nth_element(top, top.begin() + from_the_top);
+  return top[static_cast<std::size_t>(from_the_top)];
+}
+
+double Relief::within(const PeriodBand& band) const {
+  double share = 0;
+  for (const Part& part : parts)
+    if (part.period >= band.low && part.period < band.high) share += part.share;
+  return amplitude * std::sqrt(std::min(1.0, share));
+}
+
+Relief figures_of(const SplitRelief& split, const std::vector<glm::dvec2>& felt, double misfit) {
+  return ReliefFigures(split).told(felt, misfit);
+}
+
+}  // namespace wale

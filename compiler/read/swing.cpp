@@ -1,0 +1,186 @@
+#include "compiler/read/swing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "compiler/read/dependence.hpp"
+#include "compiler/read/fourier.hpp"
+#include "compiler/read/window_spectrum.hpp"
+#include "wale/batch.hpp"
+#include "wale/memory.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::size_t still_places = 8;
+constexpr double still_seconds = 8;
+constexpr std::size_t fewest_swings = 3;  // over that time; slower changes are a drift
+constexpr std::size_t most_harmonic = 8;
+constexpr double of_the_strongest = 0.2;  // line's power, in a fundamental
+constexpr double stands_out = 0.25;       // of a peak's power, at most this is three lines before it
+constexpr double no_swing = 1e-5;         // N
+constexpr double beats_of_ticks = 0.05;  // of a vibration's power, below its band: the rate of the ticks is no multiple
+
+/// Forces as changes, without their mean and their drift: a parabola in time.
+std::vector<std::complex<float>> without_drift(const std::vector<Force>& forces) {
+  const auto count = static_cast<double>(forces.size());
+  // Legendre's polynomials are nearly orthogonal on so many ticks.
+  const auto at = [&](std::size_t i, int order) {
+    const double u = 2 * (static_cast<double>(i) + 0.5) / count - 1;
+    return order == 0 ? 1.0 : order == 1 ? u : 1.5 * u * u - 0.5;
+  };
+  glm::dvec2 parts[3] = {};
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    for (int order : {0, 1, 2}) parts[order] += (2 * order + 1) / count * at(i, order) * glm::dvec2(forces[i]);
+  std::vector<std::complex<float>> changes(forces.size());
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    glm::dvec2 left(forces[i]);
+    for (int order : {0, 1, 2}) left -= at(i, order) * parts[order];
+    changes[i] = {static_cast<float>(left.x), static_cast<float>(left.y)};
+  }
+  return changes;
+}
+
+/// N: the 99th percentile of the size of a changing force within some lines of its spectrum, as the amplitude of a
+/// relief is defined. `fade` is the window under which it was transformed.
+double size_within(const Spectrum& spectrum, const std::vector<float>& fade, std::size_t first, std::size_t end) {
+  const std::size_t count = spectrum.size();
+  Spectrum within(count);
+  // The transform back is that of the conjugate.
+  for (std::size_t i = first; i < end; ++i)
+    within[i] = std::conj(spectrum[i]), within[count - i] = std::conj(spectrum[count - i]);
+  const Spectrum back = fourier_of_line(within);
+  // Near its ends the window leaves too little.
+  std::vector<float> sizes;
+  for (std::size_t i = count / 4; i < count - count / 4; ++i)
+    sizes.push_back(std::abs(back[i]) / (fade[i] * static_cast<float>(count)));
+  const auto rank = sizes.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size()));
+  std::nth_element(sizes.begin(), rank, sizes.end());
+  return *rank;
+}
+
+/// The swing within some lines of a power spectrum; none if its strongest line does not stand out, as those of a drift.
+Swing swing_in(const std::vector<double>& powers, std::size_t first, std::size_t end, double seconds) {
+  if (first >= end) return {};
+  const auto peak = std::max_element(powers.begin() + static_cast<std::ptrdiff_t>(first),
+                                     powers.begin() + static_cast<std::ptrdiff_t>(end));
+  auto at = static_cast<std::size_t>(peak - powers.begin());
+  // A beat's strongest line may be a harmonic. Its fundamental is the slowest of the lines below of which it is a
+  // multiple.
+  for (std::size_t times = most_harmonic; times >= 2; --times) {
+    const std::size_t slow = (at + times / 2) / times;
+    if (slow < first + 1) continue;
+    const auto line = std::max_element(powers.begin() + static_cast<std::ptrdiff_t>(slow - 1),
+                                       powers.begin() + static_cast<std::ptrdiff_t>(slow + 2));
+    if (*line < of_the_strongest * *peak) continue;
+    at = static_cast<std::size_t>(line - powers.begin());
+    break;
+  }
+  double sum = 0;
+  for (std::size_t i = first; i < end; ++i) sum += powers[i];
+  const double before = at > 0 ? powers[at - 1] : 0, after = at + 1 < powers.size() ? powers[at + 1] : 0;
+  const double slower = at >= 3 ? powers[at - 3] : HUGE_VAL;
+  // A neighbour in a slower band may be the foot of a stronger peak there.
+  if (powers[at] <= 0 || slower > stands_out * powers[at] || before > powers[at] || after > powers[at]) return {};
+  // Under Hann's window, let r be the ratio in amplitude of the larger neighbour to the strongest line. The swing then
+  // lies (2 r - 1) / (1 + r) lines further on: Grandke 1983, IEEE Trans. Instrum. Meas. 32(2).
+  const double ratio = std::sqrt(std::max(before, after) / powers[at]);
+  const double off = std::clamp((2 * ratio - 1) / (1 + ratio), 0.0, 0.5) * (after > before ? 1 : -1);
+  return {std::sqrt(2 * sum), (static_cast<double>(at) + off) / seconds};
+}
+
+}  // namespace
+
+std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  const bool timed = reads(program, {Input::time});
+  std::vector<std::vector<Force>> felt;
+  if (!timed && program.states.empty()) return felt;
+  const double rate = program.device.rate;
+  const auto ticks = static_cast<std::size_t>(std::lround(still_seconds * rate));
+  const PatchSize patch = bank.size();
+  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
+  std::vector<Hand> hands(still_places);
+  for (std::size_t i = 0; i < still_places; ++i) {
+    // On a spiral, so that no two positions have the same distance or angle.
+    const auto number = static_cast<double>(i);
+    const double radius = 0.8 * number / still_places, angle = number * std::numbers::pi * (3 - std::sqrt(5.0));
+    hands[i].position = hands[i].workspace = glm::vec2(half * radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+  felt.assign(still_places, std::vector<Force>(ticks));
+  if (program.states.empty()) {
+    for (std::size_t i = 0; i < still_places; ++i) {
+      std::vector<Hand> moments(ticks, hands[i]);
+      for (std::size_t tick = 0; tick < ticks; ++tick) moments[tick].time = static_cast<double>(tick) / rate;
+      tick_all(bank, moments, felt[i]);
+    }
+    return felt;
+  }
+  Batch batch(bank, still_places);
+  batch.enter(hands);
+  std::vector<Force> forces(still_places);
+  const std::size_t all = program.states.size() * still_places;
+  std::vector<float> before(all), now(all);
+  for (std::size_t tick = 0; tick < ticks; ++tick) {
+    for (Hand& hand : hands) hand.time = static_cast<double>(tick) / rate;
+    batch.tick(hands, forces);
+    for (std::size_t i = 0; i < still_places; ++i) felt[i][tick] = forces[i];
+    for (std::size_t i = 0; i < all; ++i) now[i] = batch.state(i / still_places, i % still_places);
+    // Without a clock, a force that does not change in one tick never changes.
+    if (!timed && tick > 0 && now == before) {
+      for (auto& each : felt) each.assign(ticks, each[tick]);
+      break;
+    }
+    before.swap(now);
+  }
+  return felt;
+}
+
+void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway, Swing& vibration) {
+  std::vector<std::complex<float>> busiest;
+  double most = 0;
+  for (const std::vector<Force>& forces : felt) {
+    const std::vector<std::complex<float>> changes = without_drift(forces);
+    double squares = 0;
+    for (const auto& each : changes) squares += std::norm(each);
+    if (squares > most) most = squares, busiest = changes;
+  }
+  const auto ticks = static_cast<double>(busiest.size());
+  if (busiest.empty() || std::sqrt(2 * most / ticks) <= no_swing) return;
+  const double rate = bank.program().description().device.rate, seconds = ticks / rate;
+  const std::vector<float> fade = hann_window(busiest.size());
+  for (std::size_t i = 0; i < busiest.size(); ++i) busiest[i] *= fade[i];
+  const Spectrum spectrum = fourier_of_line(busiest);
+  // The transform of x + i y holds one of theirs in a coefficient and the other in its mirror image. Hann's window lets
+  // three eighths of the power through.
+  std::vector<double> powers(spectrum.size() / 2 + 1, 0.0);
+  for (std::size_t i = 1; i < powers.size(); ++i) {
+    const std::size_t mirror = spectrum.size() - i;
+    powers[i] = (std::norm(spectrum[i]) + (mirror == i ? 0 : std::norm(spectrum[mirror]))) / (0.375 * ticks * ticks);
+  }
+  // A swing at the border belongs to the faster ones with all of its lines, which are three under this window.
+  auto first_fast = static_cast<std::size_t>(slowest_vibration * seconds);
+  const auto foot = powers.begin() + static_cast<std::ptrdiff_t>(first_fast) - 2;
+  if (std::max_element(foot, foot + 5) - foot >= 2) first_fast -= 2;
+  sway = swing_in(powers, fewest_swings, first_fast, seconds);
+  vibration = swing_in(powers, first_fast, powers.size(), seconds);
+  // The harmonics of a sway count with it.
+  const double times = sway.frequency > 0 ? vibration.frequency / sway.frequency : 0;
+  const bool harmonic =
+      times > 0 && vibration.amplitude < 0.5 * sway.amplitude && std::abs(times - std::round(times)) < 0.05;
+  if (harmonic) vibration = {};
+  if (sway.frequency > 0)
+    sway.amplitude =
+        size_within(spectrum, fade, std::max<std::size_t>(3, static_cast<std::size_t>(sway.frequency * seconds)) - 2,
+                    harmonic ? powers.size() : first_fast);
+  if (!(vibration.frequency > 0)) return;
+  double slower = 0, faster = 0;
+  for (std::size_t i = 1; i < powers.size(); ++i) (i < first_fast ? slower : faster) += powers[i];
+  const bool alone = !(sway.frequency > 0) && slower < beats_of_ticks * faster;
+  vibration.amplitude = size_within(spectrum, fade, alone ? 1 : first_fast, powers.size());
+}
+
+}  // namespace wale

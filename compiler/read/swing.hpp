@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "wale/program.hpp"
+
+namespace wale {
+
+/// A changing force on a hand that holds still.
+struct Swing {
+  double amplitude = 0;  ///< N: the 99th percentile of its size, as the amplitude of a relief is defined
+  double frequency = 0;  ///< Hz: of its strongest component; 0 if the force does not swing
+};
+
+/// Below this frequency (Hz) a swing is a sway, which the hand follows; above it is a vibration.
+inline constexpr double slowest_vibration = 10;
+
+/// The forces on hands that hold still at a few positions for some seconds, for each tick; empty if they cannot change.
+std::vector<std::vector<Force>> felt_at_rest(const Bank& bank);
+
+/// Tells the swings of such forces at the place where they change most. A force that only rises or falls does not
+/// swing.
+void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway, Swing& vibration);
+
+}  // namespace wale
