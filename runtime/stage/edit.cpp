@@ -30,11 +30,10 @@ struct StageEdit::Parts {
     steps.clear();
     error.reset();
   }
-  void step(const Patch& patch, const std::weak_ptr<StageState>& of, PatchName name, StageState::Change change) {
+  void step(const std::weak_ptr<StageState>& of, PatchName name, StageState::Change change) {
     const bool other = of.owner_before(stage) || stage.owner_before(of);
     if (other && !error) error = wrong_moment("the patch is not on the edit's stage");
     steps.push_back({name, std::move(change)});
-    (void)patch;
   }
 };
 
@@ -57,34 +56,32 @@ Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options
 }
 
 void StageEdit::set(const Patch& patch, std::string_view parameter, float value) {
-  parts_->step(patch, patch.stage_, {patch.number_, patch.generation_}, changes::set(std::string(parameter), value));
+  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::set(std::string(parameter), value));
 }
 
 void StageEdit::move(const Patch& patch, glm::vec2 to) {
-  parts_->step(patch, patch.stage_, {patch.number_, patch.generation_}, changes::move(to));
+  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::move(to));
 }
 
 void StageEdit::resize(const Patch& patch, PatchSize size) {
-  parts_->step(patch, patch.stage_, {patch.number_, patch.generation_}, changes::resize(size));
+  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::resize(size));
 }
 
 void StageEdit::replace(const Patch& patch, const Program& program) {
   if (const auto state = parts_->stage.lock())
-    parts_->step(patch, patch.stage_, {patch.number_, patch.generation_}, changes::replace(program, *state));
+    parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::replace(program, *state));
 }
 
 void StageEdit::enable(const Patch& patch, bool enabled) {
-  parts_->step(patch, patch.stage_, {patch.number_, patch.generation_}, changes::enable(enabled));
+  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::enable(enabled));
 }
 
 void StageEdit::bring(const Patch& patch, const BringOptions& to) {
   if (const auto state = parts_->stage.lock())
-    parts_->step(patch, patch.stage_, {patch.number_, patch.generation_}, changes::bring(to.layer, state->table));
+    parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::bring(to.layer, state->table));
 }
 
-void StageEdit::remove(const Patch& patch) {
-  parts_->step(patch, patch.stage_, {patch.number_, patch.generation_}, nullptr);
-}
+void StageEdit::remove(const Patch& patch) { parts_->step(patch.stage_, {patch.number_, patch.generation_}, nullptr); }
 
 Result<> StageEdit::commit() {
   const auto state = parts_->stage.lock();

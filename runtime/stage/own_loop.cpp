@@ -2,32 +2,28 @@
 #include "wale/loop.hpp"
 
 namespace wale {
-namespace {
-
-/// A device whose readings the program gives, and whose commands it takes.
-class HandedDevice final : public Device {
- public:
-  explicit HandedDevice(const DeviceProfile& profile) : profile_(profile) {}
-
-  const DeviceProfile& profile() const noexcept override { return profile_; }
-  void elapse(long) noexcept override {}
-  Reading sample() noexcept override { return reading; }
-  Force command(Force force) noexcept override { return commanded = force; }
-
-  Reading reading;
-  Force commanded{0};
-
- private:
-  DeviceProfile profile_;
-};
-
-}  // namespace
 
 struct Loop::Parts {
-  explicit Parts(const DeviceProfile& profile) : device(profile), seconds_per_tick(1 / profile.rate) {}
+  /// A device whose readings the program gives, and whose commands it takes.
+  class HandedDevice final : public Device {
+   public:
+    explicit HandedDevice(const DeviceProfile& profile) : profile_(profile) {}
+
+    const DeviceProfile& profile() const noexcept override { return profile_; }
+    void elapse(long) noexcept override {}
+    Reading sample() noexcept override { return reading; }
+    Force command(Force force) noexcept override { return commanded = force; }
+
+    Reading reading;
+    Force commanded{0};
+
+   private:
+    DeviceProfile profile_;
+  };
+
+  explicit Parts(const DeviceProfile& profile) : device(profile) {}
 
   HandedDevice device;
-  double seconds_per_tick;
   std::unique_ptr<Session> session;  // ends before the device
   long period = -1;
 };

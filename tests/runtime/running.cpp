@@ -284,8 +284,12 @@ TEST(Running, AllChangesFromFourThreadsAreRecordedAndReplayBitForBit) {
         EXPECT_TRUE(still.set("wale", 0.001f + 0.00005f * static_cast<float>((i + 13 * thread) % 80)));
         EXPECT_TRUE(mine[mine.size() / 2].move({-x, 0.001f}));
         EXPECT_TRUE(mine.front().enable(i % 5 != 0));
-        if (i % 6 == 0) EXPECT_TRUE(mine.back().replace(programs[i % 4]));
-        if (i % 4 == 0) EXPECT_TRUE(mine.back().resize({.width = 0.02f, .height = 0.02f, .rim = 0.001f}));
+        if (i % 6 == 0) {
+          EXPECT_TRUE(mine.back().replace(programs[i % 4]));
+        }
+        if (i % 4 == 0) {
+          EXPECT_TRUE(mine.back().resize({.width = 0.02f, .height = 0.02f, .rim = 0.001f}));
+        }
         if (i % 9 == 0) {
           StageEdit edit = stage.edit();
           edit.move(still, {0.0001f * static_cast<float>(i), 0});
