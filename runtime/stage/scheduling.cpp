@@ -68,6 +68,11 @@ RealTimeClaim::~RealTimeClaim() {
   if (stack_ != nullptr) munlock(stack_, stack_bytes);
 }
 
+void take_ordinary_priority() {
+  const sched_param none{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);  // always permitted
+}
+
 bool lock_pages(const void* memory, std::size_t bytes) { return bytes == 0 || mlock(memory, bytes) == 0; }
 
 }  // namespace wale

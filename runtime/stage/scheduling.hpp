@@ -28,6 +28,9 @@ class RealTimeClaim {
   std::string status_;
 };
 
+/// Gives the calling thread ordinary priority: a thread inherits that of the one that makes it, which may be real-time.
+void take_ordinary_priority();
+
 /// Locks the pages of some memory for good. False if the system refuses.
 bool lock_pages(const void* memory, std::size_t bytes);
 

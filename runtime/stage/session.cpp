@@ -167,6 +167,7 @@ Result<> Session::start_preparing() {
 }
 
 void Session::prepare() {
+  take_ordinary_priority();  // the ticks must not wait for a bank
   StageState& stage = *stage_;
   std::unique_lock lock(stage.mutex);
   while (!prepared_enough_) {

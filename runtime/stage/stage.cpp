@@ -110,18 +110,19 @@ void Stage::on_contact(std::function<void(const ContactEvent&)> receive) {
 }
 
 std::size_t Stage::poll() {
-  const std::lock_guard polling(state_->polling);
+  const std::shared_ptr<StageState> state = state_;  // a receiver may destroy the stage
+  const std::lock_guard polling(state->polling);
   NotedContact contact;
-  while (state_->outlets.contacts.pop(contact)) {
-    if (!state_->receive) continue;
-    state_->receive({.kind = contact.kind,
-                     .patch = Patch(state_, contact.number, contact.generation),
-                     .time = contact.time,
-                     .position = contact.position,
-                     .velocity = contact.velocity,
-                     .force = contact.force});
+  while (state->outlets.contacts.pop(contact)) {
+    if (!state->receive) continue;
+    state->receive({.kind = contact.kind,
+                    .patch = Patch(state, contact.number, contact.generation),
+                    .time = contact.time,
+                    .position = contact.position,
+                    .velocity = contact.velocity,
+                    .force = contact.force});
   }
-  return state_->outlets.contacts.take_dropped();
+  return state->outlets.contacts.take_dropped();
 }
 
 }  // namespace wale

@@ -99,7 +99,7 @@ Result<Bank> StageState::bank(PatchName name) const {
     if (auto there = has(name); !there) return std::move(there).error();
     key = table.wanted(name)->key();
   }
-  return const_cast<BankCache&>(banks).get(*key)->bank;
+  return banks.get(*key)->bank;
 }
 
 Now StageState::now() const noexcept {

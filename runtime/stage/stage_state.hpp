@@ -31,7 +31,7 @@ struct StageState : std::enable_shared_from_this<StageState> {
   mutable std::mutex mutex;      // never taken by the thread that serves the ticks
   std::condition_variable news;  // for the thread that hands over changes, and who waits for a run's end
   std::condition_variable work;  // for the thread that prepares banks
-  BankCache banks;
+  mutable BankCache banks;       // safe from any thread
   PatchTable table{banks};
   std::unique_ptr<RecordWriter> recorder;  // of the present run; called with the mutex held
   bool running = false;                    // a run is under way, or ends

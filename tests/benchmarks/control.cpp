@@ -5,7 +5,6 @@
 //   bench_control set PROGRAM...      a parameter of the touched patch, for each program (.wpp): until it is felt
 //   bench_control stream SECONDS      10 000 patches that come and go: memory, numbers, the cost of one change
 
-#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +12,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <deque>
 #include <fstream>
 #include <iterator>
@@ -144,7 +142,7 @@ std::vector<double> times_of(const Program& program) {
     const double begun = now();
     while (stage.now().revision < revision) {
       (void)loop.step({});
-      if (since(begun) > 5000) fail("a change was not felt");
+      if (since(begun) > 5000) fail(program.description().material + ": a change was not felt");
       std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
   };
@@ -152,7 +150,7 @@ std::vector<double> times_of(const Program& program) {
   const auto& parameters = program.description().parameters;
   for (std::size_t n = 0; n < 3 * parameters.size(); ++n) {
     const Parameter& one = parameters[n % parameters.size()];
-    const float share = 0.2f + 0.05f * static_cast<float>(n / parameters.size());
+    const float share = 0.2137f + 0.0511f * static_cast<float>(n / parameters.size());
     if (!(one.high > one.low) || !std::isfinite(one.high - one.low)) continue;
     // Bounds that are tightened later are revisions too: none is under way when it has been quiet for a while.
     for (long quiet = 0, last = stage.now().revision; quiet < 20; ++quiet) {

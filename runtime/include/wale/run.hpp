@@ -73,8 +73,9 @@ struct RecordTo {
 struct RunOptions {
   double seconds = 0;         ///< how long; positive, may be fractional
   bool virtual_time = false;  ///< as fast as possible on the calling thread; every run gives the same bits
-  /// Called about ten times a second, never on the real-time thread. In virtual time it is called between two ticks,
-  /// ten times per second of the run; a change that it makes to the stage takes effect at the next tick.
+  /// Called about ten times a second, never on the real-time thread; changes of the stage are not handed over while it
+  /// runs, so it should return soon. In virtual time it is called between two ticks, ten times per second of the run; a
+  /// change that it makes to the stage takes effect at the next tick.
   std::function<void(const Now&)> progress = {};
   /// Ends the run when it becomes true; a signal handler may set it.
   const std::atomic<bool>* stop = nullptr;

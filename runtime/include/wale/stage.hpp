@@ -104,8 +104,7 @@ class Stage {
   /// the device exerts no force, also after an error. In real time a run begins when all patches are ready, or after 30
   /// ms; the rest follow. Errors:
   /// - `malformed_value`: the time is not positive, the record would keep more than 2^24 ticks, the largest force is
-  /// not
-  ///   positive, or the priority is not in 1 .. 99;
+  ///   not positive, or the priority is not in 1 .. 99;
   /// - `wrong_moment`: nothing is on the stage, it has no device, or another run is under way on it;
   /// - `unusable_device`: the device's profile lacks a figure that a loop needs;
   /// - `unwritable_file`: the recording cannot be made;
@@ -128,8 +127,8 @@ class Stage {
   /// What `poll` calls for each contact; an empty function ends it. Contacts are noted only while there is one.
   void on_contact(std::function<void(const ContactEvent&)> receive);
   /// Calls the receiver for all contacts since the last poll, in their order, on the calling thread. Two threads that
-  /// poll take turns; a receiver must not poll. Returns how many contacts were dropped because `most_contacts_waiting`
-  /// were waiting.
+  /// poll take turns; a receiver must call neither `poll` nor `on_contact`. Returns how many contacts were dropped
+  /// because `most_contacts_waiting` were waiting.
   std::size_t poll();
 
  private:
