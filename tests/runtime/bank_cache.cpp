@@ -50,6 +50,23 @@ TEST(BankCache, KeepsTheLastUsedOnesWithinItsBytesAndAllThatAreInUse) {
   EXPECT_EQ(cache.find(key(stiff, 50)), nullptr) << "pushed out";
 }
 
+/// Of many programs, as saves of a watched file make them, only the last stay.
+TEST(BankCache, KeepsTheLastProgramsWithinTheirBytes) {
+  BankCache cache(BankCache::usual_bytes, std::size_t{1} << 20);
+  const Program first = spring(50);
+  const auto used = cache.get(key(first, 1));
+  for (int i = 0; i < 200; ++i) {
+    const Program program = spring(50);
+    for (const float stiffness : {1.0f, 2.0f, 3.0f}) (void)cache.get(key(program, stiffness));
+    EXPECT_NE(cache.find(key(program, 1)), nullptr) << "used last";
+  }
+  EXPECT_LT(cache.size(), 3u * 40) << "1 MB of programs that count as 32 kB each";
+  EXPECT_EQ(cache.find(key(first, 1)), used) << "in use";
+  BankCache small(BankCache::usual_bytes, 1);
+  for (int i = 1; i <= 100; ++i) (void)small.get(key(first, static_cast<float>(i)));
+  EXPECT_EQ(small.size(), 100u) << "one program is never too large";
+}
+
 TEST(BankCache, AProgramAtTheAddressOfAFreedOneIsAnother) {
   BankCache cache(1);
   for (int i = 0; i < 1000; ++i) {
