@@ -2,6 +2,7 @@
 #include "runtime/stage/bank_cache.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <cmath>
 #include <limits>
@@ -48,6 +49,20 @@ TEST(BankCache, KeepsTheLastUsedOnesWithinItsBytesAndAllThatAreInUse) {
   EXPECT_EQ(cache.find(key(stiff, 0)), used) << "in use";
   EXPECT_NE(cache.find(key(stiff, 100)), nullptr) << "used last";
   EXPECT_EQ(cache.find(key(stiff, 50)), nullptr) << "pushed out";
+}
+
+TEST(BankCache, ItsMemoryStopsGrowing) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer's heap does not tell";
+#endif
+  BankCache cache(std::size_t{1} << 18);
+  const Program stiff = spring(50);
+  const auto fill = [&](int from, int to) {
+    for (int i = from; i < to; ++i) (void)cache.get(key(stiff, static_cast<float>(i)));
+    return static_cast<double>(mallinfo2().uordblks);
+  };
+  const double full = fill(0, 5000);
+  EXPECT_NEAR(fill(5000, 10000), full, 1 << 16) << "5000 banks take some megabytes";
 }
 
 /// Of many programs, as saves of a watched file make them, only the last stay.
