@@ -40,8 +40,11 @@ glm::dvec2 in_phase(std::span<const glm::dvec2> places, std::span<const glm::dve
 glm::dvec2 better_fitting(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 waves,
                           std::size_t bins);
 
+/// So many harmonics of each wave are fitted beside a linear part.
+inline constexpr std::size_t harmonics_beside = 4;
+
 /// The linear part of some forces beside waves of these periods, by least squares of it and their first harmonics
-/// together.
+/// together. No two of the harmonics may be the same.
 LinearForce linear_beside(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
                           std::span<const glm::dvec2> waves);
 

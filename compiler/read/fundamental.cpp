@@ -37,6 +37,13 @@ bool lies_elsewhere(const StillForces& thin, glm::dvec2 common, const std::vecto
 
 }  // namespace
 
+int whole_periods(glm::dvec2 wave, glm::dvec2 other, glm::dvec2 size) {
+  const double whole = std::round(glm::dot(other, wave) / glm::dot(wave, wave));
+  constexpr double most = 1000;
+  return std::abs(whole) < most && glm::length((other - whole * wave) * size) < out_of_place ? static_cast<int>(whole)
+                                                                                             : 0;
+}
+
 double length_along(glm::dvec2 size, glm::dvec2 direction) {
   const glm::dvec2 way = glm::abs(glm::normalize(direction));
   return std::min(way.x > 0 ? size.x / way.x : HUGE_VAL, way.y > 0 ? size.y / way.y : HUGE_VAL);
@@ -74,8 +81,7 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
   };
   Fundamental found{peak, 1, explained(1), {1}};
   // What lay beside a peak may be the common multiple of several waves.
-  const bool is_peak = may_lie_beside;
-  if (is_peak && found.explained >= wholly) return found;
+  if (may_lie_beside && found.explained >= wholly) return found;
   const auto most = std::min<std::size_t>(most_multiples, static_cast<std::size_t>(length / 3 / period));
   std::vector<double> all{found.explained};
   for (std::size_t multiple = 2; multiple <= most; ++multiple) {
@@ -88,7 +94,7 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
       found.waves = peak / static_cast<double>(i + 1), found.multiple = i + 1, found.explained = all[i];
       break;
     }
-  if (is_peak && found.multiple == 1) return found;
+  if (may_lie_beside && found.multiple == 1) return found;
   // A few waves whose common multiple is long repeat only by chance.
   const FoldedWave wave =
       folded(thin.places, thin.forces, found.waves, most_bins(parts_of_a_wave * found.multiple, thin.places.size()));
@@ -114,8 +120,11 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
     if (powers[i] >= strong_part && !is_own(i + 1)) own.push_back(i + 1);
   for (std::size_t i = 0; i < powers.size(); ++i)
     if (is_own(i + 1)) in_own += powers[i];
-  if (own.size() < 2 || own.size() > most_waves_found || in_own <= 0.85) return found;
-  if (own.back() <= small_common_multiple && !lies_elsewhere(thin, found.waves, own)) {
+  // One wave may be there alone, and a finer one fit into the longer period by chance.
+  const bool alone = own.size() == 1 && own.front() > 1;
+  const bool several = own.size() >= 2 && own.size() <= most_waves_found && in_own > 0.85;
+  if (!alone && !several) return found;
+  if (several && own.back() <= small_common_multiple && !lies_elsewhere(thin, found.waves, own)) {
     found.parts = own;
     return found;
   }
@@ -124,7 +133,8 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
     const std::size_t multiple = found.multiple / part;
     return {peak / static_cast<double>(multiple), multiple, all[multiple - 1], {1}};
   }
-  return {static_cast<double>(own.front()) * found.waves, 1, all.front(), {1}};
+  if (several) found = {static_cast<double>(own.front()) * found.waves, 1, all.front(), {1}};
+  return found;
 }
 
 }  // namespace wale

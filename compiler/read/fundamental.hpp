@@ -11,7 +11,11 @@ inline constexpr std::size_t most_waves_found = 3;
 inline constexpr std::size_t parts_of_a_wave = 32;  // of the shortest wave that a fold should show
 inline constexpr double strong_part = 0.02;         // of a wave's mean square, in one of its harmonics
 inline constexpr double out_of_place = 0.25;        // periods over a window: no longer the same wave
-inline constexpr double weak_part = 0.004;
+inline constexpr double weak_part = 0.004;          // of a wave's mean square: a harmonic that counts as there
+
+/// How many periods of `other` one period of `wave` holds, if that is a whole number over a window of `size` (m):
+/// negative if the two are counted the other way round; 0 if it is none.
+int whole_periods(glm::dvec2 wave, glm::dvec2 other, glm::dvec2 size);
 
 /// The longest line in a direction across a window.
 double length_along(glm::dvec2 size, glm::dvec2 direction);
@@ -37,6 +41,7 @@ struct Fundamental {
 
 /// The fundamental of the wave whose strongest harmonic is at a peak: the shortest multiple of its period that explains
 /// nearly as much as any. Where several waves share a long period, it is that of the peak's own wave.
+/// `may_lie_beside`: the peak may lie beside the wave; otherwise it is what was found of it there.
 Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_lie_beside = true);
 
 }  // namespace wale

@@ -40,9 +40,9 @@ struct ReadParts {
   bool moving = true;  ///< resistance to motion, and what goes by time
 };
 
-/// Reads a program at this bank's parameters. The only place where a figure of feel is computed; `declarations` has the
-/// bands of periods of the percepts. Deterministic. Parts that are not wanted are as those of a program without a
-/// force.
+/// Reads a program at this bank's parameters. The only place where a figure of feel is computed. The forces alone
+/// decide it: `declarations`, by which `carrier_of` tells percepts from it, change nothing here. Deterministic. Parts
+/// that are not wanted are as those of a program without a force.
 ForceReading read(const Bank& bank, const Declarations& declarations, ReadParts wanted = {});
 
 /// The size of a percept's carrier by the percept's extractor, in SI units; nothing if the program has no such carrier,

@@ -9,17 +9,16 @@
 namespace wale {
 namespace {
 
-constexpr double counts_as_there = 0.004;  // of a wave's mean square, in one of its harmonics
-constexpr double counts_as_wave = 0.02;    // in a wave of its own and its harmonics
-constexpr std::size_t far_off = 4;         // the first harmonic that a waveform hardly has without those between
+constexpr double counts_as_wave = 0.02;  // of a wave's mean square, in a wave of its own and its harmonics
+constexpr std::size_t far_off = 4;       // the first harmonic that a waveform hardly has without those between
 
 }  // namespace
 
 std::size_t fine_wave(const std::vector<double>& powers) {
-  if (powers.empty() || powers[0] < counts_as_there) return 0;
+  if (powers.empty() || powers[0] < weak_part) return 0;
   std::size_t below = 0;  // the highest harmonic of the coarse wave
   for (std::size_t fine = 1; fine <= powers.size(); ++fine) {
-    if (powers[fine - 1] < counts_as_there) continue;
+    if (powers[fine - 1] < weak_part) continue;
     if (below > 0 && fine >= 2 * below) {
       double family = 0;
       bool others = false;
@@ -27,7 +26,7 @@ std::size_t fine_wave(const std::vector<double>& powers) {
         if (i % fine == 0)
           family += powers[i - 1];
         else
-          others = others || powers[i - 1] >= counts_as_there;
+          others = others || powers[i - 1] >= weak_part;
       }
       const bool apart = fine >= far_off && fine > 2 * below;
       if (!others && (family > 0.5 || (apart && family >= counts_as_wave))) return fine;
@@ -61,12 +60,8 @@ SharedHarmonic shared_harmonic(const FoundWave& one, const FoundWave& other, glm
   constexpr int most = 6;
   if (one.parts.size() > 1 || other.parts.size() > 1) return {};
   for (int of_one = 2; of_one <= most; ++of_one) {
-    const glm::dvec2 there = static_cast<double>(of_one) * one.wave.waves;
-    const double ratio = glm::dot(there, other.wave.waves) / glm::dot(other.wave.waves, other.wave.waves);
-    const int of_other = static_cast<int>(std::round(std::abs(ratio)));
-    if (of_other < 2 || of_other > most || of_other == of_one) continue;
-    const glm::dvec2 off = there - std::round(ratio) * other.wave.waves;
-    if (glm::length(off * size) < out_of_place)
+    const int of_other = std::abs(whole_periods(other.wave.waves, static_cast<double>(of_one) * one.wave.waves, size));
+    if (of_other >= 2 && of_other <= most && of_other != of_one)
       return {static_cast<std::size_t>(of_one), static_cast<std::size_t>(of_other)};
   }
   return {};
@@ -75,9 +70,9 @@ SharedHarmonic shared_harmonic(const FoundWave& one, const FoundWave& other, glm
 bool belongs_to_other(const FoundWave& one, const FoundWave& other, SharedHarmonic shared) {
   const auto has_neighbour = [](const FoundWave& wave, std::size_t number) {
     const std::vector<double> powers = harmonics_of(wave.wave, number + 1);
-    return powers[number - 2] >= counts_as_there || powers[number] >= counts_as_there;
+    return powers[number - 2] >= weak_part || powers[number] >= weak_part;
   };
-  return harmonics_of(one.wave, shared.of_one).back() >= counts_as_there && !has_neighbour(one, shared.of_one) &&
+  return harmonics_of(one.wave, shared.of_one).back() >= weak_part && !has_neighbour(one, shared.of_one) &&
          has_neighbour(other, shared.of_other);
 }
 
@@ -104,11 +99,10 @@ double FoundWaves::period(glm::dvec2 size) const {
     const glm::dvec2 common = strongest / static_cast<double>(number);
     const bool fits = std::ranges::all_of(waves, [&](const FoundWave& each) {
       const glm::dvec2 other = each.wave.waves;
-      const double ratio = glm::dot(other, common) / glm::dot(common, common), whole = std::round(ratio);
-      const glm::dvec2 across = other - ratio * common;
+      const glm::dvec2 across = other - glm::dot(other, common) / glm::dot(common, common) * common;
       if (glm::length(across * size) > out_of_place) return true;  // along another direction
-      return std::abs(whole) >= 1 && std::abs(whole) <= most &&
-             glm::length((other - whole * common) * size) < out_of_place;
+      const int whole = std::abs(whole_periods(common, other, size));
+      return whole >= 1 && whole <= most;
     });
     if (fits) return 1 / glm::length(common);
   }

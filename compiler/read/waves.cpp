@@ -18,7 +18,8 @@ namespace {
 constexpr std::array<double, 3> closer = {4, 16, 96};  // windows are so many times smaller than the patch
 constexpr std::size_t closer_side = 128;
 constexpr std::size_t candidates = 5;
-constexpr std::size_t places_a_part = 48;         // of a period, to move a wave by
+constexpr std::size_t few_places_a_part = 16;     // of a period, to move a wave by ...
+constexpr std::size_t places_a_part = 48;         // ... and at last, to put it where it is
 constexpr double least_explained = 0.3;           // of what is left, by a wave ...
 constexpr double least_explained_by_few = 0.7;    // ... and by one with few periods
 constexpr double least_explained_by_many = 0.12;  // ... and by one with many
@@ -35,8 +36,8 @@ constexpr std::size_t lattice_parts = 20;
 constexpr std::size_t finer_lattice_parts = 40;
 constexpr std::size_t lattice_places = 9000;
 constexpr double least_lattice = 0.6;
-constexpr double most_joined_harmonic = 24;  // that is found before the wave whose harmonic it is
-constexpr double least_turn = 0.2;           // rad between two directions
+constexpr std::size_t most_joined_harmonic = 24;  // that is found before the wave whose harmonic it is
+constexpr double least_turn = 0.2;                // rad between two directions
 
 /// Every fourth place or so, chosen as if by chance: a regular choice would alias.
 StillForces thinned_by_chance(const StillForces& window, const std::vector<glm::dvec2>& forces, std::size_t about) {
@@ -273,12 +274,9 @@ class WaveSearch {
 
   /// The number of a wave among the harmonics of a coarser one; 0 if it is none.
   std::size_t harmonic_of(const FoundWave& coarse, const FoundWave& fine) const {
-    const double ratio = glm::dot(fine.wave.waves, coarse.wave.waves) / glm::dot(coarse.wave.waves, coarse.wave.waves);
-    const double number = std::round(ratio);
-    const glm::dvec2 off = (fine.wave.waves - number * coarse.wave.waves) * whole_.size;
-    return std::abs(number) >= 2 && std::abs(number) <= most_joined_harmonic && glm::length(off) < out_of_place
-               ? static_cast<std::size_t>(std::abs(number))
-               : 0;
+    const auto number =
+        static_cast<std::size_t>(std::abs(whole_periods(coarse.wave.waves, fine.wave.waves, whole_.size)));
+    return number >= 2 && number <= most_joined_harmonic ? number : 0;
   }
 
   /// Joins waves that are harmonics of another one to it, unless they are waves of their own.
@@ -302,14 +300,19 @@ class WaveSearch {
       }
   }
 
-  /// Fits the trend and all waves, the last of which is new, in turn: first at some places, then once at all.
+  /// Fits the trend and all waves, the last of which is new, in turn: at few places, at more, then once at all.
   void fit_together(bool slow) {
     const int turns = slow ? 4 : 3;
     std::size_t most = 0;
     for (const FoundWave& each : found_.waves) most = std::max(most, each.wave.profile.size());
-    StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / (places_a_part * most)));
-    some.forces = rest_at(some.places, std::move(some.forces));
+    const auto at_places = [&](std::size_t a_part) {
+      StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / (a_part * most)));
+      some.forces = rest_at(some.places, std::move(some.forces));
+      return some;
+    };
+    StillForces some = at_places(few_places_a_part);
     for (int turn = 0; turn < turns; ++turn) {
+      if (turn + 1 == turns) some = at_places(places_a_part);
       fit_trend(some);
       for (FoundWave& each : found_.waves) {
         const std::size_t bins = each.wave.profile.size();
@@ -318,8 +321,7 @@ class WaveSearch {
         each.wave = folded(some.places, some.forces, waves, bins);
         add_wave(each.wave, -1, some);
       }
-      const double left = mean_square(some.forces);
-      if (left < 1e-5 * all_ || (turn > 0 && !slow && left < negligible * all_)) break;
+      if (!slow && mean_square(some.forces) < negligible * all_) turn = std::max(turn, turns - 2);
     }
     update_rest();
     for (FoundWave& each : found_.waves) {
@@ -350,6 +352,9 @@ class WaveSearch {
     for (const FoundWave& each : found_.waves) {
       if (!is_slow(each.wave.waves)) continue;
       slow.push_back(each.wave.waves);
+      // Beyond the harmonics that are fitted with it.
+      for (const std::size_t part : each.parts)
+        if (part > harmonics_beside) slow.push_back(static_cast<double>(part) * each.wave.waves);
       for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += each.wave.at(rest.places[i]);
     }
     const LinearForce before = found_.trend;

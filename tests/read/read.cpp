@@ -119,7 +119,7 @@ TEST(Reading, SignChangesOfSumsAndNoisesAreThoseThatCountingFinds) {
     const double truth = changes / 0.14;
     EXPECT_NEAR(relief_of(pushing(each.physical)).transitions, truth, 0.15 * truth) << each.physical;
   }
-  // A force of noise has about as many zeros as its own lattice has cells; a height of it, as many as its slope.
+  // A force of noise has a little less than a zero in each cell of its lattice of 2 mm.
   const double cells = relief_of(pushing("force = vector(1 N * noise2(x / 2 mm, y / 2 mm), 0 N)")).transitions;
   EXPECT_GT(cells, 200);
   EXPECT_LT(cells, 500);
