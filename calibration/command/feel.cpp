@@ -227,12 +227,18 @@ std::optional<RecordTo> recording_of(const FeelOptions& options, const RunManner
   return RecordTo{options.record, fmt::format("{}, {}", manner.device, manner.hand)};
 }
 
-RunOptions run_options(const FeelOptions& options, const RunManner& manner, const std::atomic<bool>& stop) {
+/// How the stage runs, and what it records.
+StageOptions stage_options(const FeelOptions& options, const RunManner& manner) {
+  StageOptions how = felt_stage_options(options.max_force.value_or(HUGE_VAL));
+  how.record = recording_of(options, manner);
+  return how;
+}
+
+RunOptions run_options(const FeelOptions& options, const std::atomic<bool>& stop) {
   const bool is_recording = has_ending(options.record, ".wrec"), is_table = !options.record.empty() && !is_recording;
   return {.seconds = options.seconds.value_or(usual_seconds),
           .virtual_time = options.virtual_time,
           .stop = &stop,
-          .record_to = recording_of(options, manner),
           .kept_seconds = !is_table && (is_recording || options.watch) ? measured_seconds : HUGE_VAL};
 }
 
@@ -289,7 +295,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   if (!table) return refuse(table.error());
   auto felt = open_prepared(options, *prepared_run, stop);
   if (!felt) return felt.status();
-  Stage stage(*felt->device, felt_stage_options(options.max_force.value_or(HUGE_VAL)));
+  Stage stage(*felt->device, stage_options(options, felt->manner()));
   Result<Patch> added = stage.add(material.program);
   if (!added) return refuse(added.error());
   Patch patch = *added;
@@ -298,7 +304,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
       return refuse(set.error());
 
   const bool live = isatty(fileno(stderr));
-  RunOptions run = run_options(options, felt->manner(), stop);
+  RunOptions run = run_options(options, stop);
   run.seconds = seconds_of_run(options, *prepared_run, stop);
   if (live)
     run.progress = [vibrates = program.vibrates()](const Now& now) {

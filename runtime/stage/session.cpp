@@ -108,7 +108,7 @@ Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stag
   stage->running = stage->served = true;
   stage->told_to_stop = false;
   stage->outlives_its_device = clock == Clock::own;
-  if (clock == Clock::unreal) stage->caller = std::this_thread::get_id();
+  stage->caller_serves = clock == Clock::unreal;
   stage->table.begin(clock == Clock::unreal ? PatchTable::Manner::together : PatchTable::Manner::piecewise,
                      how.lock_memory);
   stage->outlets.state.store({});
@@ -128,7 +128,7 @@ Session::~Session() {
   if (stage_->recorder && clock_ == Clock::own) stage_->recorder->end();
   stage_->table.end();
   stage_->recorder.reset();
-  stage_->running = stage_->served = false;
+  stage_->running = stage_->served = stage_->caller_serves = false;
   stage_->caller = {};
   stage_->news.notify_all();
 }
@@ -145,7 +145,7 @@ void Session::stop_threads() noexcept {
 }
 
 Result<> Session::begin_recording() {
-  const std::optional<RecordTo>& to = options_.record_to ? options_.record_to : stage_->options.record;
+  const std::optional<RecordTo>& to = stage_->options.record;
   if (!to) return {};
   const RecordingHeader header{.device = stage_->profile,
                                .most_newton = stage_->options.max_force,
@@ -285,6 +285,10 @@ Result<> Session::attend_apart() {
 }
 
 Result<RunResult> Session::play() {
+  {
+    const std::lock_guard lock(stage_->mutex);
+    stage_->caller = std::this_thread::get_id();
+  }
   if (clock_ == Clock::unreal)
     serve_in_virtual_time();
   else if (auto served = serve_in_real_time(); !served)

@@ -81,8 +81,11 @@ Result<> Stage::start() {
     state->thread = std::thread([state = state.get(), session = *std::move(session)]() mutable {
       Result<RunResult> result = session->play();
       if (result) result->record.ticks.clear();
+      {
+        const std::lock_guard lock(state->mutex);
+        state->outcome = std::move(result);
+      }
       session.reset();
-      state->outcome = std::move(result);
     });
   } catch (const std::system_error& error) {
     return Error{.code = Code::short_of_resources,
@@ -91,14 +94,15 @@ Result<> Stage::start() {
   return {};
 }
 
-std::optional<RunResult> Stage::stop() {
+Result<RunResult> Stage::stop() {
   const std::lock_guard starting(state_->starting);
-  if (!state_->thread.joinable()) return std::nullopt;
-  state_->told_to_stop = true;
+  if (!state_->thread.joinable()) return wrong_moment("no run was started on this stage");
+  {
+    const std::lock_guard lock(state_->mutex);
+    if (!state_->outcome) state_->told_to_stop = true;  // a run that failed has ended, and another may be under way
+  }
   state_->thread.join();
-  const std::optional<Result<RunResult>> outcome = std::exchange(state_->outcome, std::nullopt);
-  if (!outcome || !*outcome) return RunResult{};
-  return **outcome;
+  return *std::exchange(state_->outcome, std::nullopt);
 }
 
 Now Stage::now() const noexcept { return state_->now(); }

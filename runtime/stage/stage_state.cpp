@@ -131,7 +131,7 @@ Result<Snapshot> StageState::snapshot(PatchName name) {
       const std::lock_guard lock(mutex);
       if (auto there = has(name); !there) return std::move(there).error();
       felt = table.felt(name);
-      const bool untouched = !served || caller == std::this_thread::get_id() || !felt.memory ||
+      const bool untouched = !served || (caller_serves && caller == std::this_thread::get_id()) || !felt.memory ||
                              (!felt.is_placed && seen >= felt.withdrawn && felt.withdrawn > 0);
       if (untouched) {
         const BankKey key = table.wanted(name)->key();

@@ -38,14 +38,15 @@ struct StageState : std::enable_shared_from_this<StageState> {
   bool outlives_its_device = false;        // the program serves the ticks, without the stage's device
   bool over = false;                       // the stage is gone
   bool served = false;                     // some thread serves ticks
-  std::thread::id caller;                  // that serves the ticks of a run in virtual time
+  std::thread::id caller;                  // of `run`, which calls `progress`
+  bool caller_serves = false;              // it also serves the ticks: virtual time
   std::atomic<bool> told_to_stop = false;  // by `stop` or the destructor
 
   Outlets outlets;
 
   std::mutex starting;                       // of `start` and `stop`
   std::thread thread;                        // of `start`
-  std::optional<Result<RunResult>> outcome;  // of `start`'s run
+  std::optional<Result<RunResult>> outcome;  // of `start`'s run; with `mutex`
 
   std::mutex polling;
   std::function<void(const ContactEvent&)> receive;

@@ -28,11 +28,10 @@ using namespace recording_format;
 TEST(Recording, HoldsTheRun) {
   const TemporaryFolder folder;
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});
-  Stage stage(joystick, {.max_force = 1.5});
+  Stage stage(joystick, {.max_force = 1.5, .record = RecordTo{folder / "a.wrec", "simulated, circular"}});
   Patch patch = *stage.add(corduroy(1.934f), {.at = {0.001f, 0}});
   ASSERT_TRUE(patch.set("wale", 0.003f));
-  const RunResult done =
-      run(stage, {.seconds = 7, .virtual_time = true, .record_to = RecordTo{folder / "a.wrec", "simulated, circular"}});
+  const RunResult done = run(stage, {.seconds = 7, .virtual_time = true});
   EXPECT_FALSE(done.record_problem);
   const Recording recording = opened(folder / "a.wrec");
   EXPECT_EQ(recording.header().device, sandpaper());
@@ -75,7 +74,7 @@ TEST(Recording, HoldsTheRun) {
 TEST(Recording, ReplaysPatchesParametersAndSwapsAtTheirTicks) {
   const TemporaryFolder folder;
   Puppet device(roaming);
-  Stage stage(device);
+  Stage stage(device, {.record = RecordTo{folder / "a.wrec", {}}});
   Patch patch = *stage.add(corduroy(1.934f));
   Patch another =
       *stage.add(bead(500), {.at = {0.02f, 0}, .size = PatchSize{.width = 0.05f, .height = 0.04f}, .layer = 1});
@@ -101,8 +100,7 @@ TEST(Recording, ReplaysPatchesParametersAndSwapsAtTheirTicks) {
     if (deed == 21) done(third.set("stiffness", 60));
     if (deed == 40) fourth = *stage.add(push(1.5f), {.size = PatchSize{.width = 0.01f, .height = 0.2f}, .layer = 2});
   };
-  const RunResult done =
-      run(stage, {.seconds = 9, .virtual_time = true, .progress = act, .record_to = RecordTo{folder / "a.wrec", {}}});
+  const RunResult done = run(stage, {.seconds = 9, .virtual_time = true, .progress = act});
   const Recording recording = opened(folder / "a.wrec");
   std::uint32_t revision = 1;
   long sets = 0, swaps = 0;
@@ -135,7 +133,7 @@ TEST(Recording, ReplaysStaleAndLostDevicesAndEveryGuard) {
     return reading;
   });
   device.profile_.force_newton = 3;
-  Stage stage(device, {.max_force = 2.5});
+  Stage stage(device, {.max_force = 2.5, .record = RecordTo{folder / "a.wrec", {}}});
   // A spring above the user's limit and too stiff for the device, a source of energy, and a force that is not a number.
   Assembly none({2, 0});
   const RegisterNumber state = none.state("state", -1, 1);
@@ -147,7 +145,7 @@ TEST(Recording, ReplaysStaleAndLostDevicesAndEveryGuard) {
       *stage.add(oil(-8, 2.9f), {.at = {0.03f, 0}, .size = PatchSize{.width = 0.06f, .height = 0.16f}, .layer = 1});
   Patch nothing =
       *stage.add(none.load(), {.at = {-0.05f, 0}, .size = PatchSize{.width = 0.02f, .height = 0.16f}, .layer = 1});
-  const RunResult done = run(stage, {.seconds = 8, .virtual_time = true, .record_to = RecordTo{folder / "a.wrec", {}}});
+  const RunResult done = run(stage, {.seconds = 8, .virtual_time = true});
   EXPECT_EQ(done.guards.lost, 99);
   EXPECT_GT(done.guards.stale, 0);
   EXPECT_GT(done.guards.user_limit, 0);
@@ -172,11 +170,11 @@ TEST(Recording, ReplaysMovesAndHotMotors) {
   Puppet device(roaming);
   device.profile_.continuous_newton = 0.5;
   device.profile_.heating_seconds = 1;
-  Stage stage(device);
+  Stage stage(device, {.record = RecordTo{folder / "a.wrec", {}}});
   Patch patch = *stage.add(spring(200, 2));
   Patch another = *stage.add(push(1.5f), {.size = PatchSize{.width = 0.04f, .height = 0.04f}, .layer = 1});
   long moves = 0;
-  RunOptions options{.seconds = 8, .virtual_time = true, .record_to = RecordTo{folder / "a.wrec", {}}};
+  RunOptions options{.seconds = 8, .virtual_time = true};
   options.progress = [&](const Now&) {
     ++moves;
     ASSERT_TRUE(another.move({0.03f * std::sin(0.5f * static_cast<float>(moves)), 0}));
@@ -202,9 +200,9 @@ TEST(Recording, ReplaysPads) {
   const TemporaryFolder folder;
   const Program ribs = *Program::load(example::pad(PositionSource::touch));
   SimulatedPad pad(ribs.description().device, Lateral{0.02, 1});
-  Stage stage(pad);
+  Stage stage(pad, {.record = RecordTo{folder / "a.wrec", {}}});
   Patch patch = *stage.add(ribs);
-  run(stage, {.seconds = 2, .virtual_time = true, .record_to = RecordTo{folder / "a.wrec", {}}});
+  run(stage, {.seconds = 2, .virtual_time = true});
   const Recording recording = opened(folder / "a.wrec");
   EXPECT_EQ(recording.header().device, ribs.description().device);
   expect_same(recording);
@@ -296,13 +294,13 @@ TEST(Recording, WhoseFileAnotherProgramTakesAwayIsTold) {
 TEST(Recording, ARealTimeRunReplaysToo) {
   const TemporaryFolder folder;
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Lateral{0.04, 1});
-  Stage stage(joystick);
+  Stage stage(joystick, {.record = RecordTo{folder / "a.wrec", {}}});
   Patch patch = *stage.add(corduroy(1.934f));
   const auto turn = [&](const Now&) {
     EXPECT_TRUE(patch.set("wale", 0.002f));
     EXPECT_TRUE(patch.replace(corduroy(1.5f)));
   };
-  const RunResult done = run(stage, {.seconds = 0.6, .progress = turn, .record_to = RecordTo{folder / "a.wrec", {}}});
+  const RunResult done = run(stage, {.seconds = 0.6, .progress = turn});
   const Recording recording = opened(folder / "a.wrec");
   EXPECT_EQ(static_cast<long>(recording.ticks()), done.ticks_run);
   EXPECT_TRUE(recording.complete());
@@ -312,9 +310,9 @@ TEST(Recording, ARealTimeRunReplaysToo) {
 TEST(Recording, ADifferenceIsReportedWithItsTick) {
   const TemporaryFolder folder;
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Lateral{0.04, 1});
-  Stage stage(joystick);
+  Stage stage(joystick, {.record = RecordTo{folder / "a.wrec", {}}});
   Patch patch = *stage.add(corduroy(1.934f));
-  run(stage, {.seconds = 1, .virtual_time = true, .record_to = RecordTo{folder / "a.wrec", {}}});
+  run(stage, {.seconds = 1, .virtual_time = true});
   // Another force at tick 700, with a correct check, as if the machine had computed it.
   std::vector<std::byte> bytes = bytes_of(folder / "a.wrec");
   std::size_t at = 0;
@@ -347,9 +345,9 @@ TEST(Recording, ADifferenceIsReportedWithItsTick) {
 TEST(Recording, OfAFileThatIsShortenedMeanwhileStaysWhole) {
   const TemporaryFolder folder;
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});
-  Stage stage(joystick);
+  Stage stage(joystick, {.record = RecordTo{folder / "a.wrec", "circular"}});
   Patch patch = *stage.add(corduroy(1.934f), {.at = {0.001f, 0}});
-  run(stage, {.seconds = 1, .virtual_time = true, .record_to = RecordTo{folder / "a.wrec", "circular"}});
+  run(stage, {.seconds = 1, .virtual_time = true});
   const Recording recording = opened(folder / "a.wrec");
   std::filesystem::resize_file(folder / "a.wrec", 0);
   const auto replayed = replay(recording);

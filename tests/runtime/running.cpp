@@ -58,7 +58,7 @@ bool comes(const std::function<bool()>& true_at_last) {
 TEST(Running, StartsOnceAndStopsOnceAndLeavesNoForce) {
   Scripted device([](long) { return Reading{}; });
   Stage stage(device);
-  EXPECT_FALSE(stage.stop()) << "nothing was started";
+  EXPECT_EQ(stage.stop().error().code, Code::wrong_moment) << "nothing was started";
   ASSERT_TRUE(stage.start()) << "also without a patch";
   EXPECT_TRUE(stage.is_running());
   EXPECT_EQ(stage.start().error().code, Code::wrong_moment);
@@ -74,7 +74,7 @@ TEST(Running, StartsOnceAndStopsOnceAndLeavesNoForce) {
   EXPECT_GT(result->ticks_run, 0);
   EXPECT_TRUE(result->record.ticks.empty()) << "an endless run keeps no record";
   EXPECT_EQ(device.commanded_x, 0);
-  EXPECT_FALSE(stage.stop());
+  EXPECT_EQ(stage.stop().error().code, Code::wrong_moment);
   EXPECT_FALSE(stage.is_running());
   EXPECT_TRUE(stage.run({.seconds = 0.01, .virtual_time = true})) << "and it can run again";
   EXPECT_TRUE(stage.start());
@@ -104,6 +104,12 @@ TEST(Running, AStageMayBeDestroyedInMidRun) {
   const auto ran = same.run({.seconds = 1, .virtual_time = true, .progress = [&](const Now&) { mine.reset(); }});
   ASSERT_TRUE(ran);
   EXPECT_EQ(ran->ticks_run, 90);
+  // There too when another thread serves the ticks.
+  auto last = std::make_unique<Stage>(device);
+  ASSERT_TRUE(last->add(push(1)));
+  Stage& running_stage = *last;
+  ASSERT_TRUE(running_stage.run({.seconds = 1000, .progress = [&](const Now&) { last.reset(); }}));
+  EXPECT_EQ(device.commanded_x, 0);
 }
 
 TEST(Running, ALoopOfOnesOwnGivesTheForcesOfARun) {

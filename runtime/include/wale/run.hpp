@@ -64,12 +64,6 @@ struct ContactEvent {
 /// So many contacts wait for `Stage::poll` at most; later ones are dropped and counted.
 inline constexpr std::size_t most_contacts_waiting = 1024;
 
-/// A recording to make of a run.
-struct RecordTo {
-  std::string file;  ///< must not exist yet; usually NAME.wrec
-  std::string hand;  ///< what moves the handle, kept in the recording: "simulated, lateral"
-};
-
 struct RunOptions {
   double seconds = 0;         ///< how long; positive, may be fractional
   bool virtual_time = false;  ///< as fast as possible on the calling thread; every run gives the same bits
@@ -79,8 +73,6 @@ struct RunOptions {
   std::function<void(const Now&)> progress = {};
   /// Ends the run when it becomes true; a signal handler may set it.
   const std::atomic<bool>* stop = nullptr;
-  /// In place of `StageOptions::record`: records this run.
-  std::optional<RecordTo> record_to = {};
   /// s: how much of the run's end `RunResult::record` keeps. With a finite value the run may be infinitely long.
   double kept_seconds = HUGE_VAL;
 };

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "wale/device.hpp"
 #include "wale/patch.hpp"
@@ -18,6 +19,12 @@ class Loop;
 /// A priority for a loop under SCHED_FIFO: above the interrupt threads of a PREEMPT_RT kernel (50), below its watchdogs
 /// and migration threads (99).
 inline constexpr int usual_priority = 80;
+
+/// A recording to make of a run.
+struct RecordTo {
+  std::string file;  ///< must not exist yet; usually NAME.wrec
+  std::string hand;  ///< what moves the handle, kept in the recording: "simulated, lateral"
+};
 
 /// What a stage does to its process and to the system. With the defaults it does nothing but make threads: one that
 /// serves the ticks, one that prepares banks, one that hands over changes (`run` uses its caller's), and one that
@@ -34,8 +41,10 @@ struct StageOptions {
   /// Keeps processors out of sleep states that take long to leave, during a run (`/dev/cpu_dma_latency`, for the whole
   /// system; needs permission, and costs power).
   bool low_latency = false;
-  double max_force = HUGE_VAL;          ///< N, the largest force that the user allows (on a pad m/s^2); positive
-  std::optional<RecordTo> record = {};  ///< records each run in this file, tick by tick as it happens
+  double max_force = HUGE_VAL;  ///< N, the largest force that the user allows (on a pad m/s^2); positive
+  /// Records the run in this file, tick by tick as it happens. It must not exist yet, so a stage that records has one
+  /// run: another one is refused while the file is there.
+  std::optional<RecordTo> record = {};
 };
 
 /// Several changes that are felt at one tick, all or none. One thread at a time may use an edit; it may outlive its
@@ -57,9 +66,10 @@ class StageEdit {
   void bring(const Patch& patch, const BringOptions& to);
   void remove(const Patch& patch);
 
-  /// Makes all changes. They are felt together, as soon as all banks are ready; a later change of one of these patches
-  /// waits with them. Errors: those of the changes, of the first that has one; then nothing has changed, and patches
-  /// added in the edit do not exist. Afterwards the edit is empty and may be used again.
+  /// Makes all changes. They are felt together, as soon as all banks are ready; until then these patches stay as they
+  /// are. A later edit of one of them waits until then as a whole; a newer one replaces what it changes too. Errors:
+  /// those of the changes, of the first that has one; then nothing has changed, and patches added in the edit do not
+  /// exist. Afterwards the edit is empty and may be used again.
   Result<> commit();
 
  private:
@@ -105,7 +115,8 @@ class Stage {
   /// ms; the rest follow. Errors:
   /// - `malformed_value`: the time is not positive, the record would keep more than 2^24 ticks, the largest force is
   ///   not positive, or the priority is not in 1 .. 99;
-  /// - `wrong_moment`: nothing is on the stage, it has no device, or another run is under way on it;
+  /// - `wrong_moment`: nothing is on the stage, it has no device, or another run is under way on it, or one that
+  ///   `start` began waits for its `stop`;
   /// - `unusable_device`: the device's profile lacks a figure that a loop needs;
   /// - `unwritable_file`: the recording cannot be made;
   /// - `short_of_resources`: the system gives no thread.
@@ -114,9 +125,10 @@ class Stage {
   /// Begins an endless run in real time and returns. Unlike `run` it may begin without a patch, and keeps no record.
   /// Errors as for `run`.
   Result<> start();
-  /// Ends the run that `start` began, waits for its end and gives its figures; nothing if there is none. The device
-  /// then exerts no force.
-  std::optional<RunResult> stop();
+  /// Ends the run that `start` began, waits for its end and gives its figures. The device then exerts no force. Errors:
+  /// - `wrong_moment`: `start` has begun no run since the last `stop`;
+  /// - `short_of_resources`: the run failed, since the system gave its loop no thread.
+  Result<RunResult> stop();
   /// Whether a run is under way.
   bool is_running() const;
 
