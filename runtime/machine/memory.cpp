@@ -51,8 +51,10 @@ bool Memory::follows(const Memory* other) const noexcept {
   return false;
 }
 
-void Memory::forget_predecessor() {
-  if (succeeded_.load(std::memory_order_acquire)) predecessor_.reset();
+bool Memory::forget_predecessor() {
+  if (!succeeded_.load(std::memory_order_acquire)) return false;
+  predecessor_.reset();
+  return true;
 }
 
 std::size_t Memory::copy_from(const Memory& other, std::size_t first, std::size_t most) noexcept {

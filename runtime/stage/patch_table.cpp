@@ -2,46 +2,17 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 
 #include "runtime/stage/scheduling.hpp"
 
 namespace wale {
 namespace {
 
-/// s; how far ahead the hand's path counts when the next bank is chosen.
-constexpr float foresight = 0.1f;
-
 bool same_program(const Placement& one, const Placement& other) {
   return &one.program.decoded() == &other.program.decoded();
 }
 
-/// m, from a point to a patch; 0 within it.
-float distance(glm::vec2 point, const Placement& patch) {
-  const float x = std::max(std::abs(point.x - patch.position.x) - patch.size.width / 2, 0.0f);
-  const float y = std::max(std::abs(point.y - patch.position.y) - patch.size.height / 2, 0.0f);
-  return std::hypot(x, y);
-}
-
-/// How soon the hand may need the patch; the least comes first. The patch under the hand comes before all others.
-float urgency(const PatchTable::Nearby& hand, const Placement& patch) {
-  if (!patch.enabled) return std::numeric_limits<float>::max();
-  const float here = distance(hand.position, patch);
-  if (here > 0) return 1 + std::min(here, distance(hand.position + foresight * hand.velocity, patch));
-  return 0.5f - std::atan(patch.layer) / 4;  // less than 1, and the less the farther in front
-}
-
 }  // namespace
-
-bool PatchTable::Work::run(BankCache& banks, const std::atomic<bool>& stop) {
-  switch (kind) {
-    case Kind::bank: bank = banks.get(*key); return true;
-    case Kind::base: base = std::make_shared<const FrontMost>(outlines.outlines, outlines.numbers); return true;
-    case Kind::range: return bank->sample(&stop);
-  }
-  return true;
-}
 
 PatchTable::Slot* PatchTable::find(PatchName name) {
   if (name.number >= slots_.size() || slots_[name.number].generation != name.generation) return nullptr;
@@ -55,7 +26,9 @@ const PatchTable::Slot* PatchTable::find(PatchName name) const {
 
 const Placement* PatchTable::wanted(PatchName name) const {
   const Slot* const slot = find(name);
-  return slot != nullptr && slot->wanted ? &*slot->wanted : nullptr;
+  if (slot == nullptr) return nullptr;
+  const std::optional<Placement>& wanted = slot->later ? *slot->later : slot->wanted;
+  return wanted ? &*wanted : nullptr;
 }
 
 PatchName PatchTable::reserve() {
@@ -85,7 +58,9 @@ void PatchTable::free_slot(std::uint32_t number) {
   slot.felt.reset();
   slot.bank.reset();
   slot.ready.reset();
+  slot.older.reset();
   slot.memory.reset();
+  slot.since = 0;
   slot.taken = slot.touched = slot.renewed = slot.loose = slot.sampled = false;
   free_.push_back(number);
 }
@@ -99,88 +74,111 @@ void PatchTable::withdraw_request(Slot& slot, std::uint32_t number) {
   Jobs::value_type* const job = std::exchange(slot.job, nullptr);
   if (job == nullptr) return;
   std::erase(job->second.slots, number);
-  if (job->second.slots.empty() && !job->second.begun) jobs_.erase(jobs_.find(job->first));
+  if (job->second.begun)
+    job->second.overtaken.push_back({{number, slot.generation}, slot.version});
+  else if (job->second.slots.empty())
+    jobs_.erase(jobs_.find(job->first));
 }
 
 void PatchTable::request(std::uint32_t number) {
   Slot& slot = slots_[number];
   withdraw_request(slot, number);
   slot.ready = nullptr;
+  ++slot.version;
   if (!running_ || manner_ == Manner::together) return;
   BankKey key = slot.wanted->key();
   slot.ready = banks_.find(key);
-  if (slot.ready) return;
-  const auto [job, is_new] = jobs_.try_emplace(std::move(key));
-  if (is_new) job->second.order = ++job_order_;
+  if (slot.ready) {
+    slot.older.reset();
+    slot.since = 0;
+    return;
+  }
+  if (slot.since == 0) slot.since = ++waits_;  // a change that replaces one that waits does not wait anew
+  const auto job = jobs_.try_emplace(std::move(key)).first;
   job->second.slots.push_back(number);
   slot.job = &*job;
   hurry_.store(true, std::memory_order_relaxed);
 }
 
 void PatchTable::want(std::vector<Wish> wishes) {
-  std::vector<std::uint32_t> numbers;
   bool waits = false;
+  for (const auto& [name, wish] : wishes) {
+    Slot& slot = slots_[name.number];
+    const bool was_there = slot.later ? slot.later->has_value() : slot.wanted.has_value();
+    if (was_there && !wish) --count_;
+    if (!was_there && wish) ++count_, slot.reserved = false;
+    waits = waits || slot.later || (slot.edit != 0 && wishes.size() > 1);
+  }
+  if (!waits) return take_wishes(std::move(wishes));
   for (auto& [name, wish] : wishes) {
     Slot& slot = slots_[name.number];
-    numbers.push_back(name.number);
+    if (!slot.later) later_.push_back(name.number);
+    slot.later = std::move(wish);
+  }
+}
+
+void PatchTable::take_later_wishes() {
+  if (std::ranges::any_of(later_, [&](std::uint32_t number) { return slots_[number].edit != 0; })) return;
+  std::vector<Wish> wishes;
+  for (const std::uint32_t number : std::exchange(later_, {})) {
+    Slot& slot = slots_[number];
+    wishes.emplace_back(PatchName{number, slot.generation}, *std::exchange(slot.later, std::nullopt));
+  }
+  take_wishes(std::move(wishes));
+}
+
+void PatchTable::take_wishes(std::vector<Wish> wishes) {
+  std::vector<std::uint32_t> numbers;
+  for (auto& [name, wish] : wishes) {
+    Slot& slot = slots_[name.number];
     if (!wish) {
-      if (!slot.wanted) continue;
       withdraw_request(slot, name.number);
-      slot.wanted.reset();
       ++slot.generation;  // the handle names nothing any more, and the slot is free once the loop has let it go
-      --count_;
-      if (running_)
-        mark(name.number);
+      const bool was_there = slot.wanted.has_value();
+      slot.wanted.reset();
+      if (running_ && was_there)
+        mark(name.number), numbers.push_back(name.number);
       else
         free_slot(name.number);
       continue;
     }
-    const bool is_new = !slot.wanted;
-    if (is_new) ++count_, slot.reserved = false;
-    const bool other_bank = is_new || !(slot.wanted->key() == wish->key());
+    const bool other_bank = !slot.wanted || !(slot.wanted->key() == wish->key());
+    if (other_bank && running_ && slot.ready && slot.ready != slot.bank)
+      slot.older = Older{slot.wanted->key(), slot.ready, slot.version};
     slot.wanted = std::move(wish);
     if (other_bank) request(name.number);
     mark(name.number);
-    waits = waits || slot.edit != 0;
+    numbers.push_back(name.number);
   }
-  if (!running_ || manner_ == Manner::together || wishes.size() < 2) {
-    for (const std::uint32_t number : numbers)
-      if (slots_[number].edit != 0) settle(slots_[number].edit);
+  if (!running_ || manner_ == Manner::together) return;
+  if (wishes.size() < 2) {
+    for (const std::uint32_t number : numbers) settle(slots_[number].edit);
     return;
   }
-  for (const std::uint32_t number : numbers) waits = waits || !is_ready(slots_[number]);
-  if (waits) join(std::move(numbers));
-}
-
-void PatchTable::join(std::vector<std::uint32_t> numbers) {
   const std::uint32_t edit = ++last_edit_;
-  std::vector<std::uint32_t> all;
-  const auto add = [&](std::uint32_t number) {
-    if (slots_[number].edit == edit) return;
-    slots_[number].edit = edit;
-    all.push_back(number);
-  };
   for (const std::uint32_t number : numbers) {
-    const std::uint32_t before = slots_[number].edit;
-    if (before != 0 && before != edit) {
-      for (const std::uint32_t other : edits_[before]) add(other);
-      edits_.erase(before);
-    }
-    add(number);
+    slots_[number].edit = edit;
+    slots_[number].edit_version = slots_[number].version;
   }
-  edits_[edit] = std::move(all);
+  edits_[edit].slots = std::move(numbers);
   settle(edit);
 }
 
 void PatchTable::settle(std::uint32_t edit) {
   const auto waiting = edits_.find(edit);
   if (waiting == edits_.end()) return;
-  if (!std::ranges::all_of(waiting->second, [&](std::uint32_t number) { return is_ready(slots_[number]); })) return;
-  const std::vector<std::uint32_t> numbers = std::move(waiting->second);
-  edits_.erase(waiting);
+  const std::vector<std::uint32_t>& slots = waiting->second.slots;
+  waiting->second.settled = std::ranges::all_of(slots, [&](std::uint32_t number) { return is_ready(slots_[number]); });
+  if (!waiting->second.settled) return;
+  for (const std::uint32_t number : slots) mark(number);
+}
+
+void PatchTable::end_edits(const std::vector<std::uint32_t>& numbers) {
   for (const std::uint32_t number : numbers) {
-    slots_[number].edit = 0;
-    mark(number);
+    const auto edit = edits_.find(slots_[number].edit);
+    if (edit == edits_.end() || !edit->second.settled) continue;
+    for (const std::uint32_t each : edit->second.slots) slots_[each].edit = 0;
+    edits_.erase(edit);
   }
 }
 
@@ -196,8 +194,10 @@ void PatchTable::begin(Manner manner, bool lock_memory) {
     slot.felt.reset();
     slot.bank.reset();
     slot.memory.reset();
-    slot.sampled = slot.touched = slot.renewed = false;
+    slot.older.reset();
+    slot.sampled = slot.touched = slot.renewed = slot.is_unsampled = false;
     slot.withdrawn = 0;
+    slot.since = slot.felt_version = 0;
     request(number);
     mark(number);
   }
@@ -205,18 +205,22 @@ void PatchTable::begin(Manner manner, bool lock_memory) {
 
 void PatchTable::end() {
   running_ = false;
+  for (const std::uint32_t number : later_) slots_[number].edit = 0;
+  take_later_wishes();
   jobs_.clear();
   edits_.clear();
   replaced_.clear();
   unsampled_.clear();
   dirty_.clear();
+  banks_before_others_ = 0;
   for (std::uint32_t number = 0; number < slots_.size(); ++number) {
     Slot& slot = slots_[number];
     const bool removed = slot.taken && !slot.wanted && !slot.reserved;
     slot.job = nullptr;
     slot.edit = 0;
-    slot.dirty = false;
+    slot.dirty = slot.is_unsampled = slot.is_replaced = false;
     slot.withdrawn = 0;
+    slot.older.reset();
     if (removed) free_slot(number);
   }
 }
@@ -226,7 +230,7 @@ bool PatchTable::changes_outline(const Slot& slot) const {
   if (!slot.wanted || !slot.wanted->enabled) return true;
   const Placement &then = *slot.felt, &now = *slot.wanted;
   return then.position != now.position || then.layer != now.layer || then.order != now.order ||
-         (slot.ready && then.size != now.size);
+         (slot.ready && then.size != now.size) || (slot.older && then.size != slot.older->key.size);
 }
 
 void PatchTable::publish(Exchange<PlacedPatches>& patches, RecordWriter* recorder) {
@@ -242,13 +246,18 @@ void PatchTable::publish(Exchange<PlacedPatches>& patches, RecordWriter* recorde
     }
     outlines += changes_outline(slot) && arrangement_.is_in_base(number);
   }
-  for (const std::uint32_t number : replaced_)
-    if (slots_[number].memory) slots_[number].memory->forget_predecessor();
+  std::erase_if(replaced_, [&](std::uint32_t number) {
+    Slot& slot = slots_[number];
+    slot.is_replaced = slot.memory && !slot.memory->forget_predecessor();
+    return !slot.is_replaced;
+  });
   arrangement_.expect(outlines);
   if (recorder != nullptr && manner_ == Manner::together) std::sort(numbers.begin(), numbers.end());
   bool changed = false;
   for (const std::uint32_t number : numbers)
-    if (slots_[number].edit == 0) changed = publish_slot(number, recorder) || changed;
+    if (!waits_for_its_edit(slots_[number])) changed = publish_slot(number, recorder) || changed;
+  end_edits(numbers);
+  take_later_wishes();
   if (!changed) return;
   ++revision_;
   if (recorder != nullptr) recorder->publish(revision_);
@@ -267,21 +276,25 @@ bool PatchTable::publish_slot(std::uint32_t number, RecordWriter* recorder) {
     free_slot(number);
     return was_there;
   }
-  if (!slot.ready && !slot.bank) return false;  // a new patch is not felt until it is ready
+  if (!slot.ready && !slot.older && !slot.bank) return false;  // a new patch is not felt until it is ready
   Placement next = *slot.wanted;
-  if (!slot.ready) {
-    next.program = slot.felt->program;
-    next.parameters = slot.felt->parameters;
-    next.size = slot.felt->size;
+  std::shared_ptr<const PreparedBank> bank = slot.ready;
+  if (!bank) {
+    const BankKey key = slot.older ? slot.older->key : slot.felt->key();
+    next.program = key.program;
+    next.parameters = key.parameters;
+    next.size = key.size;
+    bank = slot.older ? slot.older->bank : slot.bank;
   }
-  const std::shared_ptr<const PreparedBank> bank = slot.ready ? slot.ready : slot.bank;
+  if (slot.ready || slot.older) slot.felt_version = slot.ready ? slot.version : slot.older->version;
+  slot.older.reset();
   const bool other_program = !slot.felt || !same_program(*slot.felt, next) || slot.renewed;
   const bool changed = bank != slot.bank || other_program || slot.touched;
   const bool sampled = bank->is_sampled() && !slot.loose;
   if (other_program) {
     slot.memory =
         slot.memory ? std::make_shared<Memory>(next.program, slot.memory) : std::make_shared<Memory>(next.program);
-    if (slot.felt && std::ranges::find(replaced_, number) == replaced_.end()) replaced_.push_back(number);
+    if (slot.felt && !std::exchange(slot.is_replaced, true)) replaced_.push_back(number);
   }
   const bool moved = !slot.felt || next.position != slot.felt->position || next.layer != slot.felt->layer ||
                      next.order != slot.felt->order || next.enabled != slot.felt->enabled;
@@ -293,25 +306,31 @@ bool PatchTable::publish_slot(std::uint32_t number, RecordWriter* recorder) {
     lock_pages(slot.memory->states().data(), slot.memory->states().size_bytes());
   }
   if (recorder != nullptr) record(slot, number, next, changed, other_program, sampled, *recorder);
-  if (next.enabled) {
-    arrangement_.put(
-        {.bank = bank,
-         .memory = slot.memory,
-         .outline = {next.position, bank->bank.size().width, bank->bank.size().height, next.layer, next.order},
-         .number = number,
-         .generation = slot.generation,
-         .change = slot.change,
-         .potential_range = bank->potential_range(sampled)});
-  } else {
-    arrangement_.remove(number);
-    slot.withdrawn = revision_ + 1;
-  }
+  arrange(number, next, bank, sampled);
   slot.bank = bank;
   slot.felt = std::move(next);
   slot.sampled = sampled;
   slot.touched = slot.renewed = false;
-  if (!sampled && manner_ == Manner::piecewise) unsampled_.push_back(number);
+  if (!sampled && manner_ == Manner::piecewise && !std::exchange(slot.is_unsampled, true)) unsampled_.push_back(number);
   return true;
+}
+
+void PatchTable::arrange(std::uint32_t number, const Placement& next, const std::shared_ptr<const PreparedBank>& bank,
+                         bool sampled) {
+  Slot& slot = slots_[number];
+  if (!next.enabled) {
+    arrangement_.remove(number);
+    slot.withdrawn = revision_ + 1;
+    return;
+  }
+  arrangement_.put(
+      {.bank = bank,
+       .memory = slot.memory,
+       .outline = {next.position, bank->bank.size().width, bank->bank.size().height, next.layer, next.order},
+       .number = number,
+       .generation = slot.generation,
+       .change = slot.change,
+       .potential_range = bank->potential_range(sampled)});
 }
 
 void PatchTable::record(const Slot& slot, std::uint32_t number, const Placement& next, bool changed, bool renewed,
@@ -343,69 +362,6 @@ void PatchTable::record(const Slot& slot, std::uint32_t number, const Placement&
   }
   if (next.position != slot.felt->position) recorder.move(number, next.position);
   if (sampled != (was_set || slot.sampled)) recorder.bound(number, sampled);
-}
-
-std::optional<PatchTable::Work> PatchTable::next_work(const Nearby& hand) {
-  Jobs::value_type* best = nullptr;
-  float least = 0;
-  for (auto& job : jobs_) {
-    if (job.second.begun) continue;
-    float soonest = std::numeric_limits<float>::infinity();
-    for (const std::uint32_t number : job.second.slots)
-      soonest = std::min(soonest, urgency(hand, *slots_[number].wanted));
-    const bool sooner =
-        best == nullptr || soonest < least || (soonest == least && job.second.order < best->second.order);
-    if (sooner) best = &job, least = soonest;
-  }
-  if (best != nullptr) {
-    best->second.begun = true;
-    return Work{.kind = Work::Kind::bank, .key = best->first};
-  }
-  if (arrangement_.wants_base() && !base_under_way_) {
-    base_under_way_ = true;
-    return Work{.kind = Work::Kind::base, .outlines = arrangement_.outlines()};
-  }
-  hurry_.store(false, std::memory_order_relaxed);
-  std::erase_if(unsampled_, [&](std::uint32_t number) {
-    const Slot& slot = slots_[number];
-    if (!slot.felt || slot.sampled) return true;
-    if (!slot.bank->is_sampled()) return false;
-    mark(number);
-    return true;
-  });
-  const auto sooner = [&](std::uint32_t one, std::uint32_t other) {
-    return urgency(hand, *slots_[one].felt) < urgency(hand, *slots_[other].felt);
-  };
-  const auto next = std::min_element(unsampled_.begin(), unsampled_.end(), sooner);
-  if (next == unsampled_.end()) return std::nullopt;
-  return Work{.kind = Work::Kind::range, .bank = slots_[*next].bank};
-}
-
-void PatchTable::finish(Work work, bool done) {
-  if (work.kind == Work::Kind::base) {
-    base_under_way_ = false;
-    if (running_) arrangement_.take_base(std::move(work.base), work.outlines);
-    return;
-  }
-  if (work.kind == Work::Kind::range) {
-    if (!done || !running_) return;
-    for (const std::uint32_t number : unsampled_)
-      if (slots_[number].felt && !slots_[number].sampled && slots_[number].bank == work.bank) mark(number);
-    return;
-  }
-  const auto job = jobs_.find(*work.key);
-  if (job == jobs_.end()) return;
-  const std::vector<std::uint32_t> numbers = std::move(job->second.slots);
-  jobs_.erase(job);
-  for (const std::uint32_t number : numbers) {
-    Slot& slot = slots_[number];
-    slot.job = nullptr;
-    slot.ready = work.bank;
-    if (slot.edit != 0)
-      settle(slot.edit);
-    else
-      mark(number);
-  }
 }
 
 PatchTable::Felt PatchTable::felt(PatchName name) const {

@@ -33,8 +33,9 @@ class Memory {
   /// Whether `other` is a direct or earlier predecessor that has not been succeeded.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   bool follows(const Memory* other) const noexcept;
-  /// Releases the predecessor if it has been succeeded. For the control side: it frees memory.
-  void forget_predecessor();
+  /// Releases the predecessor if it has been succeeded; false if it is still needed. For the control side: it frees
+  /// memory.
+  bool forget_predecessor();
 
   /// The hand enters: runs the program's `enter` section and sets the states, each clamped to its range. A state whose
   /// initial value is not a number gets the number of its range that is nearest to 0. Does nothing if `bank` is of

@@ -38,9 +38,10 @@ struct Snapshot {
 ///
 /// All calls are safe from any thread, also during a run; none is for a real-time thread (they lock and allocate). They
 /// return before the change is felt. A place, a layer, enabling and removing are felt from the first tick after at most
-/// two periods on; a parameter, a size and a program as soon as their bank is prepared, the patch under the hand first;
-/// then the force slews. Until then the patch keeps its old bank. A change that is not begun is replaced by a newer
-/// one. Without a run, changes count from the next run on. In virtual time all are felt at the next tick.
+/// two periods on, unless the patch waits for an edit; a parameter, a size and a program as soon as their bank is
+/// prepared, the patch under the hand first; then the force slews. Until then the patch keeps its old bank. A change
+/// whose bank is not begun is replaced by a newer one. Without a run, changes count from the next run on. In virtual
+/// time all are felt at the next tick.
 ///
 /// Errors of all calls: `wrong_moment` if the patch was removed, its stage is gone, or the handle never named a patch;
 /// `malformed_value` for an argument that is not finite or not in its range. After an error nothing has changed.
