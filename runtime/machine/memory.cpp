@@ -51,6 +51,13 @@ bool Memory::follows(const Memory* other) const noexcept {
   return false;
 }
 
+std::size_t Memory::predecessors() const noexcept {
+  std::size_t count = 0;
+  for (const Memory* each = this; !each->succeeded_.load(std::memory_order_acquire); each = each->predecessor_.get())
+    ++count;
+  return count;
+}
+
 bool Memory::forget_predecessor() {
   if (!succeeded_.load(std::memory_order_acquire)) return false;
   predecessor_.reset();

@@ -8,6 +8,10 @@
 namespace wale {
 namespace {
 
+/// Memories that one after the other wait for the hand. It bounds the memory that replacing takes where no hand comes,
+/// and the tick at which it comes.
+constexpr std::size_t most_memories_waiting = 64;
+
 bool same_program(const Placement& one, const Placement& other) {
   return &one.program.decoded() == &other.program.decoded();
 }
@@ -292,8 +296,9 @@ bool PatchTable::publish_slot(std::uint32_t number, RecordWriter* recorder) {
   const bool changed = bank != slot.bank || other_program || slot.touched;
   const bool sampled = bank->is_sampled() && !slot.loose;
   if (other_program) {
+    const bool succeeds = slot.memory && slot.memory->predecessors() < most_memories_waiting;
     slot.memory =
-        slot.memory ? std::make_shared<Memory>(next.program, slot.memory) : std::make_shared<Memory>(next.program);
+        succeeds ? std::make_shared<Memory>(next.program, slot.memory) : std::make_shared<Memory>(next.program);
     if (slot.felt && !std::exchange(slot.is_replaced, true)) replaced_.push_back(number);
   }
   const bool moved = !slot.felt || next.position != slot.felt->position || next.layer != slot.felt->layer ||

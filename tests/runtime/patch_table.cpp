@@ -219,6 +219,16 @@ TEST_F(Prepared, APatchMayBeReplacedWhileItsBankIsPrepared) {
   EXPECT_EQ(felt(patch), 3);
 }
 
+TEST_F(Prepared, APatchThatNobodyTouchesIsReplacedWithoutEnd) {
+  const PatchName patch = add(push(1));
+  for (int i = 0; i < 1000; ++i) {
+    want(patch, replace(push(1)));
+    finish_all();
+    publish();
+    ASSERT_LE(placed(patch)->memory->predecessors(), 64u);
+  }
+}
+
 TEST_F(Prepared, AnEditIsHandedOverAsAWhole) {
   const PatchName a = add(push(1)), b = add(push(1)), c = add(push(1));
   finish_all();

@@ -33,6 +33,8 @@ class Memory {
   /// Whether `other` is a direct or earlier predecessor that has not been succeeded.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   bool follows(const Memory* other) const noexcept;
+  /// How many predecessors, one behind the other, have not been succeeded. For the control side.
+  std::size_t predecessors() const noexcept;
   /// Releases the predecessor if it has been succeeded; false if it is still needed. For the control side: it frees
   /// memory.
   bool forget_predecessor();

@@ -60,8 +60,8 @@ class Patch {
   /// Another program. The patch keeps its place and layer; where it had its program's own size, it gets the new
   /// program's. A parameter that is not at its default keeps its value if the new program has one of the same name and
   /// unit (clamped to the new range). A state keeps its value if the new program has one of the same name and unit and
-  /// the hand stays on the patch. Grids keep their cells if all have the same names, units, sizes and bounds. Errors
-  /// also: `other_device`.
+  /// the hand stays on the patch. Grids keep their cells if all have the same names, units, sizes and bounds; after 64
+  /// replacements without a touch they begin anew. Errors also: `other_device`.
   Result<> replace(const Program& program);
   /// A patch that is not enabled is not felt, and keeps its memory.
   Result<> enable(bool enabled = true);
