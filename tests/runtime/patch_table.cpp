@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <map>
+#include <random>
 #include <set>
 
 #include "tests/runtime/figures.hpp"
@@ -311,6 +314,62 @@ TEST_F(Prepared, AnEndlessStreamOfEditsIsFelt) {
     values.insert(felt(a));
   }
   EXPECT_GT(values.size(), 15u);
+}
+
+/// Numbers its changes: each writes its number into a place or a parameter of some patches.
+TEST_F(Prepared, OfRandomChangesEachEditIsWholeAndNothingGoesBack) {
+  std::mt19937 random(1995);
+  std::vector<PatchName> all;
+  for (int i = 0; i < 6; ++i) all.push_back(add(push(0)));
+  finish_all();
+  publish();
+  using Value = std::pair<std::size_t, bool>;  // which patch; its parameter, or its place
+  std::vector<std::vector<Value>> changes{{}};
+  std::map<Value, std::size_t> before;
+  std::vector<Work> under_way;
+  const auto number_in = [&](Value value) {
+    const PatchName name = all[value.first];
+    return static_cast<std::size_t>(std::lround(1000 * (value.second ? felt(name) : place(name))));
+  };
+  for (int turn = 0; turn < 4000; ++turn) {
+    std::vector<PatchTable::Wish> wishes;
+    std::vector<Value> values;
+    const float number = 0.001f * static_cast<float>(changes.size());
+    for (std::size_t patch = 0; patch < all.size(); ++patch) {
+      if (random() % 4 != 0) continue;
+      values.push_back({patch, random() % 2 == 0});
+      wishes.push_back(wish(all[patch], values.back().second ? set(number) : move(number)));
+    }
+    if (!wishes.empty()) {
+      changes.push_back(values);
+      table.want(std::move(wishes));
+    }
+    if (random() % 3 == 0 && under_way.empty())
+      if (auto work = table.next_work({})) under_way.push_back(*work);
+    if (random() % 3 == 0 && !under_way.empty()) {
+      finish(under_way.back());
+      under_way.pop_back();
+    }
+    if (random() % 2 == 0) publish();
+    std::map<Value, std::size_t> now;
+    for (std::size_t patch = 0; patch < all.size(); ++patch)
+      for (const bool parameter : {false, true}) now[{patch, parameter}] = number_in({patch, parameter});
+    for (const auto& [value, change] : now) {
+      ASSERT_GE(change, before[value]) << turn;
+      for (const Value& other : changes[change]) ASSERT_GE(now[other], change) << turn;
+    }
+    before = now;
+  }
+  EXPECT_GT(before.begin()->second, 1000u) << "something is felt all the time";
+  for (Work& work : under_way) finish(work);
+  for (int i = 0; i < 3; ++i) {
+    finish_all();
+    publish();
+  }
+  for (const PatchName each : all) {
+    EXPECT_EQ(felt(each), table.wanted(each)->parameters[0]);
+    EXPECT_EQ(place(each), table.wanted(each)->position.x);
+  }
 }
 
 TEST_F(Prepared, WhatALaterEditAddsAndRemovesLeavesNoTrace) {
