@@ -73,7 +73,7 @@ class Prepared : public testing::Test {
     if (patch == nullptr) return -1;
     return patch->bank->bank.registers()[patch->bank->bank.program().description().first_parameter()];
   }
-  float place(PatchName name) { return placed(name)->outline.position.x; }
+  float place(PatchName name) { return placed(name) != nullptr ? placed(name)->outline.position.x : -1; }
 
   BankCache banks;
   PatchTable table{banks};
