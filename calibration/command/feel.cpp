@@ -227,13 +227,18 @@ std::optional<RecordTo> recording_of(const FeelOptions& options, const RunManner
   return RecordTo{options.record, fmt::format("{}, {}", manner.device, manner.hand)};
 }
 
-RunOptions run_options(const FeelOptions& options, const RunManner& manner, const std::atomic<bool>& stop) {
+/// How the stage runs, and what it records.
+StageOptions stage_options(const FeelOptions& options, const RunManner& manner) {
+  StageOptions how = felt_stage_options(options.max_force.value_or(HUGE_VAL));
+  how.record = recording_of(options, manner);
+  return how;
+}
+
+RunOptions run_options(const FeelOptions& options, const std::atomic<bool>& stop) {
   const bool is_recording = has_ending(options.record, ".wrec"), is_table = !options.record.empty() && !is_recording;
   return {.seconds = options.seconds.value_or(usual_seconds),
-          .most_newton = options.max_force.value_or(HUGE_VAL),
           .virtual_time = options.virtual_time,
           .stop = &stop,
-          .record_to = recording_of(options, manner),
           .kept_seconds = !is_table && (is_recording || options.watch) ? measured_seconds : HUGE_VAL};
 }
 
@@ -290,20 +295,22 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   if (!table) return refuse(table.error());
   auto felt = open_prepared(options, *prepared_run, stop);
   if (!felt) return felt.status();
-  Stage stage(*felt->device);
-  stage.place(material.program);
+  Stage stage(*felt->device, stage_options(options, felt->manner()));
+  Result<Patch> added = stage.add(material.program);
+  if (!added) return refuse(added.error());
+  Patch patch = *added;
   for (std::size_t i = 0; i < material.parameters.size(); ++i)
-    if (const auto set = stage.set(program.parameters[i].name, material.parameters[i]); !set)
+    if (const auto set = patch.set(program.parameters[i].name, material.parameters[i]); !set)
       return refuse(set.error());
 
   const bool live = isatty(fileno(stderr));
-  RunOptions run = run_options(options, felt->manner(), stop);
+  RunOptions run = run_options(options, stop);
   run.seconds = seconds_of_run(options, *prepared_run, stop);
   if (live)
-    run.progress = [vibrates = program.vibrates()](const Progress& now) {
+    run.progress = [vibrates = program.vibrates()](const Now& now) {
       print_as_is(stderr, "\r" + progress_line(now, vibrates));
     };
-  MaterialWatch watch(built, stage, material.program, options.settings,
+  MaterialWatch watch(built, patch, material.program, options.settings,
                       [live](const std::string& said) { print_as_is(stderr, (live ? "\r\033[K" : "") + said); });
   std::optional<BackgroundLoop> watching;
   if (options.watch) watching.emplace([&] { watch.attend(std::chrono::milliseconds(100)); }, ask_to_stop);
@@ -315,7 +322,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
     if (error.place.name == "seconds") error.place.name = "--seconds";
     return refuse(error);
   }
-  return report_run(options, *result, *stage.bank(), *std::move(felt), *std::move(table), watch.versions());
+  return report_run(options, *result, *patch.bank(), *std::move(felt), *std::move(table), watch.versions());
 }
 
 /// Checks that two materials can be compared blindly on this device. Errors: W0607, W0608; W0801 if they are the same.

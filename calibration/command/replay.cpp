@@ -35,11 +35,17 @@ std::string material_of(const RecordedProgram& program) {
 Summary summary_of(const Recording& recording) {
   Summary summary;
   for (const RecordedProgram& program : recording.programs()) summary.materials.push_back(material_of(program));
+  std::map<std::uint32_t, std::size_t> programs;  // by the patch's number
   for (const RecordedEvent& event : recording.events()) {
     summary.sets += event.kind == RecordedEvent::Kind::set;
     summary.swaps += event.kind == RecordedEvent::Kind::replace;
     summary.moves += event.kind == RecordedEvent::Kind::move;
     summary.placements += event.kind == RecordedEvent::Kind::place || event.kind == RecordedEvent::Kind::add;
+    if (event.kind == RecordedEvent::Kind::remove) programs.erase(event.patch);
+    if (event.kind != RecordedEvent::Kind::put) continue;
+    const bool is_new = programs.insert_or_assign(event.patch, event.program).second;
+    summary.placements += is_new;
+    summary.swaps += !is_new && event.renewed;
   }
   for (std::size_t i = 0; i < recording.ticks(); ++i) summary.missed += recording.tick(i).skipped;
   if (recording.ticks() > 0)

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "calibration/feel/felt_device.hpp"
+
 namespace wale {
 namespace {
 
@@ -14,18 +16,19 @@ constexpr double two_sided_95 = 0.975;
 /// Runs one material for some seconds.
 class Interval {
  public:
-  Interval(Device& device, const BlindOptions& options) : stage_(device), options_(options) {}
+  Interval(Device& device, const BlindOptions& options)
+      : stage_(device, felt_stage_options(options.most_newton)), options_(options) {}
 
   Result<> feel(const BlindMaterial& material) {
-    stage_.place(material.program);
+    if (patch_.exists()) (void)patch_.remove();
+    Result<Patch> patch = stage_.add(material.program);
+    if (!patch) return patch.error();
+    patch_ = *patch;
     const auto& parameters = material.program.description().parameters;
     for (std::size_t i = 0; i < material.parameters.size(); ++i)
-      if (const auto set = stage_.set(parameters[i].name, material.parameters[i]); !set) return set.error();
-    const auto result = stage_.run({.seconds = options_.seconds,
-                                    .most_newton = options_.most_newton,
-                                    .virtual_time = options_.virtual_time,
-                                    .progress = {},
-                                    .stop = options_.stop});
+      if (const auto set = patch_.set(parameters[i].name, material.parameters[i]); !set) return set.error();
+    const auto result = stage_.run(
+        {.seconds = options_.seconds, .virtual_time = options_.virtual_time, .progress = {}, .stop = options_.stop});
     if (!result) return result.error();
     if (options_.stop && *options_.stop) return Error{Code::stopped, "interrupted"};
     const auto& run = *result;
@@ -38,6 +41,7 @@ class Interval {
 
  private:
   Stage stage_;
+  Patch patch_;
   const BlindOptions& options_;
 };
 

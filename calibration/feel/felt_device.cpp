@@ -92,4 +92,8 @@ Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& 
   return FeltDevice{*std::move(opened), plugged, in_words(*chosen.plugged), "yours", false};
 }
 
+StageOptions felt_stage_options(double most_newton) {
+  return {.priority = usual_priority, .lock_memory = true, .low_latency = true, .max_force = most_newton};
+}
+
 }  // namespace wale

@@ -13,6 +13,7 @@
 #include "runtime/device/open_device.hpp"
 #include "schema/patch_program.hpp"
 #include "wale/device.hpp"
+#include "wale/stage.hpp"
 
 namespace wale {
 
@@ -56,5 +57,8 @@ struct FeltDevice {
 /// built for another device; `other_figures` if it is built for other figures than the declaration of the chosen one.
 Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& program, const HandDeclaration& person,
                                 const FeltOptions& options, const Say& say, const std::atomic<bool>& stop);
+
+/// How `feel` runs a stage: as punctually as the system permits, since the process is its own.
+StageOptions felt_stage_options(double most_newton);
 
 }  // namespace wale

@@ -318,7 +318,7 @@ std::string felt_json(const FeltReport& report) {
   return json_lines(json);
 }
 
-std::string progress_line(const Progress& now, bool vibrates) {
+std::string progress_line(const Now& now, bool vibrates) {
   const std::string output = vibrates ? fmt::format("{:5.1f} m/s^2  {:4.0f} Hz", now.force.x, now.force.y)
                                       : fmt::format("{:5.2f} N", glm::length(now.force));
   return readable("{:7.1f} s  x {:>6} mm  y {:>6} mm  {:5.0f} mm/s  {}  {} ticks, {} missed{}\033[K", now.time,

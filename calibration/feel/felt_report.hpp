@@ -55,6 +55,6 @@ std::string felt_text(const FeltReport& report);
 std::string felt_json(const FeltReport& report);
 
 /// The live line of a run: time, place, speed and force, or a pad's amplitude and frequency.
-std::string progress_line(const Progress& now, bool vibrates = false);
+std::string progress_line(const Now& now, bool vibrates = false);
 
 }  // namespace wale

@@ -25,10 +25,10 @@ std::string in_its_unit(const Parameter& parameter, double value) {
 
 }  // namespace
 
-MaterialWatch::MaterialWatch(command::Choice choice, Stage& stage, const Program& felt,
+MaterialWatch::MaterialWatch(command::Choice choice, Patch patch, const Program& felt,
                              std::vector<std::string> settings, std::function<void(const std::string&)> say)
     : choice_(std::move(choice)),
-      stage_(stage),
+      patch_(std::move(patch)),
       settings_(std::move(settings)),
       say_(std::move(say)),
       felt_(write_patch_program(felt.description())),
@@ -75,7 +75,7 @@ MaterialWatch::Outcome MaterialWatch::look() {
     if (was_refused) say_(fmt::format("wale: this version of `{}` is active already\n", now.material));
     return Outcome::nothing;
   }
-  if (const auto done = stage_.replace(0, *program); !done)
+  if (const auto done = patch_.replace(*program); !done)
     return refuse(fmt::format("wale: {}\n", in_words(done.error())));
   felt_ = std::move(bytes);
   ++versions_;
@@ -103,7 +103,7 @@ std::string MaterialWatch::apply_settings(const PatchProgram& now) {
         said = readable("`--set {}` is outside {:.6g} .. {} now: {} is used", setting,
                         parameter->low / parameter->unit_in_si, in_its_unit(*parameter, parameter->high),
                         in_its_unit(*parameter, used));
-      if (const auto set = stage_.set(name, used); !set) said = in_words(set.error());
+      if (const auto set = patch_.set(name, used); !set) said = in_words(set.error());
     }
     if (std::exchange(said_of_settings_[setting], said) != said && !said.empty())
       news += fmt::format("wale: {}\n", visible_text(said));

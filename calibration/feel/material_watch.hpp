@@ -13,12 +13,12 @@
 namespace wale {
 
 /// Keeps patch 0 of a stage up to date with a file. Whenever the file, or one that it imports or shows, is saved, it is
-/// compiled again and replaces the active program (`Stage::replace`). With errors the previous version stays active.
+/// compiled again and replaces the active program (`Patch::replace`). With errors the previous version stays active.
 class MaterialWatch {
  public:
-  /// `felt` is the program on the stage. `settings` (NAME=VALUE) hold for every version that has such a parameter;
+  /// `felt` is the program of the patch. `settings` (NAME=VALUE) hold for every version that has such a parameter;
   /// where one cannot, the person is told. `say` gets messages of whole lines. The stage outlives the watch.
-  MaterialWatch(command::Choice choice, Stage& stage, const Program& felt, std::vector<std::string> settings,
+  MaterialWatch(command::Choice choice, Patch patch, const Program& felt, std::vector<std::string> settings,
                 std::function<void(const std::string&)> say);
 
   enum class Outcome {
@@ -39,7 +39,7 @@ class MaterialWatch {
   std::string apply_settings(const PatchProgram& now);
 
   command::Choice choice_;
-  Stage& stage_;
+  Patch patch_;
   std::vector<std::string> settings_;
   std::map<std::string, std::string> said_of_settings_;  // the last message about each
   std::function<void(const std::string&)> say_;

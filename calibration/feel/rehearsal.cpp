@@ -7,13 +7,14 @@ namespace wale {
 double seconds_needed(const FeltDevice& felt, const BlindMaterial& material, double usual, double most_newton,
                       const std::atomic<bool>& stop) {
   const auto& [program, parameters] = material;
-  Stage stage(*felt.device);
-  stage.place(program);
+  Stage stage(*felt.device, {.max_force = most_newton});
+  Result<Patch> patch = stage.add(program);
+  if (!patch) return usual;
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (!stage.set(program.description().parameters[i].name, parameters[i])) return usual;
-  const auto result = stage.run({.seconds = usual, .most_newton = most_newton, .virtual_time = true, .stop = &stop});
+    if (!patch->set(program.description().parameters[i].name, parameters[i])) return usual;
+  const auto result = stage.run({.seconds = usual, .virtual_time = true, .stop = &stop});
   if (!result) return usual;
-  const FeltReport report = felt_report(*stage.bank(), *result, program.description().device, felt.manner());
+  const FeltReport report = felt_report(*patch->bank(), *result, program.description().device, felt.manner());
   const double needed = report.needed_seconds.value_or(usual);
   return needed > usual && needed <= longest_proposed_run ? needed : usual;
 }

@@ -16,7 +16,11 @@ int main(int argc, char** argv) {
 
   const auto joystick = library.simulated_joystick();
   wale::Stage stage(*joystick);
-  stage.place(*surface);
+  auto patch = stage.add(*surface);
+  if (!patch) {
+    std::fprintf(stderr, "%s\n", wale::in_words(patch.error()).c_str());
+    return 1;
+  }
   const auto run = stage.run({.seconds = 3, .virtual_time = true});
   if (!run) {
     std::fprintf(stderr, "%s\n", wale::in_words(run.error()).c_str());
@@ -24,9 +28,9 @@ int main(int argc, char** argv) {
   }
 
   const auto felt = wale::measure(run->record, {.position_step = joystick->profile().position_step(),
-                                                .predicted_amplitude = wale::predicted_amplitude(*stage.bank()),
+                                                .predicted_amplitude = wale::predicted_amplitude(*patch->bank()),
                                                 .settling = 0.5});
-  for (const auto& level : wale::levels_back(*stage.bank(), felt))
+  for (const auto& level : wale::levels_back(*patch->bank(), felt))
     if (level.back)
       std::printf("%s %s: %.3f N at the handle, felt as level %.2f\n", name, level.name.c_str(), felt.force_rubbing.p99,
                   level.back->level);

@@ -51,8 +51,30 @@ bool Memory::follows(const Memory* other) const noexcept {
   return false;
 }
 
-void Memory::forget_predecessor() {
-  if (succeeded_.load(std::memory_order_acquire)) predecessor_.reset();
+std::size_t Memory::predecessors() const noexcept {
+  std::size_t count = 0;
+  for (const Memory* each = this; !each->succeeded_.load(std::memory_order_acquire); each = each->predecessor_.get())
+    ++count;
+  return count;
+}
+
+bool Memory::forget_predecessor() {
+  if (!succeeded_.load(std::memory_order_acquire)) return false;
+  predecessor_.reset();
+  return true;
+}
+
+std::size_t Memory::copy_from(const Memory& other, std::size_t first, std::size_t most) noexcept {
+  if (&program_.decoded() != &other.program_.decoded() || first > cells_.size()) return 0;
+  if (first == 0) {
+    std::ranges::copy(other.states_, states_.begin());
+    std::ranges::copy(other.initial_states_, initial_states_.begin());
+    restored_ = other.restored_;
+  }
+  const std::size_t count = std::min(most, cells_.size() - first);
+  std::copy_n(other.cells_.begin() + static_cast<std::ptrdiff_t>(first), count,
+              cells_.begin() + static_cast<std::ptrdiff_t>(first));
+  return count;
 }
 
 void Memory::enter(Bank& bank, const Hand& hand) noexcept {

@@ -61,6 +61,20 @@ std::uint32_t EventReader::program(Bytes& in) const {
   return number;
 }
 
+std::uint32_t EventReader::patch(Bytes& in) const {
+  const std::uint32_t number = in.u32();
+  if (number >= most_patches) damaged("patch ", number, " is beyond the greatest number, ", most_patches - 1);
+  return number;
+}
+
+void EventReader::read_flags(std::uint32_t flags, RecordedEvent& event) {
+  if (flags > (put_enabled | put_changed | put_renewed | put_sampled)) damaged("the flags of a patch are ", flags);
+  event.enabled = (flags & put_enabled) != 0;
+  event.changed = (flags & put_changed) != 0;
+  event.renewed = (flags & put_renewed) != 0;
+  event.sampled = (flags & put_sampled) != 0;
+}
+
 RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
   RecordedEvent event;
   const auto placement = [&] {
@@ -96,6 +110,26 @@ RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
       event.kind = RecordedEvent::Kind::move;
       event.patch = in.u32();
       for (int i = 0; i < 2; ++i) event.position[i] = in.f32();
+      return event;
+    case EventCode::put:
+      event.kind = RecordedEvent::Kind::put;
+      event.patch = patch(in);
+      placement();
+      event.layer = in.f32();
+      if (!std::isfinite(event.layer)) damaged("the layer is not finite");
+      event.order = in.u64();
+      read_flags(in.u32(), event);
+      event.parameters.resize(in.count(sizeof(float), "parameters"));
+      for (float& value : event.parameters) value = in.f32();
+      return event;
+    case EventCode::remove:
+      event.kind = RecordedEvent::Kind::remove;
+      event.patch = patch(in);
+      return event;
+    case EventCode::bound:
+      event.kind = RecordedEvent::Kind::bound;
+      event.patch = patch(in);
+      event.sampled = in.boolean("whether the bound is sampled");
       return event;
     case EventCode::publish:
       event.kind = RecordedEvent::Kind::publish;

@@ -29,6 +29,8 @@ class EventReader {
   void read_program(Bytes& in, std::span<const std::byte> payload);
   RecordedEvent read_event(recording_format::EventCode code, Bytes& in);
   std::uint32_t program(Bytes& in) const;
+  std::uint32_t patch(Bytes& in) const;
+  static void read_flags(std::uint32_t flags, RecordedEvent& event);
 
   RecordingContents& contents_;
   bool has_header_ = false;

@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "recordings are stored
 
 /// As in PNG: a byte that no text has, the name, then line ends and an end-of-file mark, which a text transfer changes.
 inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'R', 'C', '\r', '\n', 0x1a, '\n'};
-inline constexpr std::uint32_t version = 1;
+inline constexpr std::uint32_t version = 2, oldest_version = 1;
 
 /// Bytes before the first chunk, and of a chunk. Each chunk begins at a page, for pages of 4 to 64 KiB.
 inline constexpr std::size_t first_chunk = 64 * 1024, chunk_size = 256 * 1024;
@@ -84,8 +84,17 @@ enum class EventCode : std::uint32_t {
   set = 6,
   publish = 7,
   end = 8,
-  move = 9
+  move = 9,
+  put = 10,
+  remove = 11,
+  bound = 12
 };
+
+/// A stage has fewer patches than this. It bounds the memory that a malformed file can ask for.
+inline constexpr std::uint32_t most_patches = 1u << 22;
+
+/// The bits of a `put` event's flags.
+inline constexpr std::uint32_t put_enabled = 1, put_changed = 2, put_renewed = 4, put_sampled = 8;
 
 /// Events begin at multiples of this in their stream, so that no `size` and `check` lies across two chunks.
 inline constexpr std::size_t event_alignment = 8;

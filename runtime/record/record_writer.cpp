@@ -20,7 +20,7 @@ Result<std::unique_ptr<RecordWriter>> RecordWriter::begin(const std::string& pat
   std::unique_ptr<RecordWriter> writer(new RecordWriter(*std::move(file), ticks_may_wait));
   if (auto started = writer->start(header); !started) {
     writer.reset();
-    remove(path.c_str());  // this process made it, and it holds no run
+    std::remove(path.c_str());  // this process made it, and it holds no run
     return std::move(started).error();
   }
   return writer;
@@ -147,28 +147,28 @@ std::uint32_t RecordWriter::number_of(const Program& program) {
   const std::uint64_t hash = hash_of(bytes);
   const auto [same, fresh] = by_hash_.try_emplace(hash, static_cast<std::uint32_t>(by_hash_.size()));
   if (fresh) note(EventCode::program, EventBytes() << hash << std::span<const std::byte>(bytes));
+  if (known_.size() == most_known) known_.clear();
   known_.try_emplace(&program.decoded(), program, same->second);
   return same->second;
 }
 
-void RecordWriter::place(const Program& program, glm::vec2 position, PatchSize size) noexcept {
+void RecordWriter::put(const RecordedEvent& patch, const Program& program) noexcept {
   const std::uint32_t number = number_of(program);
-  note(EventCode::place, EventBytes() << number << position.x << position.y << size.width << size.height << size.rim);
-}
-
-void RecordWriter::add(const Program& program, glm::vec2 position, PatchSize size, float layer,
-                       std::span<const float> parameters) noexcept {
-  const std::uint32_t number = number_of(program);
+  const std::uint32_t flags = (patch.enabled ? put_enabled : 0) | (patch.changed ? put_changed : 0) |
+                              (patch.renewed ? put_renewed : 0) | (patch.sampled ? put_sampled : 0);
   EventBytes bytes;
-  bytes << number << position.x << position.y << size.width << size.height << size.rim << layer
-        << static_cast<std::uint32_t>(parameters.size());
-  for (const float value : parameters) bytes << value;
-  note(EventCode::add, bytes);
+  bytes << patch.patch << number << patch.position.x << patch.position.y << patch.size.width << patch.size.height
+        << patch.size.rim << patch.layer << patch.order << flags << static_cast<std::uint32_t>(patch.parameters.size());
+  for (const float value : patch.parameters) bytes << value;
+  note(EventCode::put, bytes);
 }
 
-void RecordWriter::replace(std::size_t patch, const Program& program) noexcept {
-  const std::uint32_t number = number_of(program);
-  note(EventCode::replace, EventBytes() << static_cast<std::uint32_t>(patch) << number);
+void RecordWriter::remove(std::size_t patch) noexcept {
+  note(EventCode::remove, EventBytes() << static_cast<std::uint32_t>(patch));
+}
+
+void RecordWriter::bound(std::size_t patch, bool sampled) noexcept {
+  note(EventCode::bound, EventBytes() << static_cast<std::uint32_t>(patch) << static_cast<std::uint8_t>(sampled));
 }
 
 void RecordWriter::set(std::size_t patch, std::size_t parameter, float value) noexcept {

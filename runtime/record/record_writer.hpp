@@ -16,6 +16,7 @@
 #include "runtime/record/event_stream.hpp"
 #include "runtime/record/tick_sink.hpp"
 #include "wale/program.hpp"
+#include "wale/recording.hpp"
 
 namespace wale {
 
@@ -37,13 +38,13 @@ class RecordWriter final : public TickSink {
   /// Real-time, unless ticks may wait: allocates nothing, takes no lock, makes no system call, does not throw.
   void append(const RecordedTick& tick) noexcept override;
 
-  /// Changes of the stage, in the order in which they happen. One thread at a time may call these.
-  void place(const Program& program, glm::vec2 position, PatchSize size) noexcept;
-  void add(const Program& program, glm::vec2 position, PatchSize size, float layer,
-           std::span<const float> parameters) noexcept;
-  void replace(std::size_t patch, const Program& program) noexcept;
+  /// Changes of the stage, in the order in which they are handed over. One thread at a time may call these. `put` reads
+  /// all fields of a `RecordedEvent` that its kind has but the program.
+  void put(const RecordedEvent& patch, const Program& program) noexcept;
+  void remove(std::size_t patch) noexcept;
   void set(std::size_t patch, std::size_t parameter, float value) noexcept;
   void move(std::size_t patch, glm::vec2 position) noexcept;
+  void bound(std::size_t patch, bool sampled) noexcept;
   /// All changes so far reach the loop as this revision. Call it before they are handed over.
   void publish(std::uint32_t revision) noexcept;
   /// Marks the recording as complete: the run is over and no more ticks come.
@@ -54,6 +55,7 @@ class RecordWriter final : public TickSink {
 
  private:
   static constexpr std::size_t chunks_ahead = 4;
+  static constexpr std::size_t most_known = 256;  // programs that are found without writing their bytes
 
   RecordWriter(std::unique_ptr<ChunkFile> file, bool ticks_may_wait)
       : file_(std::move(file)), events_(*file_), waits_(ticks_may_wait) {}

@@ -93,8 +93,8 @@ class RecordingReader {
       return Error{.code = Code::newer_file,
                    .sentence = sentence("its format is ", header.version, ", but this Wale reads only up to ", version),
                    .mend = "update Wale"};
-    if (header.check != check_of(header) || header.version != version || header.first_chunk != first_chunk ||
-        header.chunk_size != chunk_size || header.tick_size != sizeof(TickEntry))
+    if (header.check != check_of(header) || header.version < oldest_version || header.version > version ||
+        header.first_chunk != first_chunk || header.chunk_size != chunk_size || header.tick_size != sizeof(TickEntry))
       return damaged_at(0, "the recording's header (byte 0) is damaged", "copy it again");
     return {};
   }

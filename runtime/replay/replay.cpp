@@ -2,14 +2,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "runtime/stage/recorded_run.hpp"
+#include "runtime/stage/session.hpp"
 #include "schema/sentence.hpp"
 #include "wale/recording.hpp"
-#include "wale/stage.hpp"
 
 namespace wale {
 namespace {
@@ -50,31 +51,36 @@ struct Compared {
   }
 };
 
-/// Changes a stage as recorded, and compares what its ticks give.
-class Replaying final : public RecordedRun {
+/// Changes patches as recorded, and compares what the ticks give.
+class Replaying final : public TickSink {
  public:
-  Replaying(const Recording& recording, RecordedDevice& device, Stage& stage)
-      : recording_(recording), device_(device), stage_(stage), programs_(recording.programs().size()) {}
-
-  /// Makes all changes of the stage up to the hand-over of `revision`. Throws `Error`, which `replay` returns.
-  void act_until(std::uint32_t revision) {
-    while (revision_ < revision && acted_ < recording_.events().size()) act(recording_.events()[acted_++]);
+  explicit Replaying(const Recording& recording) : recording_(recording), programs_(recording.programs().size()) {
+    table_.begin(PatchTable::Manner::together);
   }
 
-  std::optional<Beat> next() override {
-    if (replay_.ticks == recording_.ticks()) return std::nullopt;
-    tick_ = recording_.tick(replay_.ticks);
-    act_until(tick_.revision);
-    device_.become(tick_);
-    return Beat{.period = static_cast<long>(tick_.period),
-                .elapsed = static_cast<long>(tick_.elapsed),
-                .skipped = static_cast<long>(tick_.skipped),
-                .lateness = tick_.lateness};
+  /// Serves all ticks. Throws `Error`, which `replay` returns.
+  void run() {
+    const RecordingHeader& header = recording_.header();
+    RecordedDevice device(header.device);
+    Record record;
+    act_until(1);  // the patches that were there when the run began
+    Player player(device, patches_, record, 1, header.most_newton, false, this);
+    while (replay_.ticks < recording_.ticks()) {
+      tick_ = recording_.tick(replay_.ticks);
+      act_until(tick_.revision);
+      device.become(tick_);
+      player.serve({.period = static_cast<long>(tick_.period),
+                    .elapsed = static_cast<long>(tick_.elapsed),
+                    .skipped = static_cast<long>(tick_.skipped),
+                    .lateness = tick_.lateness});
+    }
   }
 
   void append(const RecordedTick& now) noexcept override {
+    const auto known = number_of_slot_.find(now.patch);
+    const std::uint32_t patch = known == number_of_slot_.end() ? now.patch : known->second;
     const std::array<Compared, 5> parts{{
-        {"patch under the hand", {tick_.patch, tick_.inside}, {now.patch, now.inside}},
+        {"patch under the hand", {tick_.patch, tick_.inside}, {patch, now.inside}},
         {"filtered velocity", tick_.velocity, now.velocity},
         {"program's output", tick_.wanted, now.wanted},
         {"commanded output", tick_.commanded, now.commanded},
@@ -94,67 +100,150 @@ class Replaying final : public RecordedRun {
   const Replay& result() const { return replay_; }
 
  private:
-  static void require(const Result<>& done) {
-    if (!done) throw done.error();
+  using Kind = RecordedEvent::Kind;
+
+  /// Makes all changes up to the hand-over of `revision`.
+  void act_until(std::uint32_t revision) {
+    while (revision_ < revision && acted_ < recording_.events().size()) act(recording_.events()[acted_++]);
   }
 
   const Program& program(std::size_t number) {
     std::optional<Program>& known = programs_[number];
-    if (!known) {
-      auto loaded = Program::load(recording_.programs()[number].bytes);
-      if (!loaded) {
-        Error error = std::move(loaded).error();
-        error.sentence = sentence("program ", number, " of the recording cannot be run: ", error.sentence);
-        throw error;
-      }
-      known = *std::move(loaded);
+    if (known) return *known;
+    auto loaded = Program::load(recording_.programs()[number].bytes);
+    if (!loaded) {
+      Error error = std::move(loaded).error();
+      error.sentence = sentence("program ", number, " of the recording cannot be run: ", error.sentence);
+      throw error;
     }
+    if (loaded->description().vibrates() != recording_.header().device.shaker.has_value())
+      throw Error{
+          .code = Code::other_device,
+          .sentence = sentence("program ", number, " of the recording was built for ",
+                               loaded->description().device.name, ", not for ", recording_.header().device.name)};
+    known = *std::move(loaded);
     return *known;
   }
 
-  void set(std::size_t patch, std::size_t parameter, float value) {
-    if (patch >= placed_.size()) damaged("a parameter of patch ", patch, " was set, but there is no such patch");
-    const auto& parameters = program(placed_[patch]).description().parameters;
-    if (parameter >= parameters.size())
-      damaged("parameter ", parameter, " of patch ", patch, " was set, but the patch has ", parameters.size());
-    require(stage_.set(patch, parameters[parameter].name, value));
+  /// The patch of a recorded number.
+  PatchName named(std::uint32_t number, const char* deed) const {
+    const auto known = names_.find(number);
+    if (known == names_.end()) damaged(deed, number, ", but there is no such patch");
+    return known->second;
+  }
+
+  void want(PatchName name, std::optional<Placement> placement) {
+    std::vector<PatchTable::Wish> wishes;
+    wishes.emplace_back(name, std::move(placement));
+    table_.want(std::move(wishes));
+  }
+
+  /// Makes a change of a patch, which then counts as changed.
+  void change(PatchName name, const StageState::Change& change, bool renew = false) {
+    Placement placement = *table_.wanted(name);
+    if (auto done = change(placement); !done) throw std::move(done).error();
+    want(name, std::move(placement));
+    table_.touch(name, renew);
+    table_.loosen(name, false);
+  }
+
+  void set(const RecordedEvent& event) {
+    const PatchName name = named(event.patch, "a parameter was set of patch ");
+    const auto& parameters = table_.wanted(name)->program.description().parameters;
+    if (event.parameter >= parameters.size())
+      damaged("parameter ", event.parameter, " of patch ", event.patch, " was set, but the patch has ",
+              parameters.size());
+    change(name, changes::set(parameters[event.parameter].name, event.value));
+  }
+
+  /// A patch as version 1 placed it.
+  void add(const RecordedEvent& event) {
+    Placement placement(program(event.program), event.position, event.size, event.layer);
+    if (event.kind == Kind::add) placement.parameters = parameters_of(event, placement.program);
+    placement.order = table_.next_order();
+    place(static_cast<std::uint32_t>(names_.size()), std::move(placement));
+  }
+
+  std::vector<float> parameters_of(const RecordedEvent& event, const Program& program) const {
+    if (const std::size_t count = program.description().parameters.size(); count != event.parameters.size())
+      damaged("a patch was placed with ", event.parameters.size(), " parameters, but its program has ", count);
+    return event.parameters;
+  }
+
+  PatchName place(std::uint32_t number, Placement placement) {
+    const PatchName name = table_.reserve();
+    names_[number] = name;
+    number_of_slot_[name.number] = number;
+    want(name, std::move(placement));
+    return name;
+  }
+
+  void put(const RecordedEvent& event) {
+    Placement placement(program(event.program), event.position, event.size, event.layer);
+    placement.parameters = parameters_of(event, placement.program);
+    placement.order = event.order;
+    placement.enabled = event.enabled;
+    const auto known = names_.find(event.patch);
+    PatchName name;
+    if (known == names_.end()) {
+      name = place(event.patch, std::move(placement));
+    } else {
+      name = known->second;
+      want(name, std::move(placement));
+      if (event.changed || event.renewed) table_.touch(name, event.renewed);
+    }
+    table_.loosen(name, !event.sampled);
+  }
+
+  void remove(std::uint32_t number) {
+    want(named(number, "a patch was removed that has the number "), std::nullopt);
+    names_.erase(number);
   }
 
   void act(const RecordedEvent& event) {
     switch (event.kind) {
-      case RecordedEvent::Kind::place:
-        stage_.place(program(event.program), event.position, event.size);
-        placed_ = {event.program};
+      case Kind::place:
+        while (!names_.empty()) remove(names_.begin()->first);
+        add(event);
         return;
-      case RecordedEvent::Kind::add: {
-        const Program& added = program(event.program);
-        const std::vector<float> defaults = added.default_parameters();
-        if (defaults.size() != event.parameters.size())
-          damaged("patch ", placed_.size(), " was placed with ", event.parameters.size(),
-                  " parameters, but its program has ", defaults.size());
-        stage_.add(added, event.position, event.size, event.layer);
-        placed_.push_back(event.program);
-        for (std::size_t i = 0; i < defaults.size(); ++i)
-          if (event.parameters[i] != defaults[i]) set(placed_.size() - 1, i, event.parameters[i]);
+      case Kind::add: add(event); return;
+      case Kind::replace: {
+        const Program& replacing = program(event.program);
+        const PatchName name = named(event.patch, "a program was replaced of patch ");
+        const auto replace = [&](Placement& patch) -> Result<> {
+          patch.replace(replacing);
+          return {};
+        };
+        change(name, replace, true);
         return;
       }
-      case RecordedEvent::Kind::replace:
-        require(stage_.replace(event.patch, program(event.program)));
-        placed_[event.patch] = event.program;
+      case Kind::set: set(event); return;
+      case Kind::move: {
+        const PatchName name = named(event.patch, "there was a move of patch ");
+        Placement placement = *table_.wanted(name);
+        if (auto done = changes::move(event.position)(placement); !done) throw std::move(done).error();
+        want(name, std::move(placement));
         return;
-      case RecordedEvent::Kind::set: set(event.patch, event.parameter, event.value); return;
-      case RecordedEvent::Kind::move: require(stage_.move(event.patch, event.position)); return;
-      case RecordedEvent::Kind::publish: revision_ = event.revision; return;
-      case RecordedEvent::Kind::end: return;
+      }
+      case Kind::put: put(event); return;
+      case Kind::remove: remove(event.patch); return;
+      case Kind::bound: table_.loosen(named(event.patch, "there was a bound of patch "), !event.sampled); return;
+      case Kind::publish:
+        table_.publish(patches_, nullptr);
+        revision_ = event.revision;
+        return;
+      case Kind::end: return;
     }
   }
 
   const Recording& recording_;
-  RecordedDevice& device_;
-  Stage& stage_;
   std::vector<std::optional<Program>> programs_;  // each is loaded at its first use
-  std::vector<std::size_t> placed_;               // the program of each patch
-  std::size_t acted_ = 0;                         // events
+  BankCache banks_;
+  PatchTable table_{banks_};
+  Exchange<PlacedPatches> patches_;
+  std::map<std::uint32_t, PatchName> names_;                         // by the recorded number
+  std::unordered_map<std::uint32_t, std::uint32_t> number_of_slot_;  // the recorded number of a slot's patch
+  std::size_t acted_ = 0;                                            // events
   std::uint32_t revision_ = 0;
   RecordedTick tick_;
   Replay replay_;
@@ -164,18 +253,14 @@ class Replaying final : public RecordedRun {
 
 Result<Replay> replay(const Recording& recording) {
   if (recording.ticks() == 0) return Replay{};
-  const RecordingHeader& header = recording.header();
-  RecordedDevice device(header.device);
-  Stage stage(device);
-  Replaying replaying(recording, device, stage);
+  if (auto whole = has_loop_figures(recording.header().device); !whole) return std::move(whole).error();
   try {
-    replaying.act_until(1);  // the patches that were there when the run began
-    const auto run = stage.run({.seconds = 1, .most_newton = header.most_newton, .recorded = &replaying});
-    if (!run) return run.error();
+    Replaying replaying(recording);
+    replaying.run();
+    return replaying.result();
   } catch (const Error& error) {
     return error;
   }
-  return replaying.result();
 }
 
 }  // namespace wale

@@ -11,6 +11,14 @@ std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
 
 bool same_bits(float one, float other) { return bits(one) == bits(other); }
 
+/// Bytes of a program, roughly: its maps, as they are and prefiltered, and an allowance for all else.
+std::size_t bytes_of(const Program& program) {
+  constexpr std::size_t all_else = std::size_t{32} << 10;
+  std::size_t heights = 0;
+  for (const HeightTable& table : program.description().tables) heights += std::size_t{table.width} * table.height;
+  return all_else + 2 * sizeof(float) * heights;
+}
+
 }  // namespace
 
 bool PreparedBank::sample(const std::atomic<bool>* stop) const {
@@ -44,16 +52,33 @@ void BankCache::keep(Entries::value_type& entry, std::shared_ptr<const PreparedB
     return;
   }
   kept_bytes_ += bank->bytes();
+  KeptProgram& program = kept_programs_[&entry.first.program.decoded()];
+  if (program.banks++ == 0) {
+    program.bytes = bytes_of(entry.first.program);
+    kept_program_bytes_ += program.bytes;
+  }
   entry.second.kept = std::move(bank);
   order_.push_front(&entry);
   entry.second.place = order_.begin();
-  while (kept_bytes_ > most_bytes_ && order_.size() > 1) {
-    Entries::value_type& oldest = *order_.back();
-    order_.pop_back();
-    kept_bytes_ -= oldest.second.kept->bytes();
-    oldest.second.kept.reset();
-    if (oldest.second.bank.expired()) entries_.erase(entries_.find(oldest.first));
+  while (keeps_too_much()) let_oldest_go();
+}
+
+bool BankCache::keeps_too_much() const {
+  return (kept_bytes_ > most_bytes_ && order_.size() > 1) ||
+         (kept_program_bytes_ > most_program_bytes_ && kept_programs_.size() > 1);
+}
+
+void BankCache::let_oldest_go() {
+  Entries::value_type& oldest = *order_.back();
+  order_.pop_back();
+  kept_bytes_ -= oldest.second.kept->bytes();
+  const auto program = kept_programs_.find(&oldest.first.program.decoded());
+  if (--program->second.banks == 0) {
+    kept_program_bytes_ -= program->second.bytes;
+    kept_programs_.erase(program);
   }
+  oldest.second.kept.reset();
+  if (oldest.second.bank.expired()) entries_.erase(entries_.find(oldest.first));
 }
 
 void BankCache::sweep() {

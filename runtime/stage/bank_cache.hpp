@@ -59,14 +59,19 @@ struct BankKeyHash {
   std::size_t operator()(const BankKey& key) const noexcept;
 };
 
-/// The prepared banks of a stage. It finds all banks that are in use, and those used last, up to a number of bytes.
+/// The prepared banks of a stage. It finds all banks that are in use, and those used last, up to a number of bytes of
+/// banks and, if they are of more than one program, of programs.
 /// Keys hold their program, so an entry never answers for another program at the same address. From any thread.
 class BankCache {
  public:
   /// More than the banks of all shipped materials need.
   static constexpr std::size_t usual_bytes = std::size_t{8} << 20;
 
-  explicit BankCache(std::size_t most_bytes = usual_bytes) : most_bytes_(most_bytes) {}
+  /// Kept banks hold their programs, whose maps may be much larger than the banks.
+  static constexpr std::size_t usual_program_bytes = std::size_t{32} << 20;
+
+  explicit BankCache(std::size_t most_bytes = usual_bytes, std::size_t most_program_bytes = usual_program_bytes)
+      : most_bytes_(most_bytes), most_program_bytes_(most_program_bytes) {}
 
   /// The bank of a key, or null if it is not known.
   std::shared_ptr<const PreparedBank> find(const BankKey& key);
@@ -88,15 +93,22 @@ class BankCache {
     Order::iterator place;                     // in `order_`, if it is kept
   };
 
+  struct KeptProgram {
+    std::size_t banks = 0, bytes = 0;
+  };
+
   /// With the mutex held: makes it the one used last.
   void keep(Entries::value_type& entry, std::shared_ptr<const PreparedBank> bank);
+  void let_oldest_go();
+  bool keeps_too_much() const;
   void sweep();
 
-  const std::size_t most_bytes_;
+  const std::size_t most_bytes_, most_program_bytes_;
   mutable std::mutex mutex_;
   Entries entries_;
   Order order_;  // the kept ones; the one used last comes first
-  std::size_t kept_bytes_ = 0;
+  std::unordered_map<const DecodedProgram*, KeptProgram> kept_programs_;
+  std::size_t kept_bytes_ = 0, kept_program_bytes_ = 0;
   std::size_t next_sweep_ = 64;
 };
 

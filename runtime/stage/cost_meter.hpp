@@ -6,7 +6,7 @@
 
 #include "runtime/stage/loop.hpp"
 #include "runtime/stage/time_histogram.hpp"
-#include "wale/stage.hpp"
+#include "wale/run.hpp"
 
 namespace wale {
 

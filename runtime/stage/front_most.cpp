@@ -59,16 +59,17 @@ void FrontMost::drop_repeated(std::vector<Entry>& front_first) {
   std::erase_if(front_first, [&seen](const Entry& entry) { return !seen.insert(entry.outline).second; });
 }
 
-FrontMost::FrontMost(std::span<const PatchOutline> patches) {
+FrontMost::FrontMost(std::span<const PatchOutline> patches, std::span<const std::uint32_t> numbers) {
   std::vector<Entry> front_first;
-  for (std::uint32_t number = 0; number < patches.size(); ++number) {
-    const PatchOutline& outline = patches[number];
+  front_first.reserve(patches.size());
+  for (std::uint32_t index = 0; index < patches.size(); ++index) {
+    const PatchOutline& outline = patches[index];
+    const std::uint32_t number = numbers.empty() ? index : numbers[index];
     const float sum = outline.position.x + outline.position.y + outline.width + outline.height;
     if (std::isfinite(sum) && outline.width >= 0 && outline.height >= 0) front_first.push_back({outline, number});
   }
   std::sort(front_first.begin(), front_first.end(), [](const Entry& one, const Entry& other) {
-    if (one.outline.layer != other.outline.layer) return one.outline.layer > other.outline.layer;
-    return one.number > other.number;
+    return one.outline.is_before(other.outline, one.number, other.number);
   });
   drop_repeated(front_first);
   glm::dvec2 high(0.0);

@@ -11,7 +11,16 @@ namespace wale {
 struct PatchOutline {
   glm::vec2 position{0.0f};  ///< of the patch's centre
   float width = 0, height = 0;
-  float layer = 0;  ///< a greater one lies in front; among equals, the later patch does
+  float layer = 0;          ///< a greater one lies in front; among equals, the one with the greater `order` does
+  std::uint64_t order = 0;  ///< of the patch's arrival in its layer; among equals, the greater number lies in front
+
+  /// Whether this patch, of number `number`, lies in front of another one.
+  bool is_before(const PatchOutline& other, std::uint32_t number, std::uint32_t other_number) const noexcept {
+    if (layer != other.layer) return layer > other.layer;
+    if (order != other.order) return order > other.order;
+    return number > other_number;
+  }
+  friend bool operator==(const PatchOutline&, const PatchOutline&) = default;
 
   /// Whether a hand at this position, m from the patch's centre, is within. The edge counts as within.
   bool contains(glm::vec2 hand) const noexcept {
@@ -26,9 +35,9 @@ class FrontMost {
  public:
   static constexpr std::uint32_t none = 0xffffffff;
 
-  /// `patches` in the order in which they were placed. Time and memory are proportional to their number: where many
-  /// cross many cells, the cells become larger. Allocates.
-  explicit FrontMost(std::span<const PatchOutline> patches);
+  /// `numbers` has the number of each patch; without them it is its index. Time and memory are proportional to the
+  /// number of patches: where many cross many cells, the cells become larger. Allocates.
+  explicit FrontMost(std::span<const PatchOutline> patches, std::span<const std::uint32_t> numbers = {});
   FrontMost() : FrontMost(std::span<const PatchOutline>()) {}
 
   /// The number of the front-most patch at `point` (m from the workspace's centre), or `none`.

@@ -7,7 +7,7 @@
 #include "runtime/stage/motor_heat.hpp"
 #include "runtime/stage/passivity_observer.hpp"
 #include "schema/device_profile.hpp"
-#include "wale/stage.hpp"
+#include "wale/run.hpp"
 
 namespace wale {
 

@@ -2,52 +2,51 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
-#include <memory>
+#include <utility>
 #include <vector>
 
-#include "wale/memory.hpp"
+#include "runtime/stage/bank_cache.hpp"
+#include "runtime/stage/front_most.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
 
-/// A patch as the caller placed it; owned by the control side.
+/// A patch as its caller wants it; a value of the control side.
 struct Placement {
   Program program;
-  glm::vec2 position;
+  std::vector<float> parameters;  ///< SI, as the program lists them
   PatchSize size;
-  float layer;
-  std::vector<float> parameters;
-  std::shared_ptr<Memory> memory;
-  bool moves = false;  ///< it has been moved, so it is searched separately from the patches that stay
+  glm::vec2 position{0};  ///< m from the workspace's centre
+  float layer = 0;
+  std::uint64_t order = 0;  ///< of its arrival in its layer
+  bool enabled = true;
 
   Placement(const Program& placed, glm::vec2 where, PatchSize how_large, float how_far_in_front)
       : program(placed),
-        position(where),
-        size(how_large),
-        layer(how_far_in_front),
         parameters(placed.default_parameters()),
-        memory(std::make_shared<Memory>(placed)) {}
+        size(how_large),
+        position(where),
+        layer(how_far_in_front) {}
 
-  /// The same patch with another program. Parameters of the same name and unit keep their values if they were set.
-  Placement(const Placement& old, const Program& replacing)
-      : program(replacing),
-        position(old.position),
-        size(old.size == old.program.default_size() ? replacing.default_size() : old.size),
-        layer(old.layer),
-        parameters(replacing.default_parameters()),
-        memory(std::make_shared<Memory>(replacing, old.memory)),
-        moves(old.moves) {
+  /// Takes another program. A size that was the old program's own becomes the new one's own. Parameters of the same
+  /// name and unit keep their values if they were not at their defaults.
+  void replace(const Program& replacing) {
+    std::vector<float> values = replacing.default_parameters();
     const std::vector<Parameter>& known = replacing.description().parameters;
     for (std::size_t i = 0; i < known.size(); ++i) {
-      const auto before = old.program.parameter(known[i].name);
-      if (!before || old.program.description().parameters[*before].si_unit != known[i].si_unit) continue;
-      if (old.parameters[*before] == old.program.description().parameters[*before].value) continue;  // it was never set
-      parameters[i] = std::clamp(old.parameters[*before], known[i].low, known[i].high);
+      const auto before = program.parameter(known[i].name);
+      if (!before || program.description().parameters[*before].si_unit != known[i].si_unit) continue;
+      if (parameters[*before] == program.description().parameters[*before].value) continue;  // it was never set
+      values[i] = std::clamp(parameters[*before], known[i].low, known[i].high);
     }
+    if (size == program.default_size()) size = replacing.default_size();
+    parameters = std::move(values);
+    program = replacing;
   }
 
-  Bank bank() const { return Bank(program, parameters, size); }
+  BankKey key() const { return {program, parameters, size}; }
 };
 
 }  // namespace wale

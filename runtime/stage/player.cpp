@@ -23,55 +23,10 @@ std::uint32_t guard_bits(const GuardCounts& before, const GuardCounts& after) no
          bit(before.lost, after.lost, GuardBit::lost) | bit(before.restored, after.restored, GuardBit::restored);
 }
 
-PatchOutline outline_of(const PlacedPatch& patch, glm::vec2 position) {
-  const PatchSize size = patch.bank.size();
-  return {position, size.width, size.height, patch.layer};
-}
-
 }  // namespace
 
-PlacedPatches::PlacedPatches()
-    : patches_(std::make_shared<const Patches>()), staying_(std::make_shared<const FrontMost>()) {}
-
-PlacedPatches::PlacedPatches(PlacedPatch patch) {
-  take({std::make_shared<PlacedPatch>(std::move(patch))});
-  arrange({});
-}
-
-void PlacedPatches::arrange(std::span<const MovedPatch> moving) {
-  std::vector<PatchOutline> outlines;
-  outlines.reserve(patches_->size());
-  for (const auto& patch : *patches_) outlines.push_back(outline_of(*patch, patch->position));
-  for (const MovedPatch& each : moving) outlines[each.number].width = -1;  // contains no point
-  staying_ = std::make_shared<const FrontMost>(outlines);
-  move(moving);
-}
-
-void PlacedPatches::move(std::span<const MovedPatch> moving) {
-  moved_.assign(moving.begin(), moving.end());
-  std::vector<PatchOutline> outlines;
-  for (const MovedPatch& each : moved_) outlines.push_back(outline_of(*(*patches_)[each.number], each.position));
-  moving_ = moved_.empty() ? nullptr : std::make_shared<const FrontMost>(outlines);
-}
-
-PlacedPatches::Found PlacedPatches::at(glm::dvec2 point) const noexcept {
-  Found found;
-  std::size_t number = 0;
-  if (const std::uint32_t still = staying_->at(point); still != FrontMost::none) {
-    number = still;
-    found = {(*patches_)[still].get(), (*patches_)[still]->position};
-  }
-  const std::uint32_t place = moving_ ? moving_->at(point) : FrontMost::none;
-  if (place == FrontMost::none) return found;
-  const MovedPatch& moved = moved_[place];
-  PlacedPatch* const patch = (*patches_)[moved.number].get();
-  const bool in_front = found.patch == nullptr || patch->layer > found.patch->layer ||
-                        (patch->layer == found.patch->layer && moved.number > number);
-  return in_front ? Found{patch, moved.position} : found;
-}
-
 Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats, double most_newton,
-               bool real_time, TickSink* sink)
+               bool real_time, TickSink* sink, Outlets* outlets)
     : device_(device),
       patches_(patches),
       record_(record),
@@ -80,7 +35,8 @@ Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record,
       filters_x_(device.profile()),
       filters_y_(device.profile()),
       guards_(device.profile(), most_newton),
-      costs_(real_time) {
+      costs_(real_time),
+      outlets_(outlets) {
   record_.seconds_per_tick = 1 / device.profile().rate;
   record_.vibrates = device.profile().shaker.has_value();
   record_.ticks.resize(beats);
@@ -98,15 +54,15 @@ Hand Player::hand(const Reading& reading, const Beat& beat) noexcept {
           .button = reading.button};
 }
 
-Force Player::feel(PlacedPatch& patch, const Hand& hand) noexcept {
+Force Player::feel(const PlacedPatch& patch, const Hand& hand) noexcept {
   const long before = patch.memory->restored();
   if (inside_ != patch.memory.get()) {
     const bool stays = patch.memory->follows(inside_);
-    patch.memory->enter(patch.bank, hand);
+    patch.memory->enter(patch.bank->registers, hand);
     patch.memory->succeed(stays);
   }
-  guards_.allow(patch.potential_range, patch.bank.program().description().active_watt);
-  const Force force = tick(patch.bank, *patch.memory, hand);
+  guards_.allow(patch.potential_range, patch.bank->bank.program().description().active_watt);
+  const Force force = tick(patch.bank->registers, *patch.memory, hand);
   restored_ += patch.memory->restored() - before;
   return force;
 }
@@ -129,18 +85,19 @@ void Player::serve(const Beat& beat) noexcept {
 
   patches_.take();
   const PlacedPatches* all = reading.contact == Contact::good ? patches_.held() : nullptr;
-  const PlacedPatches::Found found = all ? all->at(position) : PlacedPatches::Found{};
-  // Slew when the patch, its parameters, its program or its position changed. A new patch cannot have the address of
-  // the last one, because that was not freed before the new one was made.
-  if (found != felt_) guards_.slew();
-  felt_ = found;
+  const PlacedPatch* const found = all ? all->at(position) : nullptr;
+  // Slew when the patch, its parameters, its program or its position changed.
+  const FeltPatch felt =
+      found ? FeltPatch{found->number, found->generation, found->change, found->outline.position} : FeltPatch{};
+  if (felt != felt_) guards_.slew();
   costs_.end(TickCosts::find);
   Force wanted(0);
-  if (found.patch) {
-    hand.position = glm::vec2(position - glm::dvec2(found.position));
-    wanted = feel(*found.patch, hand);
+  if (found) {
+    hand.position = glm::vec2(position - glm::dvec2(found->outline.position));
+    wanted = feel(*found, hand);
   }
-  inside_ = found.patch ? found.patch->memory.get() : nullptr;
+  // Another memory cannot have the address of this one: it is made before the control side gets this one back.
+  inside_ = found ? found->memory.get() : nullptr;
   costs_.end(TickCosts::program);
   const auto cut = reason_to_cut(reading, beat);
   const Force commanded = cut ? guards_.cut(*cut, position, beat.elapsed) : guards_(wanted, position, beat.elapsed);
@@ -148,6 +105,9 @@ void Player::serve(const Beat& beat) noexcept {
   const Force force = device_.command(commanded);
   guards_.commanded(force);
   costs_.end(TickCosts::command);
+  if (outlets_ != nullptr) note_contacts(found, reading, hand, force);
+  felt_ = felt;
+  button_ = reading.button;
   note(beat, reading, hand, {wanted, commanded, force}, before);
   costs_.end(TickCosts::record);
   costs_.end_tick();
@@ -176,7 +136,7 @@ void Player::note(const Beat& beat, const Reading& reading, const Hand& hand, co
                    .contact = reading.contact,
                    .button = reading.button,
                    .inside = inside_ != nullptr,
-                   .patch = felt_.patch != nullptr ? felt_.patch->number : RecordedTick::no_patch,
+                   .patch = felt_.number,
                    .revision = all != nullptr ? all->revision : 0,
                    .guards = guard_bits(before, guards()),
                    .velocity = hand.velocity,
@@ -185,13 +145,34 @@ void Player::note(const Beat& beat, const Reading& reading, const Hand& hand, co
                    .force = output.exerted,
                    .interaction = reading.interaction});
   }
-  latest_.store({.time = hand.time,
-                 .ticks_run = static_cast<long>(served_),
-                 .ticks_missed = missed_,
-                 .position = hand.workspace,
-                 .velocity = hand.velocity,
-                 .force = output.exerted,
-                 .inside = inside_ != nullptr});
+  if (outlets_ == nullptr) return;
+  outlets_->state.store({.time = hand.time,
+                         .ticks_run = static_cast<long>(served_),
+                         .ticks_missed = missed_,
+                         .lateness = static_cast<double>(beat.lateness) * 1e-9,
+                         .position = hand.workspace,
+                         .velocity = hand.velocity,
+                         .force = output.exerted,
+                         .inside = inside_ != nullptr,
+                         .number = felt_.number,
+                         .generation = felt_.generation,
+                         .revision = patches_.held() != nullptr ? patches_.held()->revision : 0,
+                         .guards = guards()});
+  outlets_->desk.serve(patches_.held());
+}
+
+void Player::note_contacts(const PlacedPatch* found, const Reading& reading, const Hand& hand, Force force) noexcept {
+  if (!outlets_->wants_contacts.load(std::memory_order_relaxed)) return;
+  const auto note = [&](ContactKind kind, std::uint32_t number, std::uint32_t generation) {
+    outlets_->contacts.push({kind, number, generation, hand.time, hand.workspace, hand.velocity, force});
+  };
+  const bool was_on = felt_.number != RecordedTick::no_patch;
+  const bool same = found && was_on && found->number == felt_.number && found->generation == felt_.generation;
+  if (was_on && !same) note(ContactKind::leave, felt_.number, felt_.generation);
+  if (!found) return;
+  if (!same) note(ContactKind::enter, found->number, found->generation);
+  if (reading.button != button_)
+    note(reading.button ? ContactKind::press : ContactKind::release, found->number, found->generation);
 }
 
 GuardCounts Player::guards() const noexcept {

@@ -10,76 +10,16 @@
 #include "runtime/stage/acceleration_filter.hpp"
 #include "runtime/stage/cost_meter.hpp"
 #include "runtime/stage/exchange.hpp"
-#include "runtime/stage/front_most.hpp"
 #include "runtime/stage/guards.hpp"
-#include "runtime/stage/latest.hpp"
 #include "runtime/stage/loop.hpp"
+#include "runtime/stage/outlets.hpp"
+#include "runtime/stage/placed_patches.hpp"
 #include "runtime/stage/time_histogram.hpp"
 #include "runtime/stage/velocity_filter.hpp"
 #include "wale/memory.hpp"
-#include "wale/stage.hpp"
+#include "wale/run.hpp"
 
 namespace wale {
-
-/// A patch with its parameters and its position (m from the workspace's centre), as the control side hands it over. The
-/// memory belongs to the bank's program, and patches that differ only in parameters share it. Only the thread that
-/// plays the patch uses the memory; the control side frees it.
-struct PlacedPatch {
-  Bank bank;
-  glm::vec2 position;
-  std::shared_ptr<Memory> memory;
-  float layer = 0;
-  std::uint32_t number = 0;           ///< on the stage
-  double potential_range = HUGE_VAL;  ///< J, of the bank's force; infinite: its energy is not limited
-};
-
-/// The position of a patch that has been moved.
-struct MovedPatch {
-  std::size_t number = 0;
-  glm::vec2 position{0};  ///< m from the workspace's centre
-};
-
-/// All patches on the workspace, as the control side hands them over. Successive values share the patches that did not
-/// change. Only the real-time thread uses the patches; the control side frees them. Patches that have been moved are
-/// searched separately from those that stay, so the cost of a move does not grow with the number of the others.
-class PlacedPatches {
- public:
-  using Patches = std::vector<std::shared_ptr<PlacedPatch>>;
-
-  /// No patch.
-  PlacedPatches();
-  /// One patch alone.
-  explicit PlacedPatches(PlacedPatch patch);
-
-  std::uint32_t revision = 0;  ///< the number of this hand-over in the run, from 1 on
-
-  const Patches& patches() const noexcept { return *patches_; }
-
-  /// Replaces the patches; their index is their number. Call `arrange` before the next `at` when a patch is new or has
-  /// another size: until then `at` searches the previous outlines.
-  void take(Patches patches) { patches_ = std::make_shared<const Patches>(std::move(patches)); }
-  /// Prepares the search for all patches, in time proportional to their number. `moving` has the moved patches in the
-  /// order of their numbers.
-  void arrange(std::span<const MovedPatch> moving);
-  /// Prepares the search for the moved patches only. They are the same patches as at the last `arrange`.
-  void move(std::span<const MovedPatch> moving);
-
-  /// The front-most patch under a point (m from the workspace's centre) and where it is, or null.
-  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
-  struct Found {
-    PlacedPatch* patch = nullptr;
-    glm::vec2 position{0};
-
-    friend bool operator==(const Found&, const Found&) = default;
-  };
-  Found at(glm::dvec2 point) const noexcept;
-
- private:
-  std::shared_ptr<const Patches> patches_;
-  std::shared_ptr<const FrontMost> staying_;  // by their indices in `patches_`
-  std::vector<MovedPatch> moved_;
-  std::shared_ptr<const FrontMost> moving_;  // by their indices in `moved_`; null where there are none
-};
 
 /// One axis's estimates of velocity and acceleration, in counts and ticks.
 class AxisFilters {
@@ -104,11 +44,11 @@ class AxisFilters {
 /// The real-time half of a stage: the work of one thread at each beat. Its end commands zero force.
 class Player {
  public:
-  /// `record` keeps the last `beats` beats, at least one, and `sink` receives each. All outlive the player.
-  /// `most_newton` is the largest force that the user allows; with `real_time`, the cost of each step is measured by
-  /// the clock. Allocates.
+  /// `record` keeps the last `beats` beats, at least one, and `sink` receives each; `outlets` get its state, contacts
+  /// and copies of memories. All outlive the player. `most_newton` is the largest force that the user allows; with
+  /// `real_time`, the cost of each step is measured by the clock. Allocates.
   Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats,
-         double most_newton = HUGE_VAL, bool real_time = false, TickSink* sink = nullptr);
+         double most_newton = HUGE_VAL, bool real_time = false, TickSink* sink = nullptr, Outlets* outlets = nullptr);
   ~Player() { device_.command(Force(0)); }
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
@@ -118,8 +58,8 @@ class Player {
   /// Real-time: allocates nothing, takes no lock, makes no system call besides the device's own, does not throw.
   void serve(const Beat& beat) noexcept;
 
-  /// From any thread.
-  Progress progress() const { return latest_.load(); }
+  /// The force that the actuator exerts since the last beat, where it is known only now. Real-time as `serve`.
+  void exerted(Force force) noexcept { guards_.commanded(force); }
 
   /// Call these after the last beat.
   Lateness lateness() const { return lateness_.summary(); }
@@ -135,7 +75,7 @@ class Player {
   /// Why there must be no force now, if there must be none.
   std::optional<Guards::Reason> reason_to_cut(const Reading& reading, const Beat& beat) const noexcept;
   /// The program's force, with the hand within the patch.
-  Force feel(PlacedPatch& patch, const Hand& hand) noexcept;
+  Force feel(const PlacedPatch& patch, const Hand& hand) noexcept;
   /// The program's output and what the guards and the device made of it.
   struct Output {
     Force wanted{0};     ///< by the program
@@ -145,6 +85,8 @@ class Player {
   /// Records the beat and publishes the progress. `before` has the guards' counts before this beat.
   void note(const Beat& beat, const Reading& reading, const Hand& hand, const Output& output,
             const GuardCounts& before) noexcept;
+  /// Notes what began and ended to touch. `found` is under the hand now, `felt_` was at the last beat.
+  void note_contacts(const PlacedPatch* found, const Reading& reading, const Hand& hand, Force force) noexcept;
 
   Device& device_;
   Exchange<PlacedPatches>& patches_;
@@ -155,12 +97,21 @@ class Player {
   double position_step_;  // m per count
   AxisFilters filters_x_, filters_y_;
   Guards guards_;
-  const Memory* inside_ = nullptr;  // the memory of the patch under the hand at the last beat
-  PlacedPatches::Found felt_;       // that patch and its position
+  /// What was under the hand at the last beat.
+  struct FeltPatch {
+    std::uint32_t number = RecordedTick::no_patch, generation = 0;
+    std::uint64_t change = 0;
+    glm::vec2 position{0};
+
+    friend bool operator==(const FeltPatch&, const FeltPatch&) = default;
+  };
+  const Memory* inside_ = nullptr;  // the memory of that patch
+  FeltPatch felt_;
+  bool button_ = false;  // at the last beat
   long restored_ = 0;
   TimeHistogram lateness_;
   CostMeter costs_;
-  Latest<Progress> latest_;
+  Outlets* outlets_;
 };
 
 }  // namespace wale

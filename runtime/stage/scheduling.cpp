@@ -39,24 +39,40 @@ int hold_latency() {
 
 }  // namespace
 
-RealTimeClaim::RealTimeClaim() {
-  sched_param wanted{};
-  wanted.sched_priority = loop_priority;
-  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
-  status_ = error == 0 ? "SCHED_FIFO priority " + std::to_string(loop_priority)
-                       : "ordinary priority (SCHED_FIFO: " + reason(error) + ")";
-
-  // Not MCL_FUTURE: under a small limit it would make later allocations of the control thread fail.
-  locked_ = mlockall(MCL_CURRENT) == 0;
-  status_ += locked_ ? ", memory locked" : ", memory not locked (" + reason(errno) + ")";
-  latency_ = hold_latency();
-  status_ += latency_ >= 0 ? ", processors kept awake" : ", processors may sleep (" + reason(errno) + ")";
+RealTimeClaim::RealTimeClaim(const StageOptions& options) {
+  const auto say = [this](const std::string& what) { status_ += (status_.empty() ? "" : ", ") + what; };
+  if (options.priority) {
+    sched_param wanted{};
+    wanted.sched_priority = *options.priority;
+    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
+    say(error == 0 ? "SCHED_FIFO priority " + std::to_string(*options.priority)
+                   : "ordinary priority (SCHED_FIFO: " + reason(error) + ")");
+  } else {
+    say("ordinary priority");
+  }
   touch_stack();
+  if (options.lock_memory) {
+    stack_ = static_cast<const std::byte*>(__builtin_frame_address(0)) - stack_bytes;
+    const bool locked = lock_pages(stack_, stack_bytes);
+    say(locked ? "memory locked" : "memory not locked (" + reason(errno) + ")");
+    if (!locked) stack_ = nullptr;
+  }
+  if (options.low_latency) {
+    latency_ = hold_latency();
+    say(latency_ >= 0 ? "processors kept awake" : "processors may sleep (" + reason(errno) + ")");
+  }
 }
 
 RealTimeClaim::~RealTimeClaim() {
   if (latency_ >= 0) close(latency_);
-  if (locked_) munlockall();
+  if (stack_ != nullptr) munlock(stack_, stack_bytes);
 }
+
+void take_ordinary_priority() {
+  const sched_param none{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);  // always permitted
+}
+
+bool lock_pages(const void* memory, std::size_t bytes) { return bytes == 0 || mlock(memory, bytes) == 0; }
 
 }  // namespace wale

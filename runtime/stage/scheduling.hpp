@@ -1,19 +1,21 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+
+#include "wale/stage.hpp"
 
 namespace wale {
 
-/// The loop's priority under SCHED_FIFO: above the interrupt threads of a PREEMPT_RT kernel (50), below its watchdogs
-/// and migration threads (99). Threads that serve a device should have one just below it.
-inline constexpr int loop_priority = 80;
+/// Threads that serve a device should have a priority just below this one.
+inline constexpr int loop_priority = usual_priority;
 
-/// Makes the calling thread as punctual as the system permits: SCHED_FIFO, all memory that the process has mapped now
-/// locked, the stack touched, the processors kept out of sleep states that are slow to leave. The destructor releases
-/// memory and processors. `status` says in one line what the system granted.
+/// Makes the calling thread as punctual as the options ask and the system permits: SCHED_FIFO, its stack locked, the
+/// processors kept out of sleep states that are slow to leave. The stack is touched in any case. The destructor
+/// releases stack and processors. `status` says in one line what the system granted.
 class RealTimeClaim {
  public:
-  RealTimeClaim();
+  explicit RealTimeClaim(const StageOptions& options);
   ~RealTimeClaim();
   RealTimeClaim(const RealTimeClaim&) = delete;
   RealTimeClaim& operator=(const RealTimeClaim&) = delete;
@@ -21,9 +23,15 @@ class RealTimeClaim {
   const std::string& status() const { return status_; }
 
  private:
-  bool locked_ = false;
   int latency_ = -1;  // the open file that keeps the processors awake
+  const void* stack_ = nullptr;
   std::string status_;
 };
+
+/// Gives the calling thread ordinary priority: a thread inherits that of the one that makes it, which may be real-time.
+void take_ordinary_priority();
+
+/// Locks the pages of some memory for good. False if the system refuses.
+bool lock_pages(const void* memory, std::size_t bytes);
 
 }  // namespace wale

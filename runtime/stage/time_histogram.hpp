@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "wale/stage.hpp"
+#include "wale/run.hpp"
 
 namespace wale {
 

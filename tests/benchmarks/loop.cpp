@@ -14,6 +14,7 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/runtime/figures.hpp"
 #include "tests/runtime/programs.hpp"
@@ -35,10 +36,12 @@ RunResult good(Result<RunResult> run) {
   return *std::move(run);
 }
 
+const StageOptions punctual{.priority = usual_priority, .lock_memory = true, .low_latency = true};
+
 void lateness(double seconds) {
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Lateral{0.04, 1});
-  Stage stage(joystick);
-  stage.place(corduroy(1.934f));
+  Stage stage(joystick, punctual);
+  Patch patch = *stage.add(corduroy(1.934f));
   const RunResult run = good(stage.run({.seconds = seconds}));
   std::fprintf(stderr, "%s; %ld ticks, %ld missed\n", run.scheduling.c_str(), run.ticks_run, run.ticks_missed);
   for (const TickRecord& tick : run.record.ticks) std::printf("%.0f\n", 1e9 * static_cast<double>(tick.lateness));
@@ -70,10 +73,12 @@ class Shown : public Device {
 void soak(double seconds) {
   constexpr std::size_t others = 1000;
   Shown device;
-  Stage stage(device);
-  stage.place(push(0));
+  Stage stage(device, punctual);
+  Patch patch = *stage.add(push(0));
+  std::vector<Patch> lying;
   for (std::size_t i = 0; i < others; ++i)
-    stage.add(spring(50), {0.02f + 0.00005f * static_cast<float>(i), 0.03f}, {.width = 0.005f, .height = 0.005f});
+    lying.push_back(*stage.add(spring(50), {.at = {0.02f + 0.00005f * static_cast<float>(i), 0.03f},
+                                            .size = PatchSize{.width = 0.005f, .height = 0.005f}}));
 
   std::atomic<bool> done = false;                    // before the run is: what it is told last it may not get round to
   long changes = 0, swaps = 0, moves = 0, lost = 0;  // of the thread that changes, until it has joined
@@ -81,10 +86,10 @@ void soak(double seconds) {
   std::thread changing([&] {
     for (long n = 1; !done; ++n) {
       const auto change = [&](const Result<>& taken) { lost += !taken; };
-      if (n % 50 == 0) change(stage.replace(0, push(0))), ++swaps;
-      if (n % 3 == 0) change(stage.move(1 + static_cast<std::size_t>(n) % 20, {0.05f, 0.04f})), ++moves;
+      if (n % 50 == 0) change(patch.replace(push(0))), ++swaps;
+      if (n % 3 == 0) change(lying[static_cast<std::size_t>(n) % 20].move({0.05f, 0.04f})), ++moves;
       const float value = 0.001f * static_cast<float>(n % 997);
-      change(stage.set("push", value)), ++changes;
+      change(patch.set("push", value)), ++changes;
       // A change has arrived when the handle gets the new force. No other change comes before that.
       const auto told = Clock::now();
       while (device.commanded.load(std::memory_order_relaxed) != value) {
@@ -100,7 +105,7 @@ void soak(double seconds) {
   });
   // The check covers the last nine tenths. Memory for the set-up, in the first tenth, does not count.
   long before = 0, after = 0;
-  const auto look = [&](const Progress& now) {
+  const auto look = [&](const Now& now) {
     after = resident();
     if (now.time > std::max(0.9 * seconds, seconds - 60)) done = true;
     if (before == 0 && now.time > 0.1 * seconds) before = after;

@@ -81,19 +81,24 @@ void move(std::size_t count, std::size_t moving) {
   const PatchSize size{.width = 0.001f, .height = 0.001f};
   const Program program = *Program::load(example::program());
   const auto memory = std::make_shared<Memory>(program);
-  const Bank bank(program, program.default_parameters(), size);
-  PlacedPatches::Patches patches(count);
-  for (auto& each : patches)
-    each = std::make_shared<PlacedPatch>(PlacedPatch{bank, {place(random), place(random)}, memory});
-  std::vector<MovedPatch> moved(moving);
-  for (std::size_t i = 0; i < moving; ++i) moved[i] = {i, {place(random), place(random)}};
-  PlacedPatches all;
-  all.take(std::move(patches));
-  const double arranged = timed(3, 1e6, [&] { all.arrange(moved); });
+  const auto bank = std::make_shared<const PreparedBank>(Bank(program, program.default_parameters(), size));
+  Arrangement arrangement;
+  const auto put = [&](std::size_t number, glm::vec2 at) {
+    arrangement.put({.bank = bank,
+                     .memory = memory,
+                     .outline = {at, size.width, size.height, 0, number},
+                     .number = static_cast<std::uint32_t>(number)});
+  };
+  for (std::size_t i = 0; i < count; ++i) put(i, {place(random), place(random)});
+  const double arranged = timed(3, 1e6, [&] { arrangement.make_base(); });
+  for (std::size_t i = 0; i < moving; ++i) put(i, {place(random), place(random)});
   Exchange<PlacedPatches> exchange;
+  std::uint32_t revision = 0;
+  PlacedPatches all;
+  float x = 0.05f;
   const double once = timed(201, 1e3, [&] {
-    moved[0].position.x = -moved[0].position.x;
-    all.move(moved);
+    put(0, {x = -x, 0});
+    all = arrangement.hand_over(++revision);
     exchange.publish(all);
   });
   volatile float sink = 0;
@@ -101,7 +106,8 @@ void move(std::size_t count, std::size_t moving) {
     double last = 0;
     for (int i = 0; i < 4096; ++i) {
       const double t = static_cast<double>(i) / 900;
-      last = 1e-12 * all.at({0.09 * std::sin(2.3 * t) + last, 0.09 * std::sin(1.7 * t + 1)}).position.x;
+      const PlacedPatch* const patch = all.at({0.09 * std::sin(2.3 * t) + last, 0.09 * std::sin(1.7 * t + 1)});
+      last = patch != nullptr ? 1e-12 * patch->outline.position.x : 0;
     }
     sink = static_cast<float>(last);
   });

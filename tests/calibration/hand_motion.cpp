@@ -62,9 +62,9 @@ FeltReport felt(const Program& program, const std::string& hand, double seconds)
   SimulatedJoystick joystick(program.description().device, {person().mass, person().damping, person().stiffness},
                              motion(hand));
   Stage stage(joystick);
-  stage.place(program);
+  Patch patch = *stage.add(program);
   const auto run = stage.run({.seconds = seconds, .virtual_time = true});
-  return felt_report(*stage.bank(), *run, program.description().device, {"simulated", hand, true, std::nullopt});
+  return felt_report(*patch.bank(), *run, program.description().device, {"simulated", hand, true, std::nullopt});
 }
 
 TEST(HandMotion, AHandAlongYCrossesWhatLiesAcrossY) {
@@ -102,7 +102,7 @@ TEST(HandMotion, AHandLeansOnStickinessWithoutSliding) {
   SimulatedJoystick joystick(program.description().device, {person().mass, person().damping, person().stiffness},
                              Press{0.003, 0.25, {}, {1, 0}});
   Stage stage(joystick);
-  stage.place(program);
+  Patch patch = *stage.add(program);
   const auto run = stage.run({.seconds = 20, .virtual_time = true});
   double farthest = 0;
   for (const TickRecord& tick : run->record.ticks) farthest = std::max<double>(farthest, tick.position.x);

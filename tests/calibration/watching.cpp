@@ -40,8 +40,8 @@ struct Watched {
       : program(compiled(file)),
         joystick(program.description().device, {.mass = 0.55, .damping = 6.5, .stiffness = 135}, Rest{}),
         stage(joystick),
-        watch({.file = file}, stage, program, settings, [this](const std::string& text) { said += text; }) {
-    stage.place(program);
+        patch(*stage.add(program)),
+        watch({.file = file}, patch, program, settings, [this](const std::string& text) { said += text; }) {
     EXPECT_EQ(watch.attend(short_while), Outcome::nothing);
   }
 
@@ -54,12 +54,13 @@ struct Watched {
   }
 
   /// The value of the first parameter of the active program, in N.
-  float felt() const { return stage.bank()->registers()[program.description().first_parameter()]; }
+  float felt() const { return patch.bank()->registers()[program.description().first_parameter()]; }
   std::string take_said() { return std::exchange(said, {}); }
 
   Program program;
   SimulatedJoystick joystick;
   Stage stage;
+  Patch patch;
   std::string said;
   MaterialWatch watch;
 };
@@ -97,7 +98,7 @@ TEST(Watching, WhatWasSetHoldsForEveryVersionOrThePersonIsTold) {
   };
   const std::string active = "wale: the new version of `m` is active\n";
   Watched watched(folder.write("m.wale", with("param f = 1 N in 0 N .. 5 N", 0)), {"f=2 N"});
-  ASSERT_TRUE(watched.stage.set("f", 2.0f));
+  ASSERT_TRUE(watched.patch.set("f", 2.0f));
   const auto save = [&](const std::string& text) {
     folder.write("m.wale", text);
     EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;
@@ -181,8 +182,8 @@ TEST(Watching, ANewVersionIsActiveInTheNextTickAndKeepsStatesAndParameters) {
   };
   const std::string seconds = "t : time = 0 s in 0 s .. 100 s\n    t' = 1";
   Watched watched(folder.write("m.wale", counting("0.5 N/s", "", seconds)));
-  ASSERT_TRUE(watched.stage.set("gain", 0.25f));
-  const auto save = [&](const Progress& now) {
+  ASSERT_TRUE(watched.patch.set("gain", 0.25f));
+  const auto save = [&](const Now& now) {
     if (now.ticks_run == 900) {  // a further parameter, and another default of the one that was set
       write_and_rename(folder, "m.wale", counting("0.75 N/s", "    param more = 2 mm in 0 mm .. 5 mm\n", seconds));
       EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;

@@ -93,7 +93,7 @@ TEST_F(AddingADriver, IsFeltAsItsDeclarationSays) {
   ASSERT_TRUE(opened) << opened.error().sentence;
   EXPECT_EQ((*opened)->profile(), choice->declared->profile);
   Stage stage(**opened);
-  stage.place(spring(300));
+  Patch patch = *stage.add(built_for(spring(300), choice->declared->profile));
   const auto ran = stage.run({.seconds = 0.3});
   ASSERT_TRUE(ran) << ran.error().sentence;
   const auto& ticks = ran->record.ticks;

@@ -153,11 +153,11 @@ TEST(HotPlugging, AStageSlewsInAfterALoss) {
   plug.y = 0;
   HotPluggedDevice device(std::make_unique<Fake>(plug), {}, reopening(plug), 1ms);
   Stage stage(device);
-  stage.place(spring(300));
+  Patch patch = *stage.add(spring(300));
   std::atomic<bool> stop{false};
   long calls = 0, back = 0;
   RunOptions options{.seconds = 600, .stop = &stop};
-  options.progress = [&](const Progress& now) {
+  options.progress = [&](const Now& now) {
     ++calls;
     if (calls == 3) plug.is_out = true;
     if (calls == 5) plug.is_out = false;

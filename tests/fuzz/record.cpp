@@ -43,17 +43,16 @@ struct Sample {
 Sample make_sample() {
   const std::string file = std::filesystem::temp_directory_path() / ("wale-fuzz-" + std::to_string(getpid()) + ".wrec");
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Lateral{0.04, 1});
-  Stage stage(joystick);
+  Stage stage(joystick, {.record = RecordTo{file, "x"}});
   PatchProgram program = example::program();
   program.device = sandpaper();
-  stage.place(*Program::load(program));
-  const auto act = [&](const Progress& now) {
+  Patch patch = *stage.add(*Program::load(program));
+  const auto act = [&](const Now& now) {
     if (now.ticks_run != 90) return;
-    demand(stage.set("amplitude", 1).has_value());
-    demand(stage.replace(0, *Program::load(program)).has_value());
+    demand(patch.set("amplitude", 1).has_value());
+    demand(patch.replace(*Program::load(program)).has_value());
   };
-  const auto ran =
-      stage.run({.seconds = 0.12, .virtual_time = true, .progress = act, .record_to = RecordTo{file, "x"}});
+  const auto ran = stage.run({.seconds = 0.12, .virtual_time = true, .progress = act});
   demand(ran.has_value());
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};

@@ -23,7 +23,7 @@ GuardCounts guarded(const Program& program) {
   for (const Motion& motion : {Motion(Lateral{0.04, 1}), Motion(Circular{0.03, 0.7})}) {
     SimulatedJoystick joystick(program.description().device, normal, motion);
     Stage stage(joystick);
-    stage.place(program);
+    Patch patch = *stage.add(program);
     const auto run = stage.run({.seconds = 2, .virtual_time = true});
     if (!run) throw std::runtime_error(in_words(run.error()));
     all.passivity += run->guards.passivity;

@@ -76,7 +76,7 @@ TEST(Corduroy, AnotherRoughnessIsAnotherForce) {
 
 TEST(Corduroy, AnotherPeriodIsTheSameRoughness) {
   const Felt felt =
-      promises::rubbed(promises::compiled(corduroy()), [](Stage& stage) { EXPECT_TRUE(stage.set("wale", 0.005f)); });
+      promises::rubbed(promises::compiled(corduroy()), [](Patch& patch) { EXPECT_TRUE(patch.set("wale", 0.005f)); });
   EXPECT_NEAR(felt.force_rubbing.p99, force_of_level(0.6), 0.01 * force_of_level(0.6) + force_step);
 }
 
@@ -85,12 +85,12 @@ TEST(Corduroy, AnotherPeriodWhileRubbingIsTheSameRoughness) {
   const Program program = promises::compiled(corduroy());
   auto joystick = promises::joystick();
   Stage stage(*joystick);
-  stage.place(program);
+  Patch patch = *stage.add(program);
   bool moved = false;
   RunOptions run{.seconds = 7, .virtual_time = true};
-  run.progress = [&](const Progress& now) {
+  run.progress = [&](const Now& now) {
     if (now.time >= 2 && !std::exchange(moved, true)) {
-      EXPECT_TRUE(stage.set("wale", 0.005f));
+      EXPECT_TRUE(patch.set("wale", 0.005f));
     }
   };
   const auto result = stage.run(run);
@@ -111,7 +111,7 @@ TEST_P(AtRest, NothingOscillates) {
   const Program program = promises::compiled(corduroy());
   auto joystick = promises::joystick(Rest{{GetParam(), 0.0}});
   Stage stage(*joystick);
-  stage.place(program);
+  Patch patch = *stage.add(program);
   const auto result = stage.run({.seconds = 4, .virtual_time = true});
   ASSERT_TRUE(result);
   const Felt felt = promises::measured(program, result->record, 2);
@@ -129,7 +129,7 @@ TEST(Corduroy, TheSameRunGivesTheSameBits) {
   const auto bits = [&] {
     auto joystick = promises::joystick();
     Stage stage(*joystick);
-    stage.place(program);
+    Patch patch = *stage.add(program);
     const auto result = stage.run({.seconds = 2, .virtual_time = true});
     std::ostringstream csv;
     write_csv(csv, result->record);

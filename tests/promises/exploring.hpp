@@ -73,9 +73,9 @@ inline std::vector<TickRecord> explored(const Program& program, const Motion& mo
                                         const std::map<std::string, float>& parameters) {
   SimulatedJoystick stick(program.description().device, firm_hand, motion);
   Stage stage(stick);
-  stage.place(program);
+  Patch patch = *stage.add(program);
   for (const auto& [name, value] : parameters)
-    if (const auto set = stage.set(name, value); !set) throw std::runtime_error(in_words(set.error()));
+    if (const auto set = patch.set(name, value); !set) throw std::runtime_error(in_words(set.error()));
   const auto result = stage.run({.seconds = seconds, .virtual_time = true});
   if (!result) throw std::runtime_error(in_words(result.error()));
   std::vector<TickRecord> ticks = result->record.ticks;

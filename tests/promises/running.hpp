@@ -51,18 +51,18 @@ inline Felt measured(const Program& program, const Record& record, double settli
 inline Record record_of(const Program& program) {
   auto stick = joystick();
   Stage stage(*stick);
-  stage.place(program);
+  Patch patch = *stage.add(program);
   const auto result = stage.run({.seconds = 5.5, .virtual_time = true});
   if (!result) throw std::runtime_error(in_words(result.error()));
   return result->record;
 }
 
 /// The figures of five seconds of rubbing after half a second of settling. `prepare` may set parameters first.
-inline Felt rubbed(const Program& program, const std::function<void(Stage&)>& prepare = {}) {
+inline Felt rubbed(const Program& program, const std::function<void(Patch&)>& prepare = {}) {
   auto stick = joystick();
   Stage stage(*stick);
-  stage.place(program);
-  if (prepare) prepare(stage);
+  Patch patch = *stage.add(program);
+  if (prepare) prepare(patch);
   const auto result = stage.run({.seconds = 5.5, .virtual_time = true});
   if (!result) throw std::runtime_error(in_words(result.error()));
   return measured(program, result->record, 0.5);

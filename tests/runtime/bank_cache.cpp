@@ -2,6 +2,7 @@
 #include "runtime/stage/bank_cache.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <cmath>
 #include <limits>
@@ -48,6 +49,37 @@ TEST(BankCache, KeepsTheLastUsedOnesWithinItsBytesAndAllThatAreInUse) {
   EXPECT_EQ(cache.find(key(stiff, 0)), used) << "in use";
   EXPECT_NE(cache.find(key(stiff, 100)), nullptr) << "used last";
   EXPECT_EQ(cache.find(key(stiff, 50)), nullptr) << "pushed out";
+}
+
+TEST(BankCache, ItsMemoryStopsGrowing) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer's heap does not tell";
+#endif
+  BankCache cache(std::size_t{1} << 18);
+  const Program stiff = spring(50);
+  const auto fill = [&](int from, int to) {
+    for (int i = from; i < to; ++i) (void)cache.get(key(stiff, static_cast<float>(i)));
+    return static_cast<double>(mallinfo2().uordblks);
+  };
+  const double full = fill(0, 5000);
+  EXPECT_NEAR(fill(5000, 10000), full, 1 << 16) << "5000 banks take some megabytes";
+}
+
+/// Of many programs, as saves of a watched file make them, only the last stay.
+TEST(BankCache, KeepsTheLastProgramsWithinTheirBytes) {
+  BankCache cache(BankCache::usual_bytes, std::size_t{1} << 20);
+  const Program first = spring(50);
+  const auto used = cache.get(key(first, 1));
+  for (int i = 0; i < 200; ++i) {
+    const Program program = spring(50);
+    for (const float stiffness : {1.0f, 2.0f, 3.0f}) (void)cache.get(key(program, stiffness));
+    EXPECT_NE(cache.find(key(program, 1)), nullptr) << "used last";
+  }
+  EXPECT_LT(cache.size(), 3u * 40) << "1 MB of programs that count as 32 kB each";
+  EXPECT_EQ(cache.find(key(first, 1)), used) << "in use";
+  BankCache small(BankCache::usual_bytes, 1);
+  for (int i = 1; i <= 100; ++i) (void)small.get(key(first, static_cast<float>(i)));
+  EXPECT_EQ(small.size(), 100u) << "one program is never too large";
 }
 
 TEST(BankCache, AProgramAtTheAddressOfAFreedOneIsAnother) {

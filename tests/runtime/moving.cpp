@@ -81,17 +81,14 @@ TEST(Moving, TheFeltPatchIsThatOfASearchOfAllPatches) {
   Led device;
   Stage stage(device);
   std::vector<Lying> lying;
+  std::vector<Patch> patches;
   const auto add = [&] {
     const Lying next{{place(random), place(random)},
                      {.width = size(random), .height = size(random)},
                      static_cast<float>(random() % 3),
                      force(random)};
-    if (lying.empty())
-      stage.place(pushing(next.force), next.position, next.size);
-    else
-      ASSERT_EQ(stage.add(pushing(next.force), next.position, next.size, next.layer), lying.size());
+    patches.push_back(*stage.add(pushing(next.force), {.at = next.position, .size = next.size, .layer = next.layer}));
     lying.push_back(next);
-    if (lying.size() == 1) lying.back().layer = 0;
   };
   for (int i = 0; i < 40; ++i) add();
   std::vector<float> expected;
@@ -103,12 +100,12 @@ TEST(Moving, TheFeltPatchIsThatOfASearchOfAllPatches) {
     for (unsigned moves = random() % 4; moves > 0; --moves) {
       const std::size_t patch = random() % std::min<std::size_t>(lying.size(), tick < 1000 ? 5 : lying.size());
       lying[patch].position = {place(random), place(random)};
-      EXPECT_TRUE(stage.move(patch, lying[patch].position));
+      EXPECT_TRUE(patches[patch].move(lying[patch].position));
     }
     if (random() % 20 == 0) {
       const std::size_t patch = random() % lying.size();
       lying[patch].force = force(random);
-      EXPECT_TRUE(stage.set(patch, "push", lying[patch].force));
+      EXPECT_TRUE(patches[patch].set("push", lying[patch].force));
     }
     if (random() % 100 == 0) add();
   };
@@ -136,13 +133,13 @@ TEST(Moving, SlewsOnlyForThePatchUnderTheHand) {
   Led device;
   device.profile_.slew = 200;
   Stage stage(device);
-  stage.place(spring(50), {0, 0}, {.width = 0.02f, .height = 0.02f});
-  stage.add(spring(50), {0.1f, 0}, {.width = 0.02f, .height = 0.02f});
+  Patch patch = *stage.add(spring(50), {.size = PatchSize{.width = 0.02f, .height = 0.02f}});
+  Patch another = *stage.add(spring(50), {.at = {0.1f, 0}, .size = PatchSize{.width = 0.02f, .height = 0.02f}});
   device.counts = {100, 0};  // 5.58 mm
   device.lead = [&](long tick) {
-    EXPECT_TRUE(stage.move(1, {0.1f, 0.0001f * static_cast<float>(tick % 100)}));
+    EXPECT_TRUE(another.move({0.1f, 0.0001f * static_cast<float>(tick % 100)}));
     if (tick == 99) {
-      EXPECT_TRUE(stage.move(0, {0.01f, 0}));
+      EXPECT_TRUE(patch.move({0.01f, 0}));
     }
   };
   const RunResult run = run_of(stage, 200);
@@ -159,10 +156,10 @@ TEST(Moving, SlewsOnlyForThePatchUnderTheHand) {
 TEST(Moving, AHandThatStaysOnAPatchKeepsItsMemory) {
   Led device;
   Stage stage(device);
-  stage.place(bead(500));
+  Patch patch = *stage.add(bead(500));
   device.lead = [&](long tick) {
     if (tick == 9) {
-      EXPECT_TRUE(stage.move(0, {0.005f, 0}));
+      EXPECT_TRUE(patch.move({0.005f, 0}));
     }
   };
   run_of(stage, 20);
@@ -171,16 +168,13 @@ TEST(Moving, AHandThatStaysOnAPatchKeepsItsMemory) {
   EXPECT_NEAR(device.commands[10].x, 500 * 0.005, 1e-4);
 }
 
-TEST(Moving, RefusesUnknownPatchesAndInvalidPlaces) {
+TEST(Moving, RefusesInvalidPlaces) {
   Led device;
   Stage stage(device);
-  EXPECT_EQ(in_words(stage.move(0, {0, 0}).error()), "nothing is placed on the stage");
-  stage.place(push(1));
-  EXPECT_EQ(in_words(stage.move(1, {0, 0}).error()), "patch 1 is not among the 1 on the stage");
-  EXPECT_EQ(in_words(stage.move(0, {std::nanf(""), 0}).error()),
-            "the position to which a patch is moved must be finite");
-  EXPECT_FALSE(stage.move(0, {0, std::numeric_limits<float>::infinity()}));
-  EXPECT_TRUE(stage.move(0, {0.5f, 0}));
+  Patch patch = *stage.add(push(1));
+  EXPECT_EQ(in_words(patch.move({std::nanf(""), 0}).error()), "the position to which a patch is moved must be finite");
+  EXPECT_FALSE(patch.move({0, std::numeric_limits<float>::infinity()}));
+  EXPECT_TRUE(patch.move({0.5f, 0}));
   run_of(stage, 3);
   EXPECT_EQ(device.commands.at(1), Force(0)) << "it was moved before the run";
 }
@@ -188,12 +182,12 @@ TEST(Moving, RefusesUnknownPatchesAndInvalidPlaces) {
 TEST(Moving, FromAnyThreadDuringARealTimeRun) {
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Lateral{0.04, 1});
   Stage stage(joystick);
-  stage.place(corduroy(1));
-  stage.add(spring(20), {0, 0}, {.width = 0.02f, .height = 0.02f});
+  Patch patch = *stage.add(corduroy(1));
+  Patch another = *stage.add(spring(20), {.size = PatchSize{.width = 0.02f, .height = 0.02f}});
   std::atomic<bool> done = false;
   std::thread mover([&] {
     for (int i = 0; !done; ++i) {
-      EXPECT_TRUE(stage.move(static_cast<std::size_t>(i % 2), {0.001f * static_cast<float>(i % 7), 0}));
+      EXPECT_TRUE((i % 2 == 0 ? patch : another).move({0.001f * static_cast<float>(i % 7), 0}));
       std::this_thread::yield();
     }
   });

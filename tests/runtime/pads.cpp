@@ -108,7 +108,7 @@ TEST(Pads, GuardsHoldAmplitudeAndFrequencyAndSlewTheAmplitude) {
 TEST(Pads, AStageRunsRibsUnderAFinger) {
   SimulatedPad pad(pad_device(), Lateral{.amplitude = 0.03, .frequency = 1, .centre = {}});
   Stage stage(pad);
-  stage.place(ribs());
+  Patch patch = *stage.add(ribs());
   const RunResult result = run(stage, 2);
   EXPECT_TRUE(result.record.vibrates);
   double fastest = 0;
@@ -131,7 +131,7 @@ TEST(Pads, AStageRunsRibsUnderAFinger) {
 TEST(Pads, AStageRunsWithoutAPosition) {
   SimulatedPad pad(pad_device(PositionSource::none), Lateral{.amplitude = 0.03, .frequency = 1, .centre = {}});
   Stage stage(pad);
-  stage.place(ribs(PositionSource::none));
+  Patch patch = *stage.add(ribs(PositionSource::none));
   const RunResult result = run(stage, 1);
   for (const TickRecord& tick : result.record.ticks) {
     ASSERT_TRUE(tick.inside);
@@ -144,15 +144,11 @@ TEST(Pads, AStageRunsWithoutAPosition) {
 TEST(Pads, ProgramsOfTheOtherKindAreRefused) {
   SimulatedPad pad(pad_device(), Rest{});
   Stage on_pad(pad);
-  on_pad.place(push(1));
-  auto result = on_pad.run({.seconds = 0.1, .virtual_time = true, .progress = {}, .stop = nullptr});
-  EXPECT_EQ(in_words(result.error()),
+  EXPECT_EQ(in_words(on_pad.add(push(1)).error()),
             "by hand was built for sandpaper, which pushes, and bench pad only vibrates; build it for bench pad");
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Rest{});
   Stage on_joystick(joystick);
-  on_joystick.place(ribs());
-  result = on_joystick.run({.seconds = 0.1, .virtual_time = true, .progress = {}, .stop = nullptr});
-  EXPECT_EQ(in_words(result.error()),
+  EXPECT_EQ(in_words(on_joystick.add(ribs()).error()),
             "bench ribs was built for bench pad, which vibrates, and sandpaper pushes; build it for sandpaper");
 }
 

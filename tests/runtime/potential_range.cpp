@@ -100,7 +100,7 @@ TEST(PotentialRange, IsTheEnergyThatAStageAllows) {
   const Program source = oil(-4);  // 4 N s/m along the motion
   SimulatedJoystick joystick(sandpaper(), {.mass = 0.55, .damping = 6.5, .stiffness = 135}, Lateral{0.04, 1});
   Stage stage(joystick);
-  stage.place(source);
+  Patch patch = *stage.add(source);
   const auto run = stage.run({.seconds = 10, .virtual_time = true});
   ASSERT_TRUE(run);
   const Record& record = run->record;

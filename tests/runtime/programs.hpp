@@ -66,6 +66,15 @@ class Assembly {
   PatchProgram program;
 };
 
+/// The same program, built for another device.
+inline Program built_for(const Program& program, const DeviceProfile& device) {
+  PatchProgram other = program.description();
+  other.device = device;
+  auto loaded = Program::load(std::move(other));
+  if (!loaded) throw std::runtime_error(in_words(loaded.error()));
+  return *loaded;
+}
+
 /// force = -b v on both axes.
 inline Program oil(float damping, float ceiling = 9) {
   Assembly a({-damping, ceiling});

@@ -14,6 +14,7 @@
 #include "runtime/record/record_writer.hpp"
 #include "runtime/stage/player.hpp"
 #include "tests/runtime/figures.hpp"
+#include "tests/runtime/placed.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/temporary_folder.hpp"
 #include "wale/simulated.hpp"
@@ -111,18 +112,20 @@ TEST(RealTime, ABeatNeitherAllocatesNorLocksNorThrowsEvenWhenABankArrives) {
     Record record;
     Player player(joystick, patches, record, 2000, 1, true);
     auto memory = std::make_shared<Memory>(program);
-    const auto small = std::make_shared<PlacedPatch>(
-        PlacedPatch{Bank(spring(40), spring(40).default_parameters(), {.width = 0.01f, .height = 0.01f}), glm::vec2(0),
-                    std::make_shared<Memory>(spring(40)), 1});
+    const PatchSize size{.width = 0.01f, .height = 0.01f};
+    PlacedPatch small = patch_of(spring(40), 1, {0, 0.03f}, size);
+    Arrangement all;
+    all.put(small);
+    all.make_base();
+    std::uint32_t revision = 0;
     long entered = 0, inside = 0;
     for (long period = 0; period < 2000; ++period) {
       if (period % 50 == 0) memory = std::make_shared<Memory>(program);
       if (period % 7 == 0) {
-        PlacedPatches all;
-        all.take({std::make_shared<PlacedPatch>(PlacedPatch{Bank(program), glm::vec2(0), memory}), small});
-        const MovedPatch moved[] = {{1, {0.0001f * static_cast<float>(period % 500), 0.03f}}};
-        all.arrange(moved);
-        patches.publish(all);
+        all.put(patch_of(program, 0, {0, 0}, std::nullopt, memory));
+        small.outline.position = {0.0001f * static_cast<float>(period % 500), 0.03f};
+        all.put(small);
+        patches.publish(all.hand_over(++revision));
       }
       const long before = deeds();
       player.serve({.period = period, .elapsed = period == 0 ? 0 : 1, .skipped = 0, .lateness = 0});
@@ -145,7 +148,7 @@ TEST(RealTime, ABeatThatIsRecordedNeitherAllocatesNorLocksNorThrows) {
     SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});
     const Program program = bead(500);
     Exchange<PlacedPatches> patches;
-    patches.publish(PlacedPatches({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)}));
+    patches.publish(placed(program));
     const auto begun = RecordWriter::begin(file, {.device = sandpaper(), .most_newton = 5}, false);
     RecordWriter& writer = **begun;
     Record record;

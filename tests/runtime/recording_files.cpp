@@ -56,12 +56,12 @@ Killed killed(const std::string& file, bool virtual_time, std::size_t last) {
       Shared& shared_;
       std::size_t last_;
     } device(*shared, last);
-    Stage stage(device);
-    stage.place(corduroy(1.934f));
-    const auto turn = [&](const Progress& now) {
-      EXPECT_TRUE(stage.set("wale", 0.001f + 0.001f * static_cast<float>(now.ticks_run % 4)));
+    Stage stage(device, {.record = RecordTo{file, {}}});
+    Patch patch = *stage.add(corduroy(1.934f));
+    const auto turn = [&](const Now& now) {
+      EXPECT_TRUE(patch.set("wale", 0.001f + 0.001f * static_cast<float>(now.ticks_run % 4)));
     };
-    (void)stage.run({.seconds = 60, .virtual_time = virtual_time, .progress = turn, .record_to = RecordTo{file, {}}});
+    (void)stage.run({.seconds = 60, .virtual_time = virtual_time, .progress = turn});
     _exit(0);  // not reached
   }
   int status = 0;
@@ -92,10 +92,10 @@ TEST(RecordingFile, IsCompleteUpToTheLastTickWhenItsProcessIsKilled) {
 std::vector<std::byte> some_recording() {
   const TemporaryFolder folder;
   Puppet device(roaming);
-  Stage stage(device);
-  stage.place(corduroy(1.934f));
-  const auto turn = [&](const Progress&) { EXPECT_TRUE(stage.set("wale", 0.002f)); };
-  run(stage, {.seconds = 4, .virtual_time = true, .progress = turn, .record_to = RecordTo{folder / "a.wrec", {}}});
+  Stage stage(device, {.record = RecordTo{folder / "a.wrec", {}}});
+  Patch patch = *stage.add(corduroy(1.934f));
+  const auto turn = [&](const Now&) { EXPECT_TRUE(patch.set("wale", 0.002f)); };
+  run(stage, {.seconds = 4, .virtual_time = true, .progress = turn});
   return bytes_of(folder / "a.wrec");
 }
 
@@ -204,12 +204,12 @@ TEST(RecordingFile, OfACutFileAllWholeTicksBeforeTheCutCanBeRead) {
 TEST(RecordingFile, TicksBeforeADamagedChangeOfTheStageCanBeRead) {
   const TemporaryFolder folder;
   Puppet device(roaming);
-  Stage stage(device);
-  stage.place(corduroy(1.934f));
-  const auto turn = [&](const Progress& now) {
-    EXPECT_TRUE(stage.set("wale", 0.001f + 0.001f * static_cast<float>(now.ticks_run % 4)));
+  Stage stage(device, {.record = RecordTo{folder / "a.wrec", {}}});
+  Patch patch = *stage.add(corduroy(1.934f));
+  const auto turn = [&](const Now& now) {
+    EXPECT_TRUE(patch.set("wale", 0.001f + 0.001f * static_cast<float>(now.ticks_run % 4)));
   };
-  run(stage, {.seconds = 4, .virtual_time = true, .progress = turn, .record_to = RecordTo{folder / "a.wrec", {}}});
+  run(stage, {.seconds = 4, .virtual_time = true, .progress = turn});
   std::vector<std::byte> bytes = bytes_of(folder / "a.wrec");
   const Recording whole = *Recording::read(bytes, "whole");
   // The places of the changes of the parameter: the payload of their events is patch, number and value.
@@ -256,10 +256,10 @@ TEST(RecordingFile, OtherFilesAreRefusedWithAReason) {
   std::vector<std::byte> newer = some_recording();
   FileHeader header;
   std::memcpy(&header, newer.data(), sizeof header);
-  header.version = 2;
+  header.version = 3;
   header.check = check_of(header);
   std::memcpy(newer.data(), &header, sizeof header);
-  EXPECT_EQ(refused(Recording::read(newer, "x")), "its format is 2, but this Wale reads only up to 1; update Wale");
+  EXPECT_EQ(refused(Recording::read(newer, "x")), "its format is 3, but this Wale reads only up to 2; update Wale");
   const TemporaryFolder folder;
   const auto missing = Recording::open(folder / "none.wrec");
   EXPECT_EQ(refused(missing), "the file cannot be read: no such file");
@@ -269,10 +269,10 @@ TEST(RecordingFile, OtherFilesAreRefusedWithAReason) {
 TEST(RecordingFile, CannotReplaceAFileOrBeInAMissingFolder) {
   const TemporaryFolder folder;
   Puppet device(roaming);
-  Stage stage(device);
-  stage.place(oil(1));
   const auto attempt = [&](const std::string& file) {
-    const auto result = stage.run({.seconds = 0.01, .virtual_time = true, .record_to = RecordTo{file, {}}});
+    Stage stage(device, {.record = RecordTo{file, {}}});
+    EXPECT_TRUE(stage.add(oil(1)));
+    const auto result = stage.run({.seconds = 0.01, .virtual_time = true});
     return result ? "not refused" : result.error().place.name + ": " + in_words(result.error());
   };
   EXPECT_EQ(attempt(folder / "a.wrec"), "not refused");
@@ -284,7 +284,11 @@ TEST(RecordingFile, CannotReplaceAFileOrBeInAMissingFolder) {
   EXPECT_EQ(bytes_of(folder / "a.wrec"), before);
   EXPECT_EQ(attempt(folder / "none/a.wrec"), folder / "none/a.wrec" + ": there is no such folder; make it first");
   device.profile_.mass = -1;
-  EXPECT_NE(attempt(folder / "b.wrec").find("the device's mass (kg)"), std::string::npos);
+  Stage light(device, {.record = RecordTo{folder / "b.wrec", {}}});
+  ASSERT_TRUE(light.add(oil(1)));
+  const auto refused = light.run({.seconds = 0.01, .virtual_time = true});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(in_words(refused.error()).find("the device's mass (kg)"), std::string::npos) << in_words(refused.error());
   EXPECT_FALSE(fs::exists(folder / "b.wrec"));
 }
 
@@ -299,12 +303,11 @@ TEST(RecordingFile, OnAFullDiskTheRunContinuesAndReportsTheRecordedTicks) {
     Puppet device(roaming);
     if (!virtual_time) device.profile_.rate = 10000;
     const double seconds = (7 * ticks_per_chunk + 500) / device.profile_.rate;
-    Stage stage(device);
-    stage.place(corduroy(1.934f));
     const std::string file = folder / (virtual_time ? "v.wrec" : "r.wrec");
+    Stage stage(device, {.record = RecordTo{file, {}}});
+    Patch patch = *stage.add(corduroy(1.934f));
     setrlimit(RLIMIT_FSIZE, &small);
-    const RunResult done =
-        run(stage, {.seconds = seconds, .virtual_time = virtual_time, .record_to = RecordTo{file, {}}});
+    const RunResult done = run(stage, {.seconds = seconds, .virtual_time = virtual_time});
     setrlimit(RLIMIT_FSIZE, &usual);
     EXPECT_EQ(done.ticks_run + done.ticks_missed, static_cast<long>(7 * ticks_per_chunk + 500));
     if (static_cast<std::size_t>(done.ticks_run) <= 7 * ticks_per_chunk)

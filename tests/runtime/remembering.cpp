@@ -7,6 +7,7 @@
 
 #include "runtime/stage/player.hpp"
 #include "tests/runtime/figures.hpp"
+#include "tests/runtime/placed.hpp"
 #include "tests/runtime/programs.hpp"
 #include "wale/stage.hpp"
 
@@ -30,7 +31,7 @@ class Puppet : public Device {
 
 constexpr int beyond = 2000;  // counts: 112 mm from the centre, outside the patch of 160 mm
 
-RunResult run(Stage& stage, long ticks, std::function<void(const Progress&)> progress = {}) {
+RunResult run(Stage& stage, long ticks, std::function<void(const Now&)> progress = {}) {
   auto result = stage.run({.seconds = static_cast<double>(ticks) / 900, .virtual_time = true, .progress = progress});
   if (!result) {
     ADD_FAILURE() << in_words(result.error());
@@ -66,7 +67,7 @@ TEST(Remembering, StatesBeginWheneverTheHandEnters) {
     return Reading{.counts = {outside ? beyond : 0, 0}};
   });
   Stage stage(device);
-  stage.place(counting());
+  Patch patch = *stage.add(counting());
   const auto ticks = run(stage, 220).record.ticks;
   for (long i = 0; i < 220; ++i) {
     const bool outside = i < 10 || (i >= 100 && i < 120) || i >= 200;
@@ -79,9 +80,9 @@ TEST(Remembering, StatesBeginWheneverTheHandEnters) {
 TEST(Remembering, AChangedParameterKeepsTheStates) {
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
-  stage.place(counting());
-  const auto turn = [&](const Progress& now) {
-    EXPECT_TRUE(stage.set("gain", 0.001f * static_cast<float>(1 + now.ticks_run / 90)));
+  Patch patch = *stage.add(counting());
+  const auto turn = [&](const Now& now) {
+    EXPECT_TRUE(patch.set("gain", 0.001f * static_cast<float>(1 + now.ticks_run / 90)));
   };
   const auto ticks = run(stage, 450, turn).record.ticks;
   for (long i = 0; i < 450; ++i) {
@@ -93,9 +94,13 @@ TEST(Remembering, APatchPlacedAnewBeginsAnewEvenUnderTheHand) {
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
   const Program program = counting();
-  stage.place(program);
-  const auto again = [&](const Progress& now) {
-    if (now.ticks_run == 180) stage.place(program);
+  Patch patch = *stage.add(program);
+  const auto again = [&](const Now& now) {
+    if (now.ticks_run != 180) return;
+    StageEdit edit = stage.edit();
+    edit.remove(patch);
+    EXPECT_TRUE(edit.add(program));
+    EXPECT_TRUE(edit.commit());
   };
   const auto ticks = run(stage, 270, again).record.ticks;
   EXPECT_NEAR(ticks[179].force.x, 0.179, 1e-6);
@@ -107,7 +112,7 @@ TEST(Remembering, APatchPlacedAnewBeginsAnewEvenUnderTheHand) {
 TEST(Remembering, EachRunBeginsAnew) {
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
-  stage.place(counting());
+  Patch patch = *stage.add(counting());
   for (int i = 0; i < 2; ++i) {
     const auto ticks = run(stage, 50).record.ticks;
     EXPECT_NEAR(ticks[49].force.x, 0.049, 1e-6);
@@ -120,7 +125,7 @@ TEST(Remembering, ABeadIsPulledAlong) {
   const double step = sandpaper().position_step(), dt = 1 / 900.0;
   Puppet device([](long period) { return Reading{.counts = {period < 5 ? 0 : 358, 0}}; });
   Stage stage(device);
-  stage.place(bead(200));
+  Patch patch = *stage.add(bead(200));
   const RunResult result = run(stage, 900);
   double place = 0, speed = 0;
   for (long i = 0; i < 900; ++i) {
@@ -143,7 +148,7 @@ TEST(Remembering, StatesThatAreNotNumbersAreCounted) {
   a.push(1, a.constant(1), a.constant(0));
   Puppet device([](long period) { return Reading{.counts = {period >= 20 && period < 50 ? 10 : -10, 0}}; });
   Stage stage(device);
-  stage.place(a.load());
+  Patch patch = *stage.add(a.load());
   const RunResult result = run(stage, 100);
   EXPECT_EQ(result.guards.restored, 30);
   EXPECT_EQ(result.guards.not_a_number, 0);
@@ -168,14 +173,14 @@ Program counting_too(float gain, bool renamed = false) {
 TEST(Replacing, KeepsParametersAndStatesOfTheSameNameAndStartsTheOthers) {
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
-  stage.place(counting());
-  ASSERT_TRUE(stage.set("gain", 0.004f));
-  const auto result = run(stage, 300, [&](const Progress& now) {
+  Patch patch = *stage.add(counting());
+  ASSERT_TRUE(patch.set("gain", 0.004f));
+  const auto result = run(stage, 300, [&](const Now& now) {
     if (now.ticks_run == 90) {
-      EXPECT_TRUE(stage.replace(0, counting_too(0.1f)));
+      EXPECT_TRUE(patch.replace(counting_too(0.1f)));
     }
     if (now.ticks_run == 180) {
-      EXPECT_TRUE(stage.replace(0, counting_too(0.1f, true)));
+      EXPECT_TRUE(patch.replace(counting_too(0.1f, true)));
     }
   });
   const auto& ticks = result.record.ticks;
@@ -194,13 +199,13 @@ TEST(Replacing, AStateOfAnotherUnitIsAnotherState) {
   };
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
-  stage.place(counting_in("m"));
-  const auto result = run(stage, 300, [&](const Progress& now) {
+  Patch patch = *stage.add(counting_in("m"));
+  const auto result = run(stage, 300, [&](const Now& now) {
     if (now.ticks_run == 90) {
-      EXPECT_TRUE(stage.replace(0, counting_in("m")));
+      EXPECT_TRUE(patch.replace(counting_in("m")));
     }
     if (now.ticks_run == 180) {
-      EXPECT_TRUE(stage.replace(0, counting_in("kg")));
+      EXPECT_TRUE(patch.replace(counting_in("kg")));
     }
   });
   EXPECT_NEAR(result.record.ticks[90].force.x, 0.090, 1e-6);
@@ -212,23 +217,22 @@ TEST(Replacing, AStateOfAnotherUnitIsAnotherState) {
 TEST(Replacing, SeveralTimesBeforeATickTakesTheLastAndKeepsStates) {
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
-  stage.place(counting());
-  ASSERT_TRUE(stage.set("gain", 0.002f));
-  const auto result = run(stage, 200, [&](const Progress& now) {
+  Patch patch = *stage.add(counting());
+  ASSERT_TRUE(patch.set("gain", 0.002f));
+  const auto result = run(stage, 200, [&](const Now& now) {
     if (now.ticks_run != 90) return;
-    for (const float gain : {0.3f, 0.2f, 0.4f}) EXPECT_TRUE(stage.replace(0, counting_too(gain)));
+    for (const float gain : {0.3f, 0.2f, 0.4f}) EXPECT_TRUE(patch.replace(counting_too(gain)));
   });
   EXPECT_NEAR(result.record.ticks[90].force.x, 0.002 * 90, 1e-5);
-  EXPECT_FALSE(stage.replace(3, counting()));
 }
 
 TEST(Replacing, OutsideOfTheHandStatesBeginAtTheNextEntry) {
   Puppet device([](long period) { return Reading{.counts = {period > 50 && period <= 150 ? beyond : 0, 0}}; });
   Stage stage(device);
-  stage.place(counting());
-  const auto result = run(stage, 300, [&](const Progress& now) {
+  Patch patch = *stage.add(counting());
+  const auto result = run(stage, 300, [&](const Now& now) {
     if (now.ticks_run == 90) {
-      EXPECT_TRUE(stage.replace(0, counting_too(0.1f)));
+      EXPECT_TRUE(patch.replace(counting_too(0.1f)));
     }
   });
   EXPECT_NEAR(result.record.ticks[151].force.x, 0.1 * 1, 1e-5) << "the gain was not set, so it is the new default";
@@ -254,7 +258,7 @@ TEST(Replacing, KeepsTheCellsOfGrids) {
 TEST(Inputs, TimeIsTheNumberOfPeriods) {
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
-  stage.place(feeling(Input::time));
+  Patch patch = *stage.add(feeling(Input::time));
   const auto ticks = run(stage, 900).record.ticks;
   for (long i = 0; i < 900; ++i) ASSERT_NEAR(ticks[i].force.x, static_cast<double>(i) / 900, 1e-6);
 }
@@ -265,7 +269,7 @@ TEST(Inputs, SkippedPeriodsCountTowardsTime) {
   Record record;
   Player player(device, patches, record, 3);
   const Program program = feeling(Input::time);
-  patches.publish(PlacedPatches({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)}));
+  patches.publish(placed(program));
   player.serve({.period = 0});
   player.serve({.period = 450, .elapsed = 450, .skipped = 449});
   EXPECT_EQ(record.ticks[1].force.x, 0) << "the first tick after half a second of missed periods has no force";
@@ -276,7 +280,7 @@ TEST(Inputs, SkippedPeriodsCountTowardsTime) {
 TEST(Inputs, TheButton) {
   Puppet device([](long period) { return Reading{.button = period % 3 == 0}; });
   Stage stage(device);
-  stage.place(feeling(Input::button));
+  Patch patch = *stage.add(feeling(Input::button));
   const auto ticks = run(stage, 30).record.ticks;
   for (long i = 0; i < 30; ++i) ASSERT_EQ(ticks[i].force.x, i % 3 == 0 ? 1.0f : 0.0f);
 }
@@ -284,11 +288,11 @@ TEST(Inputs, TheButton) {
 TEST(Inputs, ThePlaceOnTheWorkspace) {
   Puppet device([](long) { return Reading{.counts = {358, -179}}; });
   Stage stage(device);
-  stage.place(feeling(Input::workspace_x), {0.01f, 0.02f});
+  Patch patch = *stage.add(feeling(Input::workspace_x), {.at = {0.01f, 0.02f}});
   EXPECT_NEAR(run(stage, 3).record.ticks[2].force.x, 358 * 0.2286 / 4096, 1e-7);
-  stage.place(feeling(Input::workspace_y), {0.01f, 0.02f});
+  ASSERT_TRUE(patch.replace(feeling(Input::workspace_y)));
   EXPECT_NEAR(run(stage, 3).record.ticks[2].force.x, -179 * 0.2286 / 4096, 1e-7);
-  stage.place(feeling(Input::x), {0.01f, 0.02f});
+  ASSERT_TRUE(patch.replace(feeling(Input::x)));
   EXPECT_NEAR(run(stage, 3).record.ticks[2].force.x, 358 * 0.2286 / 4096 - 0.01, 1e-7);
 }
 
@@ -303,7 +307,7 @@ TEST(Inputs, MotionInMetresAndSeconds) {
   const auto felt = [&](Input input, float gain) {
     Puppet device(reading);
     Stage stage(device);
-    stage.place(feeling(input, gain));
+    Patch patch = *stage.add(feeling(input, gain));
     return run(stage, 20).record.ticks[9].force.x / gain;
   };
   EXPECT_NEAR(felt(Input::raw_velocity_x, 1), 17 * step * rate, 1e-5);

@@ -234,7 +234,7 @@ TEST_F(FalconDriver, GivesTheForcesOfAStage) {
   const auto ran = [&] {
     InStepDevice in_step(mock_, *device);
     Stage stage(in_step);
-    stage.place(spring(50));
+    Patch patch = *stage.add(built_for(spring(50), in_step.profile()));
     return stage.run({.seconds = 0.6});
   }();
   ASSERT_TRUE(ran);

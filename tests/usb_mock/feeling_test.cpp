@@ -111,14 +111,14 @@ TEST_F(Feeling, AutoFindsADeviceThatIsUnpluggedAndPluggedInAgain) {
   const Program program = built(device);
   auto joystick = opened(device);
   Stage stage(*joystick);
-  stage.place(program);
+  Patch patch = *stage.add(program);
 
   std::atomic<bool> stop{false};
   std::shared_ptr<MockJoystick> again;
   long calls = 0, felt_again = 0;
   std::size_t under_way = 0;
   RunOptions options{.seconds = 120, .stop = &stop};
-  options.progress = [&](const Progress& now) {
+  options.progress = [&](const Now& now) {
     ++calls;
     if (calls == 20) {
       under_way = log_of(stick).size();
@@ -191,10 +191,10 @@ TEST_F(Feeling, OneOfTwoDevicesIsUnplugged) {
   std::atomic<bool> stop{false};
   const auto run = [&](HotPluggedDevice& device, const std::function<void(long)>& each) {
     Stage stage(device);
-    stage.place(program);
+    Patch patch = *stage.add(program);
     long calls = 0;
     RunOptions options{.seconds = 120, .stop = &stop};
-    options.progress = [&](const Progress&) { each(++calls); };
+    options.progress = [&](const Now&) { each(++calls); };
     return *stage.run(options);
   };
   RunResult of_second;

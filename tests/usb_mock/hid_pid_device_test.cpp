@@ -190,10 +190,11 @@ TEST_F(UsbDriver, GivesTheForcesOfAStageAndOfASwap) {
   const auto ran = [&] {
     InStepDevice in_step(mock_, *device);
     Stage stage(in_step);
-    stage.place(spring(50));
+    Patch patch = *stage.add(built_for(spring(50), in_step.profile()));
     RunOptions options{.seconds = 0.8};
-    options.progress = [&](const Progress&) {
-      if (++calls == 3) stage.place(oil(5));
+    options.progress = [&](const Now&) {
+      if (++calls != 3) return;
+      EXPECT_TRUE(patch.replace(built_for(oil(5), in_step.profile())));
     };
     return stage.run(options);
   }();

@@ -33,14 +33,22 @@ class Memory {
   /// Whether `other` is a direct or earlier predecessor that has not been succeeded.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   bool follows(const Memory* other) const noexcept;
-  /// Releases the predecessor if it has been succeeded. For the control side: it frees memory.
-  void forget_predecessor();
+  /// How many predecessors, one behind the other, have not been succeeded. For the control side.
+  std::size_t predecessors() const noexcept;
+  /// Releases the predecessor if it has been succeeded; false if it is still needed. For the control side: it frees
+  /// memory.
+  bool forget_predecessor();
 
   /// The hand enters: runs the program's `enter` section and sets the states, each clamped to its range. A state whose
   /// initial value is not a number gets the number of its range that is nearest to 0. Does nothing if `bank` is of
   /// another program.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   void enter(Bank& bank, const Hand& hand) noexcept;
+
+  /// Copies values from another memory of the same program: cells from number `first` on, at most `most`, and with the
+  /// first cells the states. Returns how many cells it copied. Real-time: allocates nothing, takes no lock, makes no
+  /// system call, does not throw.
+  std::size_t copy_from(const Memory& other, std::size_t first, std::size_t most) noexcept;
 
   const Program& program() const { return program_; }
   /// The states' values, in the order of `description().states`.

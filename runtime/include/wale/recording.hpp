@@ -57,11 +57,14 @@ struct RecordedTick {
 /// A change of the stage, and its position among the ticks.
 struct RecordedEvent {
   enum class Kind : std::uint8_t {
-    place,    ///< one patch replaces all patches: `program`, `position`, `size`
-    add,      ///< one more patch: the same, and `layer`, `parameters`
-    replace,  ///< another program for a patch: `patch`, `program`
+    place,    ///< version 1: one patch replaces all patches: `program`, `position`, `size`
+    add,      ///< version 1: one more patch: the same, and `layer`, `parameters`
+    replace,  ///< version 1: another program for a patch: `patch`, `program`
     set,      ///< a parameter's value: `patch`, `parameter`, `value`
     move,     ///< another position for a patch: `patch`, `position`
+    put,      ///< a patch as a whole, new or changed: all fields below but `parameter`, `value` and `revision`
+    remove,   ///< `patch`
+    bound,    ///< whether the bound of a patch's energy is the sampled one: `patch`, `sampled`
     publish,  ///< hands all changes so far over to the loop as `revision`
     end,      ///< the run is over: `ticks` in all
   };
@@ -76,6 +79,11 @@ struct RecordedEvent {
   std::uint32_t parameter = 0;    ///< its index in the program
   float value = 0;                ///< SI
   std::uint32_t revision = 0;
+  std::uint64_t order = 0;  ///< of the patch's arrival in its layer
+  bool enabled = true;      ///< otherwise it is there and not felt
+  bool changed = true;      ///< its program, parameters or size changed, so the force slews
+  bool renewed = true;      ///< it has a new memory, which succeeds the one before if there is one
+  bool sampled = true;      ///< otherwise its energy has the trivial bound until `bound` says so
 };
 
 /// A program of a recording.
@@ -92,8 +100,8 @@ struct RecordingHeader {
   std::string hand;  ///< what moved the handle, "simulated, lateral"; empty if that is not known
 };
 
-/// A file that `RunOptions::record_to` made, complete or up to the moment when its process was killed. Immutable;
-/// copies share it; any number of threads may use it at once. The format is runtime/record/RECORDING.md.
+/// A file that a run made (`StageOptions::record`), complete or up to the moment when its process was killed.
+/// Immutable; copies share it; any number of threads may use it at once. The format is runtime/record/RECORDING.md.
 class Recording {
  public:
   /// Maps the file and checks its first `most_ticks` ticks and all events. Errors: `unreadable_file`, `newer_file`, and

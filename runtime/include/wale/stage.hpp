@@ -1,30 +1,24 @@
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "wale/device.hpp"
+#include "wale/patch.hpp"
 #include "wale/program.hpp"
-#include "wale/record.hpp"
+#include "wale/run.hpp"
 
 namespace wale {
 
-/// The latest state of a run, for a live display.
-struct Progress {
-  double time = 0;  ///< s since the run began
-  long ticks_run = 0, ticks_missed = 0;
-  glm::vec2 position{0}, velocity{0};  ///< m, m/s
-  Force force{0};                      ///< N, the actuator's
-  bool inside = false;                 ///< the hand is within the patch
-};
+class Loop;
+
+/// A priority for a loop under SCHED_FIFO: above the interrupt threads of a PREEMPT_RT kernel (50), below its watchdogs
+/// and migration threads (99).
+inline constexpr int usual_priority = 80;
 
 /// A recording to make of a run.
 struct RecordTo {
@@ -32,141 +26,126 @@ struct RecordTo {
   std::string hand;  ///< what moves the handle, kept in the recording: "simulated, lateral"
 };
 
-class RecordedRun;
-
-struct RunOptions {
-  double seconds = 0;             ///< how long; positive, may be fractional
-  double most_newton = HUGE_VAL;  ///< the largest force that the user allows; positive
-  bool virtual_time = false;      ///< as fast as possible on the calling thread; every run gives the same bits
-  /// Called about ten times a second, never on the real-time thread. In virtual time it is called between two ticks,
-  /// ten times per second of the run; a change that it makes to the stage takes effect at the next tick.
-  std::function<void(const Progress&)> progress = {};
-  /// Ends the run when it becomes true; a signal handler may set it.
-  const std::atomic<bool>* stop = nullptr;
-  /// Records every tick and every change of the stage in a file, for `Recording` and `replay`. The file is complete up
-  /// to the last tick even if the process is killed.
-  std::optional<RecordTo> record_to = {};
-  /// s: how much of the run's end `RunResult::record` keeps. With a finite value the run may be infinitely long.
-  double kept_seconds = HUGE_VAL;
-  /// Gives the beats instead of a clock; only `replay` sets it.
-  RecordedRun* recorded = nullptr;
+/// What a stage does to its process and to the system. With the defaults it does nothing but make threads: one that
+/// serves the ticks, one that prepares banks, one that hands over changes (`run` uses its caller's), and one that
+/// writes a recording if there is one.
+struct StageOptions {
+  /// SCHED_FIFO with this priority, 1 .. 99, for the thread that serves the ticks. Otherwise it has the priority of the
+  /// thread that calls `run` or `start`. If the system refuses, the run goes on without; `RunResult::scheduling` says
+  /// so.
+  std::optional<int> priority = {};
+  /// Locks the pages that the loop itself uses (`mlock`): its stack, its own state, banks and memories of patches.
+  /// Pages of the heap stay locked when the run has ended, since others may share them; never locks or unlocks anything
+  /// else.
+  bool lock_memory = false;
+  /// Keeps processors out of sleep states that take long to leave, during a run (`/dev/cpu_dma_latency`, for the whole
+  /// system; needs permission, and costs power).
+  bool low_latency = false;
+  double max_force = HUGE_VAL;  ///< N, the largest force that the user allows (on a pad m/s^2); positive
+  /// Records the run in this file, tick by tick as it happens. It must not exist yet, so a stage that records has one
+  /// run: another one is refused while the file is there.
+  std::optional<RecordTo> record = {};
 };
 
-/// Statistics of a duration over the ticks of a run, in s. The percentiles come from a fixed histogram and are accurate
-/// to 3 %.
-struct Times {
-  double p50 = 0, p99 = 0, maximum = 0;
-};
+/// Several changes that are felt at one tick, all or none. One thread at a time may use an edit; it may outlive its
+/// stage. An edit that is destroyed without `commit` changes nothing.
+class StageEdit {
+ public:
+  StageEdit(StageEdit&&) noexcept;
+  StageEdit& operator=(StageEdit&&) noexcept;
+  ~StageEdit();
 
-/// How long after their deadlines ticks began.
-using Lateness = Times;
+  /// As `Stage::add`. The handle names the patch from `commit` on; within this edit it may be used at once.
+  Result<Patch> add(const Program& program, const PatchOptions& options = {});
+  /// As the calls of `Patch` of the same names. The error comes from `commit`.
+  void set(const Patch& patch, std::string_view parameter, float value);
+  void move(const Patch& patch, glm::vec2 to);
+  void resize(const Patch& patch, PatchSize size);
+  void replace(const Patch& patch, const Program& program);
+  void enable(const Patch& patch, bool enabled = true);
+  void bring(const Patch& patch, const BringOptions& to);
+  void remove(const Patch& patch);
 
-/// How long ticks took, as a whole and step by step.
-struct TickCosts {
-  enum Step : std::size_t {
-    sample,   ///< reads the handle's position from the device
-    find,     ///< filters its motion and finds the patch under it
-    program,  ///< runs the patch's program
-    guard,    ///< applies all guards
-    command,  ///< sends the force to the device
-    record,   ///< stores the record and the progress
-    steps
-  };
-  Times whole;
-  std::array<Times, steps> of;
-};
+  /// Makes all changes. They are felt together, as soon as all banks are ready; until then these patches stay as they
+  /// are. A later edit of one of them waits until then as a whole; a newer one replaces what it changes too. Errors:
+  /// those of the changes, of the first that has one; then nothing has changed, and patches added in the edit do not
+  /// exist. Afterwards the edit is empty and may be used again.
+  Result<> commit();
 
-/// "sample", "find", …
-std::string_view name_of(TickCosts::Step step);
-
-/// On how many ticks each guard changed the force, and how often the program's memory was restored.
-struct GuardCounts {
-  long not_a_number = 0;  ///< zero, because the program's force was not a number
-  long device_limit = 0;  ///< clamped to the device's peak force on an axis
-  long user_limit = 0;    ///< clamped to the user's limit
-  long heat = 0;          ///< reduced, because a motor was already hot
-  long energy = 0;        ///< reduced, because the program gave more energy than it declares or than the device allows
-  long passivity = 0;     ///< damped, because the sampled loop gained energy
-  long slew = 0;          ///< slowed after a start, an entry, a leaving or a change of bank
-  long overrun = 0;       ///< no force, because no tick had run for more than 20 ms
-  long stale = 0;         ///< no force, because the position was an old one
-  long lost = 0;          ///< no force, because the device was gone
-  long restored = 0;      ///< times that a state was not a number and got its initial value again
-};
-
-struct RunResult {
-  long ticks_run = 0;
-  long ticks_missed = 0;  ///< periods without a tick; they are skipped and not made up for
-  Lateness lateness;
-  std::optional<TickCosts> costs;  ///< nothing in virtual time
-  GuardCounts guards;
-  std::string scheduling;  ///< one line: the priority that the loop got, and whether memory and processors were held
-  Record record;
-  std::optional<Error> record_problem;  ///< why the recording ended before the run; empty if it did not
+ private:
+  friend class Stage;
+  struct Parts;
+  explicit StageEdit(std::weak_ptr<StageState> stage);
+  std::unique_ptr<Parts> parts_;
 };
 
 /// Patches on a device's workspace, and the loop that lets the hand feel the front-most one under it.
 ///
-/// `place`, `add`, `move`, `replace` and `set` may be called from any thread, also during a run: the thread that called
-/// `run` then computes setup and peaks, and the real-time thread gets the finished result.
+/// All calls except the constructors, the destructor and assignment are safe from any thread. Only `now` is for a
+/// real-time thread too.
 class Stage {
  public:
-  /// The device must outlive the stage.
-  explicit Stage(Device& device);
+  /// Takes the device.
+  explicit Stage(std::unique_ptr<Device> device, StageOptions options = {});
+  /// The device must outlive the stage, and a run of it.
+  explicit Stage(Device& device, StageOptions options = {});
+  /// Without a device, for a `Loop` of one's own.
+  explicit Stage(const DeviceProfile& profile, StageOptions options = {});
+  /// Ends a run that is under way and waits for its end, also for one that another thread has called. (Within
+  /// `progress` of a run on this thread it does not wait; then the run ends when `progress` returns.)
   ~Stage();
-  Stage(const Stage&) = delete;
-  Stage& operator=(const Stage&) = delete;
+  Stage(Stage&&) noexcept;
+  Stage& operator=(Stage&&) noexcept;
 
-  /// Removes all patches and adds one, with its centre at `position` (m from the workspace's centre), its parameters at
-  /// their defaults and a new memory. It has the program's own size unless one is given. It is patch number 0, in layer
-  /// 0. Setting a parameter later does not change the memory; each run begins with a new memory.
-  void place(const Program& program, glm::vec2 position = glm::vec2(0.0f));
-  void place(const Program& program, glm::vec2 position, PatchSize size);
+  /// Puts a patch on the stage, in front of all others of its layer, with its parameters at their defaults and a new
+  /// memory. Each run begins with new memories. The hand enters a patch anew each time it comes to it, also from
+  /// another patch. Finding the patch takes as long among a hundred thousand patches as among ten. Errors:
+  /// `malformed_value` for an option out of its range; `other_device` for a program that was built for another device,
+  /// or that pushes where the device only vibrates, or the other way round.
+  Result<Patch> add(const Program& program, const PatchOptions& options = {});
 
-  /// Puts one more patch on the stage and returns its number, one more than the last one's. Where patches overlap, the
-  /// hand feels the one with the greatest `layer`, and among equals the one that was added last. The hand enters a
-  /// patch anew each time it comes to it, also from another patch. Finding the patch takes as long among a hundred
-  /// thousand patches as among ten.
-  std::size_t add(const Program& program, glm::vec2 position, PatchSize size, float layer = 0);
+  /// Begins an edit.
+  StageEdit edit();
 
-  /// Replaces the program of a patch. The patch keeps its place and layer; where it had its program's own size, it gets
-  /// the new program's. A parameter that is not at its default keeps its value if the new program has one of the same
-  /// name and unit (clamped to the new range). A state keeps its value if the new program has one of the same name and
-  /// unit and the hand stays on the patch. Grids keep their cells if all have the same names, units, sizes and bounds.
-  /// Takes effect at the first tick after it is ready; then the force slews. Error: `malformed_value` without such a
-  /// patch.
-  Result<> replace(std::size_t patch, const Program& program);
+  /// How many patches there are.
+  std::size_t size() const;
 
-  /// Moves a patch's centre to `position` (m from the workspace's centre). Takes effect at the first tick after it is
-  /// ready; then the force slews if it has changed. A patch's first move in a run takes as long to be ready as adding
-  /// one, some 0.1 s among a hundred thousand; later moves take time in proportion to the number of patches that have
-  /// ever been moved in the run. If the hand is still on the moved patch, it does not enter anew and the memory goes
-  /// on; the energy that moving gives to the hand counts as the program's own. Error: `malformed_value` without such a
-  /// patch, or if the position is not finite.
-  Result<> move(std::size_t patch, glm::vec2 position);
-
-  /// Sets a parameter of patch 0 or of another patch, in SI units. Errors: `malformed_value` without such a patch, or
-  /// if the value is not a number in the parameter's range; `unknown_name` without such a parameter.
-  Result<> set(std::string_view parameter, float value);
-  Result<> set(std::size_t patch, std::string_view parameter, float value);
-
-  /// A bank of a patch with its present parameters, for `predict` and `levels_back`. Runs setup and peaks. Gives
-  /// nothing if there is no such patch.
-  std::optional<Bank> bank(std::size_t patch = 0) const;
-
-  /// Runs for `options.seconds`. Afterwards the device exerts no force, also after an error. Errors:
-  /// - `malformed_value`: the time is not positive, the record would keep more than 2^24 ticks, or the largest force is
-  ///   not positive;
-  /// - `wrong_moment`: nothing is placed, or another run is under way on this stage;
+  /// Runs for `options.seconds` on threads of its own, or in virtual time on the calling one; returns at the end. Then
+  /// the device exerts no force, also after an error. In real time a run begins when all patches are ready, or after 30
+  /// ms; the rest follow. Errors:
+  /// - `malformed_value`: the time is not positive, the record would keep more than 2^24 ticks, the largest force is
+  ///   not positive, or the priority is not in 1 .. 99;
+  /// - `wrong_moment`: nothing is on the stage, it has no device, or another run is under way on it, or one that
+  ///   `start` began waits for its `stop`;
   /// - `unusable_device`: the device's profile lacks a figure that a loop needs;
-  /// - `other_device`: a program pushes but the device only vibrates, or the other way round;
   /// - `unwritable_file`: the recording cannot be made;
   /// - `short_of_resources`: the system gives no thread.
   Result<RunResult> run(const RunOptions& options);
 
+  /// Begins an endless run in real time and returns. Unlike `run` it may begin without a patch, and keeps no record.
+  /// Errors as for `run`.
+  Result<> start();
+  /// Ends the run that `start` began, waits for its end and gives its figures. The device then exerts no force. Errors:
+  /// - `wrong_moment`: `start` has begun no run since the last `stop`;
+  /// - `short_of_resources`: the run failed, since the system gave its loop no thread.
+  Result<RunResult> stop();
+  /// Whether a run is under way.
+  bool is_running() const;
+
+  /// The state after the latest tick of the present run or the last one. Never waits for another thread. Real-time:
+  /// allocates nothing, takes no lock, makes no system call, does not throw.
+  Now now() const noexcept;
+
+  /// What `poll` calls for each contact; an empty function ends it. Contacts are noted only while there is one.
+  void on_contact(std::function<void(const ContactEvent&)> receive);
+  /// Calls the receiver for all contacts since the last poll, in their order, on the calling thread. Two threads that
+  /// poll take turns; a receiver must call neither `poll` nor `on_contact`. Returns how many contacts were dropped
+  /// because `most_contacts_waiting` were waiting.
+  std::size_t poll();
+
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  friend class Loop;
+  std::shared_ptr<StageState> state_;
 };
 
 }  // namespace wale

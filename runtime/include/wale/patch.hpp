@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "wale/memory.hpp"
+#include "wale/program.hpp"
+
+namespace wale {
+
+struct StageState;
+
+/// Where a patch goes, and how large it is.
+struct PatchOptions {
+  glm::vec2 at{0.0f};                  ///< m from the workspace's centre, of the patch's centre; finite
+  std::optional<PatchSize> size = {};  ///< m; the program's own if none is given. Width and height are positive, the
+                                       ///< rim is not negative, all are finite
+  float layer = 0;                     ///< where patches overlap, the hand feels the one with the greatest; finite
+};
+
+/// A layer for a patch.
+struct BringOptions {
+  float layer = 0;  ///< finite
+};
+
+/// A patch's bank and a copy of its memory at one tick, for `show` and `surface_all` of wale/picture.hpp. Grids of more
+/// than 32768 cells in all are copied over several ticks.
+struct Snapshot {
+  Bank bank;
+  Memory memory;
+};
+
+/// A patch on a stage. A light handle: copies name the same patch, and it may outlive the patch and the stage.
+///
+/// All calls are safe from any thread, also during a run; none is for a real-time thread (they lock and allocate). They
+/// return before the change is felt. A place, a layer, enabling and removing are felt from the first tick after at most
+/// two periods on, unless the patch waits for an edit; a parameter, a size and a program as soon as their bank is
+/// prepared, the patch under the hand first; then the force slews. Until then the patch keeps its old bank. A change
+/// whose bank is not begun is replaced by a newer one. Without a run, changes count from the next run on. In virtual
+/// time all are felt at the next tick.
+///
+/// Errors of all calls: `wrong_moment` if the patch was removed, its stage is gone, or the handle never named a patch;
+/// `malformed_value` for an argument that is not finite or not in its range. After an error nothing has changed.
+class Patch {
+ public:
+  /// Names no patch.
+  Patch() = default;
+
+  /// Sets a parameter, in SI units, in the range that the program declares. Errors also: `unknown_name`.
+  Result<> set(std::string_view parameter, float value);
+  /// Moves the patch's centre, m from the workspace's centre. A hand that is still on it does not enter anew; the
+  /// energy that moving gives to the hand counts as the program's own.
+  Result<> move(glm::vec2 to);
+  /// Full width and height, and rim, in m.
+  Result<> resize(PatchSize size);
+  /// Another program. The patch keeps its place and layer; where it had its program's own size, it gets the new
+  /// program's. A parameter that is not at its default keeps its value if the new program has one of the same name and
+  /// unit (clamped to the new range). A state keeps its value if the new program has one of the same name and unit and
+  /// the hand stays on the patch. Grids keep their cells if all have the same names, units, sizes and bounds; after 64
+  /// replacements without a touch they begin anew. Errors also: `other_device`.
+  Result<> replace(const Program& program);
+  /// A patch that is not enabled is not felt, and keeps its memory.
+  Result<> enable(bool enabled = true);
+  /// Puts it in front of all patches of a layer.
+  Result<> bring(const BringOptions& to);
+  /// Removes the patch. All handles to it then name nothing.
+  Result<> remove();
+
+  /// Whether it names a patch that is on its stage.
+  bool exists() const;
+
+  /// A bank with the patch's present parameters, as they are wanted, for `predict` and `levels_back`. Runs setup and
+  /// peaks if no patch has the same.
+  Result<Bank> bank() const;
+  /// A copy of the present memory. Never makes a tick wait: the thread that serves the ticks copies when it is asked,
+  /// so this call takes a period or two during a run. Of a patch that no run has had it is a new memory. Errors also:
+  /// `wrong_moment` if the run serves no tick for 0.2 s.
+  Result<Snapshot> snapshot() const;
+
+  friend bool operator==(const Patch& one, const Patch& other) {
+    return one.number_ == other.number_ && one.generation_ == other.generation_ &&
+           !one.stage_.owner_before(other.stage_) && !other.stage_.owner_before(one.stage_);
+  }
+  /// Its number on the stage, as in recordings. A later patch may get the number of a removed one.
+  std::uint32_t number() const { return number_; }
+
+ private:
+  friend class StageEdit;
+  friend class Stage;
+  friend struct StageState;
+  Patch(std::weak_ptr<StageState> stage, std::uint32_t number, std::uint32_t generation)
+      : stage_(std::move(stage)), number_(number), generation_(generation) {}
+
+  std::weak_ptr<StageState> stage_;
+  std::uint32_t number_ = 0, generation_ = 0;
+};
+
+}  // namespace wale

@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "runtime/stage/stage_state.hpp"
+
+namespace wale {
+
+struct StageEdit::Parts {
+  /// A change of a patch; an empty one removes it.
+  struct Step {
+    PatchName name;
+    StageState::Change change;
+  };
+
+  std::weak_ptr<StageState> stage;
+  std::vector<std::pair<PatchName, Placement>> added;
+  std::vector<Step> steps;
+  std::optional<Error> error;  // the first
+
+  ~Parts() { discard(); }
+
+  void discard() {
+    const auto state = stage.lock();
+    if (state) {
+      const std::lock_guard lock(state->mutex);
+      for (const auto& [name, placement] : added) state->table.release(name);
+    }
+    added.clear();
+    steps.clear();
+    error.reset();
+  }
+  void step(const std::weak_ptr<StageState>& of, PatchName name, StageState::Change change) {
+    const bool other = of.owner_before(stage) || stage.owner_before(of);
+    if (other && !error) error = wrong_moment("the patch is not on the edit's stage");
+    steps.push_back({name, std::move(change)});
+  }
+};
+
+StageEdit::StageEdit(std::weak_ptr<StageState> stage) : parts_(std::make_unique<Parts>()) {
+  parts_->stage = std::move(stage);
+}
+StageEdit::StageEdit(StageEdit&&) noexcept = default;
+StageEdit& StageEdit::operator=(StageEdit&&) noexcept = default;
+StageEdit::~StageEdit() = default;
+
+Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options) {
+  const auto state = parts_->stage.lock();
+  if (!state) return wrong_moment("the stage is gone");
+  Result<Placement> placement = state->placement(program, options);
+  if (!placement) return std::move(placement).error();
+  const std::lock_guard lock(state->mutex);
+  const PatchName name = state->table.reserve();
+  parts_->added.emplace_back(name, *std::move(placement));
+  return Patch(parts_->stage, name.number, name.generation);
+}
+
+void StageEdit::set(const Patch& patch, std::string_view parameter, float value) {
+  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::set(std::string(parameter), value));
+}
+
+void StageEdit::move(const Patch& patch, glm::vec2 to) {
+  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::move(to));
+}
+
+void StageEdit::resize(const Patch& patch, PatchSize size) {
+  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::resize(size));
+}
+
+void StageEdit::replace(const Patch& patch, const Program& program) {
+  if (const auto state = parts_->stage.lock())
+    parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::replace(program, *state));
+}
+
+void StageEdit::enable(const Patch& patch, bool enabled) {
+  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::enable(enabled));
+}
+
+void StageEdit::bring(const Patch& patch, const BringOptions& to) {
+  if (const auto state = parts_->stage.lock())
+    parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::bring(to.layer, state->table));
+}
+
+void StageEdit::remove(const Patch& patch) { parts_->step(patch.stage_, {patch.number_, patch.generation_}, nullptr); }
+
+Result<> StageEdit::commit() {
+  const auto state = parts_->stage.lock();
+  if (!state) return wrong_moment("the stage is gone");
+  const auto refuse = [&](Error error) -> Result<> {
+    parts_->discard();
+    return error;
+  };
+  if (parts_->error) return refuse(*parts_->error);
+  std::unique_lock lock(state->mutex);
+  if (state->over) return wrong_moment("the stage is gone");
+  std::vector<PatchTable::Wish> wishes;
+  std::unordered_map<std::uint32_t, std::size_t> known;  // by the patch's number: its wish
+  for (auto& [name, placement] : parts_->added) {
+    placement.order = state->table.next_order();
+    known.emplace(name.number, wishes.size());
+    wishes.emplace_back(name, placement);
+  }
+  for (const Parts::Step& step : parts_->steps) {
+    const auto [place, is_new] = known.try_emplace(step.name.number, wishes.size());
+    if (is_new) {
+      const auto there = state->has(step.name);
+      if (there) wishes.emplace_back(step.name, *state->table.wanted(step.name));
+      if (!there) {
+        lock.unlock();
+        return refuse(there.error());
+      }
+    }
+    auto& [name, wish] = wishes[place->second];
+    Result<> done;
+    if (!(name == step.name) || !wish)
+      done = wrong_moment("the patch is not on the stage any more");
+    else if (!step.change)
+      wish.reset();
+    else
+      done = step.change(*wish);
+    if (!done) {
+      lock.unlock();
+      return refuse(std::move(done).error());
+    }
+  }
+  // A patch that was added and removed again was never there.
+  std::erase_if(wishes, [&](const PatchTable::Wish& wish) {
+    if (wish.second || state->table.wanted(wish.first) != nullptr) return false;
+    state->table.release(wish.first);
+    return true;
+  });
+  parts_->added.clear();
+  parts_->steps.clear();
+  state->want(std::move(wishes));
+  return {};
+}
+
+}  // namespace wale

@@ -1,0 +1,60 @@
+#include "runtime/stage/session.hpp"
+#include "wale/loop.hpp"
+
+namespace wale {
+
+struct Loop::Parts {
+  /// A device whose readings the program gives, and whose commands it takes.
+  class HandedDevice final : public Device {
+   public:
+    explicit HandedDevice(const DeviceProfile& profile) : profile_(profile) {}
+
+    const DeviceProfile& profile() const noexcept override { return profile_; }
+    void elapse(long) noexcept override {}
+    Reading sample() noexcept override { return reading; }
+    Force command(Force force) noexcept override { return commanded = force; }
+
+    Reading reading;
+    Force commanded{0};
+
+   private:
+    DeviceProfile profile_;
+  };
+
+  explicit Parts(const DeviceProfile& profile) : device(profile) {}
+
+  HandedDevice device;
+  std::unique_ptr<Session> session;  // ends before the device
+  long period = -1;
+};
+
+Loop::Loop(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Loop::Loop(Loop&&) noexcept = default;
+Loop& Loop::operator=(Loop&&) noexcept = default;
+Loop::~Loop() = default;
+
+Result<Loop> Loop::begin(Stage& stage) {
+  const std::shared_ptr<StageState> state = stage.state_;
+  auto parts = std::make_unique<Parts>(state->profile);
+  auto session = Session::begin(state, {.seconds = HUGE_VAL, .kept_seconds = 1 / state->profile.rate},
+                                Session::Clock::own, true, parts->device);
+  if (!session) return std::move(session).error();
+  parts->session = *std::move(session);
+  if (auto attended = parts->session->attend_apart(); !attended) return std::move(attended).error();
+  return Loop(std::move(parts));
+}
+
+Force Loop::step(const Reading& reading, long periods) noexcept {
+  Parts& parts = *parts_;
+  const bool first = parts.period < 0;
+  const long elapsed = first ? 0 : std::max(1L, periods);
+  parts.period += first ? 1 : elapsed;
+  parts.device.reading = reading;
+  parts.session->player().serve(
+      {.period = parts.period, .elapsed = elapsed, .skipped = std::max(0L, elapsed - 1), .lateness = 0});
+  return parts.device.commanded;
+}
+
+void Loop::exerted(Force force) noexcept { parts_->session->player().exerted(force); }
+
+}  // namespace wale

@@ -1,0 +1,394 @@
+#include "runtime/stage/patch_table.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "runtime/stage/scheduling.hpp"
+
+namespace wale {
+namespace {
+
+/// Memories that one after the other wait for the hand. It bounds the memory that replacing takes where no hand comes,
+/// and the tick at which it comes.
+constexpr std::size_t most_memories_waiting = 64;
+
+bool same_program(const Placement& one, const Placement& other) {
+  return &one.program.decoded() == &other.program.decoded();
+}
+
+}  // namespace
+
+PatchTable::Slot* PatchTable::find(PatchName name) {
+  if (name.number >= slots_.size() || slots_[name.number].generation != name.generation) return nullptr;
+  return &slots_[name.number];
+}
+
+const PatchTable::Slot* PatchTable::find(PatchName name) const {
+  if (name.number >= slots_.size() || slots_[name.number].generation != name.generation) return nullptr;
+  return &slots_[name.number];
+}
+
+const Placement* PatchTable::wanted(PatchName name) const {
+  const Slot* const slot = find(name);
+  if (slot == nullptr) return nullptr;
+  const std::optional<Placement>& wanted = slot->later ? *slot->later : slot->wanted;
+  return wanted ? &*wanted : nullptr;
+}
+
+PatchName PatchTable::reserve() {
+  std::uint32_t number = 0;
+  if (free_.empty()) {
+    number = static_cast<std::uint32_t>(slots_.size());
+    slots_.emplace_back();
+  } else {
+    number = free_.back();
+    free_.pop_back();
+  }
+  Slot& slot = slots_[number];
+  slot.taken = slot.reserved = true;
+  return {number, ++slot.generation};
+}
+
+void PatchTable::release(PatchName name) {
+  Slot* const slot = find(name);
+  if (slot == nullptr || !slot->reserved) return;
+  slot->taken = slot->reserved = false;
+  ++slot->generation;
+  free_.push_back(name.number);
+}
+
+void PatchTable::free_slot(std::uint32_t number) {
+  Slot& slot = slots_[number];
+  slot.felt.reset();
+  slot.bank.reset();
+  slot.ready.reset();
+  slot.older.reset();
+  slot.memory.reset();
+  slot.since = 0;
+  slot.taken = slot.touched = slot.renewed = slot.loose = slot.sampled = false;
+  free_.push_back(number);
+}
+
+void PatchTable::mark(std::uint32_t number) {
+  if (!running_ || std::exchange(slots_[number].dirty, true)) return;
+  dirty_.push_back(number);
+}
+
+void PatchTable::withdraw_request(Slot& slot, std::uint32_t number) {
+  Jobs::value_type* const job = std::exchange(slot.job, nullptr);
+  if (job == nullptr) return;
+  std::erase(job->second.slots, number);
+  if (job->second.begun)
+    job->second.overtaken.push_back({{number, slot.generation}, slot.version});
+  else if (job->second.slots.empty())
+    jobs_.erase(jobs_.find(job->first));
+}
+
+void PatchTable::request(std::uint32_t number) {
+  Slot& slot = slots_[number];
+  withdraw_request(slot, number);
+  slot.ready = nullptr;
+  ++slot.version;
+  if (!running_ || manner_ == Manner::together) return;
+  BankKey key = slot.wanted->key();
+  slot.ready = banks_.find(key);
+  if (slot.ready) {
+    slot.older.reset();
+    slot.since = 0;
+    return;
+  }
+  if (slot.since == 0) slot.since = ++waits_;  // a change that replaces one that waits does not wait anew
+  const auto job = jobs_.try_emplace(std::move(key)).first;
+  job->second.slots.push_back(number);
+  slot.job = &*job;
+  hurry_.store(true, std::memory_order_relaxed);
+}
+
+void PatchTable::want(std::vector<Wish> wishes) {
+  bool waits = false;
+  for (const auto& [name, wish] : wishes) {
+    Slot& slot = slots_[name.number];
+    const bool was_there = slot.later ? slot.later->has_value() : slot.wanted.has_value();
+    if (was_there && !wish) --count_;
+    if (!was_there && wish) ++count_, slot.reserved = false;
+    waits = waits || slot.later || (slot.edit != 0 && wishes.size() > 1);
+  }
+  if (!waits) return take_wishes(std::move(wishes));
+  for (auto& [name, wish] : wishes) {
+    Slot& slot = slots_[name.number];
+    if (!slot.later) later_.push_back(name.number);
+    slot.later = std::move(wish);
+  }
+}
+
+void PatchTable::take_later_wishes() {
+  if (std::ranges::any_of(later_, [&](std::uint32_t number) { return slots_[number].edit != 0; })) return;
+  std::vector<Wish> wishes;
+  for (const std::uint32_t number : std::exchange(later_, {})) {
+    Slot& slot = slots_[number];
+    wishes.emplace_back(PatchName{number, slot.generation}, *std::exchange(slot.later, std::nullopt));
+  }
+  take_wishes(std::move(wishes));
+}
+
+void PatchTable::take_wishes(std::vector<Wish> wishes) {
+  std::vector<std::uint32_t> numbers;
+  for (auto& [name, wish] : wishes) {
+    Slot& slot = slots_[name.number];
+    if (!wish) {
+      withdraw_request(slot, name.number);
+      ++slot.generation;  // the handle names nothing any more, and the slot is free once the loop has let it go
+      const bool was_there = slot.wanted.has_value();
+      slot.wanted.reset();
+      if (running_ && was_there)
+        mark(name.number), numbers.push_back(name.number);
+      else
+        free_slot(name.number);
+      continue;
+    }
+    const bool other_bank = !slot.wanted || !(slot.wanted->key() == wish->key());
+    if (other_bank && running_ && slot.ready && slot.ready != slot.bank)
+      slot.older = Older{slot.wanted->key(), slot.ready, slot.version};
+    slot.wanted = std::move(wish);
+    if (other_bank) request(name.number);
+    mark(name.number);
+    numbers.push_back(name.number);
+  }
+  if (!running_ || manner_ == Manner::together) return;
+  if (wishes.size() < 2) {
+    for (const std::uint32_t number : numbers) settle(slots_[number].edit);
+    return;
+  }
+  const std::uint32_t edit = ++last_edit_;
+  for (const std::uint32_t number : numbers) {
+    slots_[number].edit = edit;
+    slots_[number].edit_version = slots_[number].version;
+  }
+  edits_[edit].slots = std::move(numbers);
+  settle(edit);
+}
+
+void PatchTable::settle(std::uint32_t edit) {
+  const auto waiting = edits_.find(edit);
+  if (waiting == edits_.end()) return;
+  const std::vector<std::uint32_t>& slots = waiting->second.slots;
+  waiting->second.settled = std::ranges::all_of(slots, [&](std::uint32_t number) { return is_ready(slots_[number]); });
+  if (!waiting->second.settled) return;
+  for (const std::uint32_t number : slots) mark(number);
+}
+
+void PatchTable::end_edits(const std::vector<std::uint32_t>& numbers) {
+  for (const std::uint32_t number : numbers) {
+    const auto edit = edits_.find(slots_[number].edit);
+    if (edit == edits_.end() || !edit->second.settled) continue;
+    for (const std::uint32_t each : edit->second.slots) slots_[each].edit = 0;
+    edits_.erase(edit);
+  }
+}
+
+void PatchTable::begin(Manner manner, bool lock_memory) {
+  lock_memory_ = lock_memory;
+  running_ = true;
+  manner_ = manner;
+  revision_ = 0;
+  arrangement_.clear();
+  for (std::uint32_t number = 0; number < slots_.size(); ++number) {
+    Slot& slot = slots_[number];
+    if (!slot.wanted) continue;
+    slot.felt.reset();
+    slot.bank.reset();
+    slot.memory.reset();
+    slot.older.reset();
+    slot.sampled = slot.touched = slot.renewed = slot.is_unsampled = false;
+    slot.withdrawn = 0;
+    slot.since = slot.felt_version = 0;
+    request(number);
+    mark(number);
+  }
+}
+
+void PatchTable::end() {
+  running_ = false;
+  for (const std::uint32_t number : later_) slots_[number].edit = 0;
+  take_later_wishes();
+  jobs_.clear();
+  edits_.clear();
+  replaced_.clear();
+  unsampled_.clear();
+  dirty_.clear();
+  banks_before_others_ = 0;
+  for (std::uint32_t number = 0; number < slots_.size(); ++number) {
+    Slot& slot = slots_[number];
+    const bool removed = slot.taken && !slot.wanted && !slot.reserved;
+    slot.job = nullptr;
+    slot.edit = 0;
+    slot.dirty = slot.is_unsampled = slot.is_replaced = false;
+    slot.withdrawn = 0;
+    slot.older.reset();
+    if (removed) free_slot(number);
+  }
+}
+
+bool PatchTable::changes_outline(const Slot& slot) const {
+  if (!slot.felt) return false;
+  if (!slot.wanted || !slot.wanted->enabled) return true;
+  const Placement &then = *slot.felt, &now = *slot.wanted;
+  return then.position != now.position || then.layer != now.layer || then.order != now.order ||
+         (slot.ready && then.size != now.size) || (slot.older && then.size != slot.older->key.size);
+}
+
+void PatchTable::publish(Exchange<PlacedPatches>& patches, RecordWriter* recorder) {
+  if (dirty_.empty()) return;
+  std::vector<std::uint32_t> numbers = std::exchange(dirty_, {});
+  std::size_t outlines = 0;
+  for (const std::uint32_t number : numbers) {
+    Slot& slot = slots_[number];
+    slot.dirty = false;
+    if (manner_ == Manner::together && slot.wanted) {
+      slot.ready = banks_.get(slot.wanted->key());
+      if (!slot.loose) slot.ready->sample();
+    }
+    outlines += changes_outline(slot) && arrangement_.is_in_base(number);
+  }
+  std::erase_if(replaced_, [&](std::uint32_t number) {
+    Slot& slot = slots_[number];
+    slot.is_replaced = slot.memory && !slot.memory->forget_predecessor();
+    return !slot.is_replaced;
+  });
+  arrangement_.expect(outlines);
+  if (recorder != nullptr && manner_ == Manner::together) std::sort(numbers.begin(), numbers.end());
+  bool changed = false;
+  for (const std::uint32_t number : numbers)
+    if (!waits_for_its_edit(slots_[number])) changed = publish_slot(number, recorder) || changed;
+  end_edits(numbers);
+  take_later_wishes();
+  if (!changed) return;
+  ++revision_;
+  if (recorder != nullptr) recorder->publish(revision_);
+  if (arrangement_.wants_base() && (manner_ == Manner::together || revision_ == 1)) arrangement_.make_base();
+  patches.publish(arrangement_.hand_over(revision_));
+}
+
+bool PatchTable::publish_slot(std::uint32_t number, RecordWriter* recorder) {
+  Slot& slot = slots_[number];
+  if (!slot.wanted) {
+    const bool was_there = slot.felt.has_value();
+    if (was_there) {
+      arrangement_.remove(number);
+      if (recorder != nullptr) recorder->remove(number);
+    }
+    free_slot(number);
+    return was_there;
+  }
+  if (!slot.ready && !slot.older && !slot.bank) return false;  // a new patch is not felt until it is ready
+  Placement next = *slot.wanted;
+  std::shared_ptr<const PreparedBank> bank = slot.ready;
+  if (!bank) {
+    const BankKey key = slot.older ? slot.older->key : slot.felt->key();
+    next.program = key.program;
+    next.parameters = key.parameters;
+    next.size = key.size;
+    bank = slot.older ? slot.older->bank : slot.bank;
+  }
+  if (slot.ready || slot.older) slot.felt_version = slot.ready ? slot.version : slot.older->version;
+  slot.older.reset();
+  const bool other_program = !slot.felt || !same_program(*slot.felt, next) || slot.renewed;
+  const bool changed = bank != slot.bank || other_program || slot.touched;
+  const bool sampled = bank->is_sampled() && !slot.loose;
+  if (other_program) {
+    const bool succeeds = slot.memory && slot.memory->predecessors() < most_memories_waiting;
+    slot.memory =
+        succeeds ? std::make_shared<Memory>(next.program, slot.memory) : std::make_shared<Memory>(next.program);
+    if (slot.felt && !std::exchange(slot.is_replaced, true)) replaced_.push_back(number);
+  }
+  const bool moved = !slot.felt || next.position != slot.felt->position || next.layer != slot.felt->layer ||
+                     next.order != slot.felt->order || next.enabled != slot.felt->enabled;
+  if (!changed && !moved && sampled == slot.sampled) return false;
+  if (changed) slot.change = ++changes_;
+  if (lock_memory_ && changed) {
+    lock_pages(bank->registers.registers().data(), bank->registers.registers().size_bytes());
+    lock_pages(slot.memory->cells().data(), slot.memory->cells().size_bytes());
+    lock_pages(slot.memory->states().data(), slot.memory->states().size_bytes());
+  }
+  if (recorder != nullptr) record(slot, number, next, changed, other_program, sampled, *recorder);
+  arrange(number, next, bank, sampled);
+  slot.bank = bank;
+  slot.felt = std::move(next);
+  slot.sampled = sampled;
+  slot.touched = slot.renewed = false;
+  if (!sampled && manner_ == Manner::piecewise && !std::exchange(slot.is_unsampled, true)) unsampled_.push_back(number);
+  return true;
+}
+
+void PatchTable::arrange(std::uint32_t number, const Placement& next, const std::shared_ptr<const PreparedBank>& bank,
+                         bool sampled) {
+  Slot& slot = slots_[number];
+  if (!next.enabled) {
+    arrangement_.remove(number);
+    slot.withdrawn = revision_ + 1;
+    return;
+  }
+  arrangement_.put(
+      {.bank = bank,
+       .memory = slot.memory,
+       .outline = {next.position, bank->bank.size().width, bank->bank.size().height, next.layer, next.order},
+       .number = number,
+       .generation = slot.generation,
+       .change = slot.change,
+       .potential_range = bank->potential_range(sampled)});
+}
+
+void PatchTable::record(const Slot& slot, std::uint32_t number, const Placement& next, bool changed, bool renewed,
+                        bool sampled, RecordWriter& recorder) const {
+  const auto same_bits = [](float one, float other) {
+    return std::bit_cast<std::uint32_t>(one) == std::bit_cast<std::uint32_t>(other);
+  };
+  const bool whole = !slot.felt || renewed || next.size != slot.felt->size || next.layer != slot.felt->layer ||
+                     next.order != slot.felt->order || next.enabled != slot.felt->enabled;
+  if (whole) {
+    recorder.put({.patch = number,
+                  .position = next.position,
+                  .size = next.size,
+                  .layer = next.layer,
+                  .parameters = next.parameters,
+                  .order = next.order,
+                  .enabled = next.enabled,
+                  .changed = changed,
+                  .renewed = renewed,
+                  .sampled = sampled},
+                 next.program);
+    return;
+  }
+  bool was_set = false;
+  for (std::size_t i = 0; i < next.parameters.size(); ++i) {
+    if (same_bits(next.parameters[i], slot.felt->parameters[i])) continue;
+    recorder.set(number, i, next.parameters[i]);
+    was_set = true;
+  }
+  if (next.position != slot.felt->position) recorder.move(number, next.position);
+  if (sampled != (was_set || slot.sampled)) recorder.bound(number, sampled);
+}
+
+PatchTable::Felt PatchTable::felt(PatchName name) const {
+  const Slot* const slot = find(name);
+  if (slot == nullptr || !slot->wanted) return {};
+  const bool placed = running_ && slot->felt && slot->felt->enabled;
+  return {slot->memory, slot->bank, placed, slot->withdrawn};
+}
+
+void PatchTable::touch(PatchName name, bool renew) {
+  if (Slot* const slot = find(name)) {
+    slot->touched = true;
+    slot->renewed = slot->renewed || renew;
+    mark(name.number);
+  }
+}
+
+void PatchTable::loosen(PatchName name, bool loose) {
+  if (Slot* const slot = find(name)) {
+    slot->loose = loose;
+    mark(name.number);
+  }
+}
+
+}  // namespace wale

@@ -1,0 +1,311 @@
+#include "runtime/stage/session.hpp"
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <system_error>
+
+#include "runtime/stage/scheduling.hpp"
+
+namespace wale {
+namespace {
+
+constexpr long longest_run = 1L << 24;
+constexpr double endless = 0x1p53;  // ticks: the greatest number that a double counts exactly
+constexpr double progress_seconds = 0.1;
+
+/// A run begins after this time although some patches are not ready: a person takes longer to notice that nothing has
+/// begun (Miller 1968: a control that is pressed answers within 0.1 s), and nearly all stages are ready by then.
+constexpr auto patience_at_start = std::chrono::milliseconds(30);
+
+std::string few_digits(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6).ptr};
+}
+
+}  // namespace
+
+Result<> has_loop_figures(const DeviceProfile& profile) {
+  struct Figure {
+    const char* name;
+    double value;
+    bool needed;
+  };
+  const bool place = profile.has_position(), push = !profile.shaker;
+  const std::array<Figure, 6> figures{{{"rate", profile.rate, true},
+                                       {"workspace", profile.workspace_diameter, place},
+                                       {"position counts", profile.position_counts, place},
+                                       {"force", profile.force_newton, push},
+                                       {"force counts", profile.force_counts, push},
+                                       {"acceleration", profile.most(), !push}}};
+  for (const auto& [name, value, needed] : figures) {
+    if (needed && (!(value > 0) || !std::isfinite(value))) {
+      return Error{.code = Code::unusable_device,
+                   .sentence = "the device " + profile.name + " declares no positive " + name,
+                   .mend = {},
+                   .place = {.name = name, .text = few_digits(value)}};
+    }
+  }
+  return {};
+}
+
+namespace {
+
+struct RunLength {
+  long ticks = 0;  ///< of the run, at least one
+  long kept = 0;   ///< of its record, at least one
+};
+
+Result<RunLength> length_of(const RunOptions& options, double rate) {
+  const auto asked = [](double seconds) { return "; asked for " + few_digits(seconds) + " s"; };
+  if (!(options.seconds > 0))
+    return malformed("seconds", "the length of a run must be positive" + asked(options.seconds));
+  if (!(options.kept_seconds > 0))
+    return malformed("kept_seconds", "the length of a run's record must be positive" + asked(options.kept_seconds));
+  const double kept = std::min(options.seconds, options.kept_seconds);
+  if (kept * rate > static_cast<double>(longest_run)) {
+    const bool endless_run = kept < options.seconds;
+    return malformed(endless_run ? "kept_seconds" : "seconds", "a run " + std::string(endless_run ? "keeps" : "lasts") +
+                                                                   " at most " +
+                                                                   few_digits(static_cast<double>(longest_run) / rate) +
+                                                                   " s at " + few_digits(rate) + " Hz" + asked(kept));
+  }
+  return RunLength{std::max(1L, std::lround(std::min(options.seconds * rate, endless))),
+                   std::max(1L, std::lround(kept * rate))};
+}
+
+Error no_thread(const char* for_what, const std::system_error& error) {
+  return {.code = Code::short_of_resources,
+          .sentence = std::string("the system gives no thread for ") + for_what + ": " + error.what()};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stage, const RunOptions& options,
+                                                Clock clock, bool may_be_empty, Device& device) {
+  const DeviceProfile& profile = stage->profile;
+  if (auto whole = has_loop_figures(profile); !whole) return std::move(whole).error();
+  const Result<RunLength> length = length_of(options, profile.rate);
+  if (!length) return length.error();
+  const StageOptions& how = stage->options;
+  if (!(how.max_force > 0)) return malformed("max_force", "the largest force allowed must be positive");
+  if (how.priority && !(*how.priority >= 1 && *how.priority <= 99))
+    return malformed("priority", "the priority of a loop must be in 1 .. 99");
+  std::unique_ptr<Session> session(new Session(stage, options, clock, device));
+  session->ticks_ = length->ticks;
+  session->kept_ = length->kept;
+  std::unique_lock lock(stage->mutex);
+  const auto refuse = [&](Error error) -> Result<std::unique_ptr<Session>> {
+    lock.unlock();
+    session->stage_ = nullptr;  // it was not taken
+    return error;
+  };
+  if (stage->over) return refuse(wrong_moment("the stage is gone"));
+  if (stage->running) return refuse(wrong_moment("another run is under way on this stage"));
+  if (!may_be_empty && stage->table.size() == 0) return refuse(wrong_moment("nothing is on the stage"));
+  if (auto begun = session->begin_recording(); !begun) return refuse(std::move(begun).error());
+  stage->running = stage->served = true;
+  stage->told_to_stop = false;
+  stage->outlives_its_device = clock == Clock::own;
+  stage->caller_serves = clock == Clock::unreal;
+  stage->table.begin(clock == Clock::unreal ? PatchTable::Manner::together : PatchTable::Manner::piecewise,
+                     how.lock_memory);
+  stage->outlets.state.store({});
+  lock.unlock();
+  session->player_.emplace(device, session->patches_, session->result_.record, static_cast<std::size_t>(session->kept_),
+                           how.max_force, clock == Clock::real, stage->recorder.get(), &stage->outlets);
+  if (clock != Clock::unreal)
+    if (auto started = session->start_preparing(); !started) return std::move(started).error();
+  return session;
+}
+
+Session::~Session() {
+  if (!stage_) return;
+  stop_threads();
+  player_.reset();  // commands zero force
+  const std::lock_guard lock(stage_->mutex);
+  if (stage_->recorder && clock_ == Clock::own) stage_->recorder->end();
+  stage_->table.end();
+  stage_->recorder.reset();
+  stage_->running = stage_->served = stage_->caller_serves = false;
+  stage_->caller = {};
+  stage_->news.notify_all();
+}
+
+void Session::stop_threads() noexcept {
+  {
+    const std::lock_guard lock(stage_->mutex);
+    finished_ = prepared_enough_ = true;
+    stage_->news.notify_all();
+    stage_->work.notify_all();
+  }
+  if (attending_.joinable()) attending_.join();
+  if (preparing_.joinable()) preparing_.join();
+}
+
+Result<> Session::begin_recording() {
+  const std::optional<RecordTo>& to = stage_->options.record;
+  if (!to) return {};
+  const RecordingHeader header{.device = stage_->profile,
+                               .most_newton = stage_->options.max_force,
+                               .virtual_time = clock_ == Clock::unreal,
+                               .hand = to->hand};
+  auto begun = RecordWriter::begin(to->file, header, clock_ == Clock::unreal);
+  if (!begun) return std::move(begun).error();
+  stage_->recorder = *std::move(begun);
+  return {};
+}
+
+Result<> Session::start_preparing() {
+  try {
+    preparing_ = std::thread([this] { prepare(); });
+  } catch (const std::system_error& error) {
+    return no_thread("banks", error);
+  }
+  return {};
+}
+
+void Session::prepare() {
+  take_ordinary_priority();  // the ticks must not wait for a bank
+  StageState& stage = *stage_;
+  std::unique_lock lock(stage.mutex);
+  while (!prepared_enough_) {
+    const TickState state = stage.outlets.state.load();
+    std::optional<PatchTable::Work> work = stage.table.next_work({state.position, state.velocity});
+    if (stage.table.has_news()) stage.news.notify_all();
+    if (!work) {
+      stage.work.wait(lock);
+      continue;
+    }
+    lock.unlock();
+    const bool done = work->run(stage.banks, stage.table.hurry());
+    lock.lock();
+    stage.table.finish(*std::move(work), done);
+    stage.news.notify_all();
+  }
+}
+
+void Session::publish() {
+  stage_->table.publish(patches_, stage_->recorder.get());
+  stage_->work.notify_one();
+}
+
+void Session::hand_over_first() {
+  std::unique_lock lock(stage_->mutex);
+  stage_->news.wait_for(lock, patience_at_start, [&] { return !stage_->table.is_waiting(); });
+  publish();
+}
+
+bool Session::is_stopped() const noexcept {
+  return (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) ||
+         stage_->told_to_stop.load(std::memory_order_relaxed);
+}
+
+void Session::serve_in_virtual_time() {
+  const double rate = stage_->profile.rate;
+  const long every = std::max(1L, std::lround(rate * progress_seconds));
+  VirtualClock clock;
+  result_.scheduling = "virtual time";
+  result_.ticks_missed = run_loop(
+      clock, rate, ticks_, [&]() noexcept { return is_stopped(); },
+      [&](const Beat& beat) {
+        {
+          const std::lock_guard lock(stage_->mutex);
+          stage_->table.publish(patches_, stage_->recorder.get());
+        }
+        player_->serve(beat);
+        if (options_.progress && (beat.period + 1) % every == 0) options_.progress(stage_->now());
+      });
+}
+
+Result<> Session::serve_in_real_time() {
+  std::atomic<bool> abandoned = false;
+  hand_over_first();
+  if (stage_->options.lock_memory) lock_pages(&*player_, sizeof *player_);
+  const auto loop = [&] {
+    {
+      const RealTimeClaim claim(stage_->options);
+      result_.scheduling = claim.status();
+      MonotonicClock clock;
+      result_.ticks_missed = run_loop(
+          clock, stage_->profile.rate, ticks_,
+          [&]() noexcept { return is_stopped() || abandoned.load(std::memory_order_relaxed); },
+          [&](const Beat& beat) noexcept { player_->serve(beat); });
+      device_.command(Force(0));  // at once, without waiting for the other thread
+    }
+    const std::lock_guard lock(stage_->mutex);
+    finished_ = true;
+    stage_->served = false;
+    stage_->news.notify_all();
+  };
+  std::thread thread;
+  try {
+    thread = std::thread(loop);
+  } catch (const std::system_error& error) {
+    return no_thread("the loop", error);
+  }
+  struct Joiner {
+    std::thread& thread;
+    std::atomic<bool>& abandoned;
+    ~Joiner() {
+      abandoned = true;  // matters only when `progress` threw
+      thread.join();
+    }
+  } joiner{thread, abandoned};
+  attend();
+  return {};
+}
+
+void Session::attend() {
+  using Ticking = std::chrono::steady_clock;
+  const auto interval = std::chrono::duration_cast<Ticking::duration>(std::chrono::duration<double>(progress_seconds));
+  for (auto next_progress = Ticking::now() + interval;;) {
+    {
+      std::unique_lock lock(stage_->mutex);
+      stage_->news.wait_until(lock, next_progress, [&] { return finished_ || stage_->table.has_news(); });
+      if (finished_) return;
+      if (stage_->table.has_news()) publish();
+    }
+    if (Ticking::now() < next_progress) continue;
+    patches_.collect();
+    if (options_.progress) options_.progress(stage_->now());
+    next_progress = Ticking::now() + interval;
+  }
+}
+
+Result<> Session::attend_apart() {
+  hand_over_first();
+  try {
+    attending_ = std::thread([this] { attend(); });
+  } catch (const std::system_error& error) {
+    return no_thread("changes", error);
+  }
+  return {};
+}
+
+Result<RunResult> Session::play() {
+  {
+    const std::lock_guard lock(stage_->mutex);
+    stage_->caller = std::this_thread::get_id();
+  }
+  if (clock_ == Clock::unreal)
+    serve_in_virtual_time();
+  else if (auto served = serve_in_real_time(); !served)
+    return std::move(served).error();
+  player_->finish();
+  result_.ticks_run = player_->served();
+  {
+    const std::lock_guard lock(stage_->mutex);
+    if (stage_->recorder) {
+      stage_->recorder->end();
+      result_.record_problem = stage_->recorder->ended_early();
+    }
+  }
+  result_.lateness = player_->lateness();
+  result_.costs = player_->costs();
+  result_.guards = player_->guards();
+  return std::move(result_);
+}
+
+}  // namespace wale

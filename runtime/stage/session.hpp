@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "runtime/stage/exchange.hpp"
+#include "runtime/stage/player.hpp"
+#include "runtime/stage/stage_state.hpp"
+
+namespace wale {
+
+/// Whether the profile has all that a loop needs. Error: `unusable_device`.
+Result<> has_loop_figures(const DeviceProfile& profile);
+
+/// One run of a stage, from its beginning to its end. The stage is taken for it as long as it exists.
+class Session {
+ public:
+  enum class Clock { real, unreal, own };  ///< `unreal` is virtual time; `own`: the program serves the ticks itself
+
+  /// Takes the stage, and begins its recording. Errors as for `Stage::run`.
+  static Result<std::unique_ptr<Session>> begin(std::shared_ptr<StageState> stage, const RunOptions& options,
+                                                Clock clock, bool may_be_empty, Device& device);
+  ~Session();
+
+  /// Serves all ticks, and gives the figures.
+  Result<RunResult> play();
+
+  /// For ticks that the program serves itself: hands over changes on a thread of its own. Error: `short_of_resources`.
+  Result<> attend_apart();
+  Player& player() { return *player_; }
+
+ private:
+  Session(std::shared_ptr<StageState> stage, const RunOptions& options, Clock clock, Device& device)
+      : stage_(std::move(stage)), options_(options), clock_(clock), device_(device) {}
+
+  Result<> begin_recording();
+  Result<> start_preparing();
+  void stop_threads() noexcept;
+  /// The thread that prepares banks.
+  void prepare();
+  /// Waits until all banks are ready, but not for long, and hands over what is ready.
+  void hand_over_first();
+  void serve_in_virtual_time();
+  Result<> serve_in_real_time();
+  /// Hands over changes until the ticks have ended.
+  void attend();
+  void publish();
+  bool is_stopped() const noexcept;
+
+  std::shared_ptr<StageState> stage_;
+  RunOptions options_;
+  Clock clock_;
+  Device& device_;
+  long ticks_ = 0, kept_ = 0;
+  Exchange<PlacedPatches> patches_;
+  RunResult result_;
+  std::optional<Player> player_;
+  bool finished_ = false;         // the last tick is served; with the stage's mutex
+  bool prepared_enough_ = false;  // the thread that prepares is to end; with the stage's mutex
+  std::thread preparing_, attending_;
+};
+
+}  // namespace wale

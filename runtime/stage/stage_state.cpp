@@ -1,0 +1,231 @@
+#include "runtime/stage/stage_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace wale {
+namespace {
+
+/// Six digits: enough for a person.
+std::string six_digits(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6).ptr};
+}
+
+std::string in_its_own_unit(const Parameter& parameter, float value) {
+  const std::string number = six_digits(value / parameter.unit_in_si);
+  return parameter.unit.empty() ? number : number + " " + parameter.unit;
+}
+
+bool is_finite(glm::vec2 place) { return std::isfinite(place.x) && std::isfinite(place.y); }
+
+Result<> check_size(PatchSize size) {
+  if (!(std::isfinite(size.width) && size.width > 0 && std::isfinite(size.height) && size.height > 0))
+    return malformed("size", "the width and height of a patch must be positive and finite");
+  if (!(std::isfinite(size.rim) && size.rim >= 0))
+    return malformed("size", "the rim of a patch must be finite and not negative");
+  return {};
+}
+
+Result<> check_layer(float layer) {
+  if (std::isfinite(layer)) return {};
+  return malformed("layer", "the layer of a patch must be finite");
+}
+
+}  // namespace
+
+Error malformed(std::string name, std::string sentence) {
+  return {.code = Code::malformed_value, .sentence = std::move(sentence), .place = {.name = std::move(name)}};
+}
+
+Error wrong_moment(std::string sentence) { return {.code = Code::wrong_moment, .sentence = std::move(sentence)}; }
+
+StageState::StageState(std::unique_ptr<Device> own, Device* others, const DeviceProfile& of, StageOptions how)
+    : owned(std::move(own)), device(owned ? owned.get() : others), profile(of), options(std::move(how)) {}
+
+Result<> StageState::has(PatchName name) const {
+  if (over) return wrong_moment("the stage is gone");
+  if (table.wanted(name) != nullptr) return {};
+  return wrong_moment("the patch is not on the stage any more");
+}
+
+Result<> StageState::fits(const PatchProgram& program) const {
+  const bool same_kind = program.vibrates() == profile.shaker.has_value();
+  if (same_kind && program.device.name == profile.name) return {};
+  std::string sentence = program.material + " was built for " + program.device.name;
+  if (same_kind)
+    sentence += ", and the device is " + profile.name;
+  else
+    sentence += std::string(program.vibrates() ? ", which vibrates, and " : ", which pushes, and ") + profile.name +
+                (program.vibrates() ? " pushes" : " only vibrates");
+  return Error{.code = Code::other_device, .sentence = std::move(sentence), .mend = "build it for " + profile.name};
+}
+
+Result<Placement> StageState::placement(const Program& program, const PatchOptions& patch) const {
+  if (auto fit = fits(program.description()); !fit) return std::move(fit).error();
+  if (!is_finite(patch.at)) return malformed("at", "the place of a patch must be finite");
+  if (patch.size)
+    if (auto good = check_size(*patch.size); !good) return std::move(good).error();
+  if (auto good = check_layer(patch.layer); !good) return std::move(good).error();
+  return Placement(program, patch.at, patch.size.value_or(program.default_size()), patch.layer);
+}
+
+Result<> StageState::change(PatchName name, const Change& change) {
+  const std::lock_guard lock(mutex);
+  if (auto there = has(name); !there) return there;
+  Placement placement = *table.wanted(name);
+  if (auto done = change(placement); !done) return done;
+  std::vector<PatchTable::Wish> wishes;
+  wishes.emplace_back(name, std::move(placement));
+  want(std::move(wishes));
+  return {};
+}
+
+void StageState::want(std::vector<PatchTable::Wish> wishes) {
+  table.want(std::move(wishes));
+  if (!running) return;
+  news.notify_all();
+  if (table.is_waiting()) work.notify_all();
+}
+
+Result<Bank> StageState::bank(PatchName name) const {
+  std::optional<BankKey> key;
+  {
+    const std::lock_guard lock(mutex);
+    if (auto there = has(name); !there) return std::move(there).error();
+    key = table.wanted(name)->key();
+  }
+  return banks.get(*key)->bank;
+}
+
+Now StageState::now() const noexcept {
+  const TickState state = outlets.state.load();
+  Now now{.time = state.time,
+          .ticks_run = state.ticks_run,
+          .ticks_missed = state.ticks_missed,
+          .lateness = state.lateness,
+          .position = state.position,
+          .velocity = state.velocity,
+          .force = state.force,
+          .inside = state.inside,
+          .revision = state.revision,
+          .guards = state.guards};
+  if (state.inside)
+    now.patch = Patch(std::const_pointer_cast<StageState>(shared_from_this()), state.number, state.generation);
+  return now;
+}
+
+Result<Snapshot> StageState::snapshot(PatchName name) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto patience = std::chrono::milliseconds(200);
+  constexpr auto pause = std::chrono::microseconds(300);
+  const std::lock_guard one_at_a_time(asking);
+  const auto began = Clock::now();
+  for (std::uint32_t seen = 0;;) {
+    PatchTable::Felt felt;
+    {
+      const std::lock_guard lock(mutex);
+      if (auto there = has(name); !there) return std::move(there).error();
+      felt = table.felt(name);
+      const bool untouched = !served || (caller_serves && caller == std::this_thread::get_id()) || !felt.memory ||
+                             (!felt.is_placed && seen >= felt.withdrawn && felt.withdrawn > 0);
+      if (untouched) {
+        const BankKey key = table.wanted(name)->key();
+        const bool same = felt.memory && felt.bank && &felt.memory->program().decoded() == &key.program.decoded();
+        if (same) {
+          Memory copy(key.program);
+          copy.copy_from(*felt.memory, 0, felt.memory->cells().size());
+          return Snapshot{felt.bank->bank, std::move(copy)};
+        }
+        return Snapshot{banks.get(key)->bank, Memory(key.program)};
+      }
+    }
+    MemoryRequest request(name.number, name.generation, felt.memory->program());
+    outlets.desk.ask(request);
+    while (request.outcome.load(std::memory_order_acquire) == MemoryRequest::Outcome::open) {
+      const bool ended = [&] {
+        const std::lock_guard lock(mutex);
+        return !served;
+      }();
+      if ((ended || Clock::now() - began > patience) && outlets.desk.take_back(request)) {
+        if (ended) break;
+        return wrong_moment("the run serves no ticks");
+      }
+      std::this_thread::sleep_for(pause);
+    }
+    if (request.outcome == MemoryRequest::Outcome::copied) return Snapshot{felt.bank->bank, std::move(request.copy)};
+    seen = request.revision;
+    if (Clock::now() - began > patience) return wrong_moment("the run serves no ticks");
+    std::this_thread::sleep_for(pause);
+  }
+}
+
+namespace changes {
+
+StageState::Change set(std::string parameter, float value) {
+  return [parameter = std::move(parameter), value](Placement& patch) -> Result<> {
+    const PatchProgram& program = patch.program.description();
+    const std::optional<std::size_t> index = patch.program.parameter(parameter);
+    if (!index) {
+      std::string names;
+      for (const Parameter& one : program.parameters) names += (names.empty() ? "" : ", ") + one.name;
+      return Error{.code = Code::unknown_name,
+                   .sentence = program.material + " has no parameter " + parameter,
+                   .mend = names.empty() ? "it has no parameters" : "it has " + names,
+                   .place = {.name = parameter}};
+    }
+    const Parameter& range = program.parameters[*index];
+    if (!(value >= range.low && value <= range.high))
+      return malformed(range.name, range.name + " = " + in_its_own_unit(range, value) + " is not in its range " +
+                                       in_its_own_unit(range, range.low) + " .. " + in_its_own_unit(range, range.high));
+    patch.parameters[*index] = value;
+    return {};
+  };
+}
+
+StageState::Change move(glm::vec2 to) {
+  return [to](Placement& patch) -> Result<> {
+    if (!is_finite(to)) return malformed("to", "the position to which a patch is moved must be finite");
+    patch.position = to;
+    return {};
+  };
+}
+
+StageState::Change resize(PatchSize size) {
+  return [size](Placement& patch) -> Result<> {
+    if (auto good = check_size(size); !good) return good;
+    patch.size = size;
+    return {};
+  };
+}
+
+StageState::Change enable(bool enabled) {
+  return [enabled](Placement& patch) -> Result<> {
+    patch.enabled = enabled;
+    return {};
+  };
+}
+
+StageState::Change bring(float layer, PatchTable& orders) {
+  return [layer, &orders](Placement& patch) -> Result<> {
+    if (auto good = check_layer(layer); !good) return good;
+    patch.layer = layer;
+    patch.order = orders.next_order();
+    return {};
+  };
+}
+
+StageState::Change replace(Program program, const StageState& stage) {
+  return [program = std::move(program), &stage](Placement& patch) -> Result<> {
+    if (auto fit = stage.fits(program.description()); !fit) return fit;
+    patch.replace(program);
+    return {};
+  };
+}
+
+}  // namespace changes
+}  // namespace wale
