@@ -26,8 +26,7 @@ DescribedPercept told_by(const Percept& percept, const Map& map, double size, co
                         .magnitude = law.magnitude_of(size),
                         .extracted = true,
                         .alone = false};
-  PerceptRecord record = record_by(map, percept, device, declarations);
-  if (!map.name.empty()) record.map = map.name;
+  const PerceptRecord record = record_by(map, percept, device, declarations);
   tell_evidence(told, record, bank, found, declarations);
   return told;
 }

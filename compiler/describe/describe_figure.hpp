@@ -12,7 +12,12 @@
 namespace wale {
 
 /// A figure with the digits of single precision: 0.6, not 0.60000002384.
-inline double figure(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value; }
+inline double figure(double value) {
+  if (!std::isfinite(value)) return value;
+  return std::stod(fmt::format("{:.6g}", value)) + 0.0;  // -0 becomes 0
+}
+/// A part of a direction, to six digits behind the point: less is rounding.
+inline double direction_figure(double part) { return std::round(part * 1e6) / 1e6 + 0.0; }
 
 /// `value` with so many decimals, and no minus before a number that rounds to zero.
 inline std::string with_decimals(double value, int decimals) {

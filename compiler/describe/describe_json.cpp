@@ -71,15 +71,16 @@ nlohmann::ordered_json to_json(const DescribedTexture& texture) {
   json["mean_newton"] = figure(force.mean);
   json["counts_as"] = texture.counts_as;
   json["period_m"] = figure(force.period);
-  json["orientation_rad"] = figure(force.orientation);
+  json["orientation_rad"] = direction_figure(force.orientation);
   json["anisotropy"] = figure(force.anisotropy);
   json["regularity"] = figure(force.regularity);
   if (const auto& met = texture.encoder_pattern)
-    json["encoder_pattern"] = {{"period_m", figure(met->period)}, {"orientation_rad", figure(met->orientation)}};
+    json["encoder_pattern"] = {{"period_m", figure(met->period)},
+                               {"orientation_rad", direction_figure(met->orientation)}};
   auto& waves = json["waves"] = nlohmann::ordered_json::array();
   for (const ReliefWave& wave : force.waves)
     waves.push_back({{"period_m", figure(wave.period)},
-                     {"orientation_rad", figure(wave.orientation)},
+                     {"orientation_rad", direction_figure(wave.orientation)},
                      {"share", figure(wave.share)}});
   if (force.crest > 0) json["crest"] = figure(force.crest);
   json["steepness_per_m"] = figure(force.steepness);
@@ -205,7 +206,7 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   for (const Description::Directed& each : description.directed)
     json["directed"][each.name] = {{"greatest", figure(each.size.greatest)},
                                    {"across", figure(each.size.across)},
-                                   {"axis", {figure(each.size.axis.x), figure(each.size.axis.y)}},
+                                   {"axis", {direction_figure(each.size.axis.x), direction_figure(each.size.axis.y)}},
                                    {"unit", each.unit}};
   if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
     json["constant_push_newton"] = {figure(push.x), figure(push.y)};
@@ -238,7 +239,7 @@ nlohmann::ordered_json to_json(const Description& description) {
   if (description.texture) json["texture"] = to_json(*description.texture);
   if (const auto& wall = description.wall)
     json["wall"] = {{"at", {figure(wall->face.place.x), figure(wall->face.place.y)}},
-                    {"inward", {figure(wall->face.inward.x), figure(wall->face.inward.y)}},
+                    {"inward", {direction_figure(wall->face.inward.x), direction_figure(wall->face.inward.y)}},
                     {"stiffness", figure(wall->face.stiffness)},
                     {"preload_newton", figure(wall->face.preload)},
                     {"depth_m", figure(wall->depth.depth)},

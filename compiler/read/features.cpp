@@ -22,6 +22,7 @@ constexpr double exactly = 0.015;        // of the mean square, left by features
 constexpr double worth_a_feature = 0.3;  // of what is left
 constexpr double plainly = 0.06;         // of a profile's range: a turn that counts
 constexpr double jump = 0.2;             // of a profile's range, between the second next values
+constexpr double hardly_bent = 0.01;     // of a profile's range: its deviation from a line is rounding
 constexpr int most_turns = 4;            // of a profile; a texture has more
 
 glm::dvec2 outward(glm::dvec2 place, glm::dvec2 origin) {
@@ -110,6 +111,29 @@ int turns_of(const Feature& feature) {
     }
   }
   return turns;
+}
+
+/// Whether a profile turns as often as a texture does, by itself or about its own straight line: so a slow wave on a
+/// strong spring looks, which pushes ever more all the same.
+bool turns_often(const Feature& feature) {
+  if (turns_of(feature) > most_turns) return true;
+  const auto count = static_cast<double>(feature.profile.size());
+  const double middle = 0.5 * (count - 1);
+  glm::dvec2 mean{0}, slope{0}, lowest(HUGE_VAL), highest(-HUGE_VAL);
+  double squares = 0;
+  for (std::size_t i = 0; i < feature.profile.size(); ++i) {
+    const double off = static_cast<double>(i) - middle;
+    mean += feature.profile[i] / count, slope += off * feature.profile[i], squares += off * off;
+    lowest = glm::min(lowest, feature.profile[i]), highest = glm::max(highest, feature.profile[i]);
+  }
+  slope /= std::max(squares, 1.0);
+  Feature bent = feature;
+  glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
+  for (std::size_t i = 0; i < bent.profile.size(); ++i) {
+    bent.profile[i] -= mean + (static_cast<double>(i) - middle) * slope;
+    low = glm::min(low, bent.profile[i]), high = glm::max(high, bent.profile[i]);
+  }
+  return glm::length(high - low) > hardly_bent * glm::length(highest - lowest) && turns_of(bent) > most_turns;
 }
 
 /// The direction, or the origin, about the given one with which a profile explains most.
@@ -278,7 +302,7 @@ std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span
     if (!next) break;
     found.push_back(*next);
     rest = fit_together(found, places, forces, fine_bins);
-    if (!may_turn && turns_of(found.back()) > most_turns) return {};
+    if (!may_turn && turns_often(found.back())) return {};
     left = mean_square(rest);
     if (found.size() > 1) left = turn_together(found, places, forces, left);
   }
@@ -288,7 +312,7 @@ std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span
     const double here = mean_square(fit_together(axes, places, forces, fine_bins));
     if (here < 0.5 * left) left = here, found = std::move(axes);
   }
-  if (left > (1 - nearly_all) * all) return {};
+  if (left > (1 - nearly_all) * all || (!may_turn && std::ranges::any_of(found, turns_often))) return {};
   return found;
 }
 
@@ -308,12 +332,12 @@ void refine_features(std::vector<Feature>& features, std::span<const glm::dvec2>
     }
   }
   fit_together(features, places, forces, finest_bins);
-  const auto turns_often = [](const Feature& each) { return turns_of(each) > most_turns; };
-  if (std::ranges::any_of(features, turns_often)) {
+  const auto turns_often_itself = [](const Feature& each) { return turns_of(each) > most_turns; };
+  if (std::ranges::any_of(features, turns_often_itself)) {
     // A texture along the same direction shows in a fine profile; coarse parts are means over it. What turns often even
     // so is no feature.
     fit_together(features, places, forces, bins_of_means);
-    if (std::erase_if(features, turns_often) > 0) fit_together(features, places, forces, finest_bins);
+    if (std::erase_if(features, turns_often_itself) > 0) fit_together(features, places, forces, finest_bins);
   }
   for (Feature& each : features) {
     const int turns = turns_of(each);

@@ -169,7 +169,7 @@ glm::dvec2 better_fitting(std::span<const glm::dvec2> places, std::span<const gl
 
 LinearForce linear_beside(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
                           std::span<const glm::dvec2> waves) {
-  constexpr std::size_t harmonics = 4;
+  constexpr std::size_t harmonics = harmonics_beside;
   constexpr double metre = 0.05;  // so that all columns are about 1
   const std::size_t columns = 3 + 2 * harmonics * waves.size();
   // The normal equations, with two right sides, which are the last columns: their products by blocks of places.

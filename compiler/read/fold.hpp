@@ -41,7 +41,8 @@ glm::dvec2 better_fitting(std::span<const glm::dvec2> places, std::span<const gl
                           std::size_t bins);
 
 /// The linear part of some forces beside waves of these periods, by least squares of it and their first harmonics
-/// together.
+/// together. No two of these may be the same.
+inline constexpr std::size_t harmonics_beside = 4;
 LinearForce linear_beside(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
                           std::span<const glm::dvec2> waves);
 

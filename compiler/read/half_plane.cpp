@@ -12,9 +12,10 @@
 namespace wale {
 namespace {
 
-constexpr double unexplained = 0.03;    // of what a line leaves, by a face that explains nearly all
-constexpr double of_one_axis = 0.8;     // of what a line leaves: a face pushes along one axis only
-constexpr double least_inside = 0.012;  // of the places
+constexpr double unexplained = 0.03;         // of what a line leaves, by a face that explains nearly all
+constexpr double hardly_unexplained = 2e-3;  // of what a line leaves: no step is hidden in it
+constexpr double of_one_axis = 0.8;          // of what a line leaves: a face pushes along one axis only
+constexpr double least_inside = 0.012;       // of the places
 constexpr std::size_t places_fitted = 6400;
 constexpr int rounds = 4;
 constexpr double turned_enough = 1e-5;   // rad: smaller turns end the rounds
@@ -233,10 +234,15 @@ std::optional<HalfPlane> find_half_plane(std::span<const glm::dvec2> even_places
   const std::vector<glm::dvec2> some_places = thinned(places, places_fitted), some = thinned(forces, places_fitted);
   FaceFit fine = fit_face(coarse.left < HUGE_VAL ? coarse.face.inward : *axis, some_places, some, false);
   const FaceFit with_jump = fit_face(fine.left < HUGE_VAL ? fine.face.inward : *axis, some_places, some, true);
-  if (with_jump.left < worth_a_preload * fine.left && with_jump.face.preload > least_force)
-    fine = with_jump;
-  else if (coarse.left > most_left)
-    return std::nullopt;  // it jumps, as an edge
+  // What jumps otherwise than against a hand that goes in is an edge.
+  if (with_jump.left < worth_a_preload * fine.left) {
+    if (with_jump.face.preload > least_force)
+      fine = with_jump;
+    else if (fine.left > hardly_unexplained * by_line)
+      return std::nullopt;
+  } else if (coarse.left > most_left) {
+    return std::nullopt;
+  }
   if (!(fine.left < HUGE_VAL)) return std::nullopt;
   std::size_t inside = 0;
   double deepest = 0;

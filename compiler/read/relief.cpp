@@ -155,13 +155,14 @@ class ReliefReader {
     if (is_half_plane(places, means, whole_.forces)) return;
     std::vector<Feature> features = find_features(places, means, false);
     if (features.empty()) return;
-    double left = 0, all = 0;
+    double left = 0, all = 0, beside_line = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
       glm::dvec2 rest = means[i];
       for (const Feature& each : features) rest -= each.at(places[i]);
-      left += glm::dot(rest, rest), all += glm::dot(means[i], means[i]);
+      left += glm::dot(rest, rest), all += glm::dot(means[i], means[i]), beside_line += glm::dot(bent[i], bent[i]);
     }
-    if (left > plainly_explained * all) return;
+    // A waveform that is a small part of a strong spring is no bend of the spring.
+    if (left > plainly_explained * all || left > much_better * beside_line) return;
     refine_features(features, whole_.places, whole_.forces);
     if (!std::ranges::all_of(features, &Feature::monotone)) return;
     found_.features = std::move(features);

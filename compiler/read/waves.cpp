@@ -18,6 +18,7 @@ namespace {
 constexpr std::array<double, 3> closer = {4, 16, 96};  // windows are so many times smaller than the patch
 constexpr std::size_t closer_side = 128;
 constexpr std::size_t candidates = 5;
+constexpr std::size_t few_places_a_part = 16;     // ... and until it hardly moves any more
 constexpr std::size_t places_a_part = 48;         // of a period, to move a wave by
 constexpr double least_explained = 0.3;           // of what is left, by a wave ...
 constexpr double least_explained_by_few = 0.7;    // ... and by one with few periods
@@ -302,14 +303,19 @@ class WaveSearch {
       }
   }
 
-  /// Fits the trend and all waves, the last of which is new, in turn: first at some places, then once at all.
+  /// Fits the trend and all waves, the last of which is new, in turn: at few places, at more, then once at all.
   void fit_together(bool slow) {
     const int turns = slow ? 4 : 3;
     std::size_t most = 0;
     for (const FoundWave& each : found_.waves) most = std::max(most, each.wave.profile.size());
-    StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / (places_a_part * most)));
-    some.forces = rest_at(some.places, std::move(some.forces));
+    const auto at_places = [&](std::size_t a_part) {
+      StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / (a_part * most)));
+      some.forces = rest_at(some.places, std::move(some.forces));
+      return some;
+    };
+    StillForces some = at_places(few_places_a_part);
     for (int turn = 0; turn < turns; ++turn) {
+      if (turn + 1 == turns) some = at_places(places_a_part);
       fit_trend(some);
       for (FoundWave& each : found_.waves) {
         const std::size_t bins = each.wave.profile.size();
@@ -318,8 +324,7 @@ class WaveSearch {
         each.wave = folded(some.places, some.forces, waves, bins);
         add_wave(each.wave, -1, some);
       }
-      const double left = mean_square(some.forces);
-      if (left < 1e-5 * all_ || (turn > 0 && !slow && left < negligible * all_)) break;
+      if (!slow && mean_square(some.forces) < negligible * all_) turn = std::max(turn, turns - 2);
     }
     update_rest();
     for (FoundWave& each : found_.waves) {
@@ -350,6 +355,9 @@ class WaveSearch {
     for (const FoundWave& each : found_.waves) {
       if (!is_slow(each.wave.waves)) continue;
       slow.push_back(each.wave.waves);
+      // Beyond the harmonics that are fitted with it.
+      for (const std::size_t part : each.parts)
+        if (part > harmonics_beside) slow.push_back(static_cast<double>(part) * each.wave.waves);
       for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += each.wave.at(rest.places[i]);
     }
     const LinearForce before = found_.trend;

@@ -21,6 +21,30 @@ Composition texture_on_trend(Chance& chance) {
   return made;
 }
 
+/// A strong spring, or one towards a line, on which the waves of a texture are a small part of the force.
+Composition long_wave_on_spring(Chance& chance) {
+  Composition made = any_patch(chance);
+  const double orientation = any_orientation(chance);
+  made.push_wave({sine(), rounded(chance.octaves(3e-3, std::min(made.longest_period(), 0.04)), 4), orientation,
+                  rounded(chance.between(0, 1), 3), rounded(chance.between(0.3, 1.5), 3)});
+  const double stiffness = rounded(chance.between(40, 120), 4);
+  const double angle = std::fmod(orientation + (chance.happens(0.5) ? 0 : pi / 2), pi);
+  if (chance.happens(0.5)) {
+    made.push(fmt::format("spring({} N/m)", number(stiffness)),
+              [=](const Sample& hand) { return -stiffness * hand.position; });
+    made.truth[Cue::stiffness] = valued(stiffness);
+  } else {
+    const glm::dvec2 way{std::cos(angle), std::sin(angle)};
+    made.push(fmt::format("-{} N/m * ({} * x + {} * y) * {}", number(stiffness), number(way.x), number(way.y),
+                          unit_vector(angle)),
+              [=](const Sample& hand) { return -stiffness * glm::dot(way, hand.position) * way; });
+    made.truth[Cue::stiffness] = valued(stiffness), made.truth[Cue::stiffness_across] = valued(0);
+    made.truth[Cue::axis] = valued(angle);
+  }
+  made.truth[Cue::constant] = open;
+  return made;
+}
+
 /// The wall stands at the side; the relief is felt everywhere, and repeats often enough in front of it.
 Composition texture_and_wall(Chance& chance) {
   Composition made = any_patch(chance);
@@ -71,9 +95,13 @@ Composition everything(Chance& chance) {
 }  // namespace
 
 std::vector<Family> mixture_families() {
-  return {{"texture on trend", texture_on_trend},   {"texture and wall", texture_and_wall},
-          {"texture in motion", texture_in_motion}, {"texture in time", texture_in_time},
-          {"spring in motion", spring_in_motion},   {"everything", everything}};
+  return {{"texture on trend", texture_on_trend},
+          {"long wave on spring", long_wave_on_spring},
+          {"texture and wall", texture_and_wall},
+          {"texture in motion", texture_in_motion},
+          {"texture in time", texture_in_time},
+          {"spring in motion", spring_in_motion},
+          {"everything", everything}};
 }
 
 std::vector<Family> families() {

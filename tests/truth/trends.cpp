@@ -70,6 +70,27 @@ Composition edges(Chance& chance) {
   return made;
 }
 
+/// A step beyond which hardly any of the patch is left, along x or y.
+Composition steps_near_the_rim(Chance& chance) {
+  Composition made = any_patch(chance);
+  const bool along_x = chance.happens(0.5);
+  const double half = along_x ? made.half().x : made.half().y;
+  const double size = rounded(chance.octaves(0.3, 4), 3);
+  const double line = rounded((chance.happens(0.5) ? 1 : -1) * half * chance.between(0.6, 0.95), 4);
+  const bool beyond = chance.happens(0.5);
+  const std::string one = fmt::format("{} N", number(size));
+  const std::string step = fmt::format("if {} > {} then {} else {}", along_x ? "x" : "y", millimetres(line),
+                                       beyond ? one : "0 N", beyond ? "0 N" : one);
+  made.push(along_x ? fmt::format("vector({}, 0 N)", step) : fmt::format("vector(0 N, {})", step),
+            [=](const Sample& hand) {
+              const double at = along_x ? hand.position.x : hand.position.y;
+              const double force = (at > line) == beyond ? size : 0;
+              return along_x ? glm::dvec2(force, 0) : glm::dvec2(0, force);
+            });
+  made.truth[Cue::constant] = open;
+  return made;
+}
+
 }  // namespace
 
 void add_spring(Composition& made, Chance& chance, double stiffest) {
@@ -113,9 +134,13 @@ void add_wall(Composition& made, Chance& chance) {
 }
 
 std::vector<Family> trend_families() {
-  return {{"spring", springs}, {"saturated spring", saturated_springs},
-          {"groove", grooves}, {"constant", constants},
-          {"wall", walls},     {"edge", edges}};
+  return {{"spring", springs},
+          {"saturated spring", saturated_springs},
+          {"groove", grooves},
+          {"constant", constants},
+          {"wall", walls},
+          {"edge", edges},
+          {"step near the rim", steps_near_the_rim}};
 }
 
 }  // namespace wale::truth
