@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "compiler/cpp/print_header.hpp"
 #include "compiler/emit/lower.hpp"
 #include "compiler/emit/source_lines.hpp"
 #include "compiler/listing/print_checked.hpp"
-#include "compiler/listing/print_cpp.hpp"
 #include "compiler/listing/print_graph.hpp"
 #include "compiler/listing/print_program.hpp"
 #include "compiler/parse/parse.hpp"
@@ -41,8 +41,8 @@ std::string listing_of(const Program& program) {
 }  // namespace
 
 Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const FileRequest& request,
-                                               const std::string& material, BuildStage stage,
-                                               Diagnostics& diagnostics) {
+                                               const std::string& material, BuildStage stage, Diagnostics& diagnostics,
+                                               const std::vector<std::string>& live) {
   using Text = std::optional<std::string>;
   const bool of_source = stage == BuildStage::tree || stage == BuildStage::checked || stage == BuildStage::ir;
   if (opened.program && of_source)
@@ -57,7 +57,10 @@ Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const F
   if (!of_source) {
     const auto program = opened.program ? opened.program : compile_opened(opened, request, material, diagnostics);
     if (!program) return Text();
-    return Text(stage == BuildStage::listing ? listing_of(*program) : print_cpp(program->description()));
+    if (stage == BuildStage::listing) return Text(listing_of(*program));
+    const auto parts = live_parts(program->description(), live);
+    if (!parts) return parts.error();
+    return Text(print_header(*program, *parts));
   }
   const CheckedModule& module = *opened.module;
   const CheckedMaterial* checked = chosen_material(module, material.empty() ? opened.material : material,

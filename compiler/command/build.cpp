@@ -20,6 +20,7 @@ struct BuildOptions {
   std::string out;    ///< a file, or with `all` a folder
   std::string stage;  ///< stage to show instead of building; empty to build
   bool all = false;
+  std::vector<std::string> live;  ///< of the C++: parameters, `size` or `all`
 };
 
 int build_one(const BuildOptions& options) {
@@ -67,7 +68,7 @@ int show_stage(const BuildOptions& options) {
   auto opened = open(options.choice);
   if (!opened) return opened.status();
   const auto text = build_stage(*opened, options.choice.recording_request(), options.choice.material, known->stage,
-                                opened->diagnostics);
+                                opened->diagnostics, options.live);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   if (!text) return refuse(text.error());
   if (!*text) return refused;
@@ -88,7 +89,8 @@ int build_collection(const BuildOptions& options) {
                         .mend = "leave out --all, or name the Wale file that it was built from",
                         .place = {.name = "--all"}});
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
-  const auto collection = build_all(*opened, options.choice.recording_request(), options.out, *options.choice.inputs);
+  const auto collection = build_all(*opened, options.choice.recording_request(), options.out, *options.choice.inputs,
+                                    options.stage.empty() ? as_patch_program() : as_cpp_header(options.live));
   if (!collection) return refuse(collection.error());
   for (const auto& built : collection->materials) {
     print_diagnostics(stderr, built.diagnostics, opened->sources);
@@ -104,7 +106,18 @@ int build_collection(const BuildOptions& options) {
 }
 
 int build(const BuildOptions& options) {
-  if (!options.stage.empty()) return show_stage(options);
+  const bool as_cpp = options.stage == "cpp";
+  if (!options.live.empty() && !as_cpp)
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = "only C++ has live parts",
+                        .mend = "leave out --live, or add --emit cpp",
+                        .place = {.name = "--live"}});
+  if (options.all && !options.stage.empty() && !as_cpp)
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("with --all only C++ can be written, found `{}`", options.stage),
+                        .mend = "leave out --all, or write --emit cpp",
+                        .place = {.name = "--emit", .text = options.stage}});
+  if (!options.stage.empty() && !options.all) return show_stage(options);
   if (options.out.empty())
     return refuse(
         Error{.code = Code::malformed_value,
@@ -122,14 +135,21 @@ Run declare_build(CLI::App& verb) {
                         "the patch program to write, as in corduroy.wpp; with --all, a folder for them; with --emit, "
                         "the file for the text, which otherwise goes to standard output"),
            "the name of the file or folder to write", "for example, `wale build corduroy -o corduroy.wpp`");
-  verb.add_flag("--all", options->all, "builds every material of the file, each to NAME.wpp in the folder")
+  verb.add_flag("--all", options->all,
+                "builds every material of the file, each to NAME.wpp in the folder; with --emit cpp, to NAME.hpp")
       ->excludes("--material");
   verb.add_option("--emit", options->stage,
                   "writes the output of a stage instead: tree (as parsed), checked, ir (its values), "
-                  "listing (its instructions), cpp (C++)")
-      ->type_name("STAGE")
-      ->excludes("--all");
-  verb.footer("for example: wale build corduroy -o corduroy.wpp;  wale build my.wale --all -o programs");
+                  "listing (its instructions), cpp (a C++17 header for firmware)")
+      ->type_name("STAGE");
+  verb.add_option("--live", options->live,
+                  "with --emit cpp: the parameters that stay adjustable, separated by commas; size: the patch's size; "
+                  "all: everything. The rest is computed when the header is written")
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  verb.footer(
+      "for example: wale build corduroy -o corduroy.wpp;  wale build my.wale --all -o programs;  "
+      "wale build corduroy --emit cpp --live roughness -o corduroy.hpp");
   return [options] { return build(*options); };
 }
 

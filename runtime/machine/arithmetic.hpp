@@ -1,12 +1,9 @@
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <limits>
 
-#if defined(__SSE__)
-#include <xmmintrin.h>
-#endif
+#include "runtime/machine/operations.hpp"
 
 /// The functions that `schema/instruction.def` names in its column of meanings, on 32-bit floats.
 ///
@@ -14,6 +11,10 @@
 /// library, no fused multiply-add, no branch that lanes would have to share. Not-a-number propagates, except through
 /// `limited`. The stated errors hold in the mode that `FloatingPointMode` sets; tests/machine/arithmetic.cpp checks
 /// them.
+///
+/// A product, quotient, sum or difference that may be subnormal, and whose flushing a result could show, is written
+/// with the functions of operations.hpp: `wale build --emit cpp` copies this file into headers for processors that do
+/// not flush. All other intermediate results may be subnormal there, since they are added to far greater ones.
 namespace wale {
 
 namespace arithmetic {
@@ -21,9 +22,6 @@ namespace arithmetic {
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float least_normal = std::numeric_limits<float>::min();
-
-inline std::uint32_t bits_of(float a) { return std::bit_cast<std::uint32_t>(a); }
-inline float float_of(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
 /// Added to a float below 2^22 in size, it leaves the nearest whole number in the low bits of the sum.
 inline constexpr float rounder = 12582912.0f;  // 1.5 * 2^23
@@ -64,13 +62,7 @@ inline float floor_of(float a) {
 }
 
 /// Correctly rounded; not-a-number below zero.
-inline float square_root_of(float a) {
-#if defined(__SSE__)
-  return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(a)));  // __builtin_sqrtf would call sqrtf for errno
-#else
-  return __builtin_sqrtf(a);
-#endif
-}
+inline float square_root_of(float a) { return arithmetic::root(a); }
 
 namespace arithmetic {
 
@@ -163,7 +155,7 @@ inline float normal_of(float a) {
                    1.47756544161f) *
                       v +
                   0.5f;
-  const float tail = exp2_of(size * size * -0.72134752044f) * r;
+  const float tail = arithmetic::product(exp2_of(size * size * -0.72134752044f), r);
   return a > 0.0f ? 1.0f - tail : tail;
 }
 
@@ -185,8 +177,8 @@ inline float arctangent_of(float a, float b) {
   const float y = absolute(a), x = absolute(b);
   const bool steep = y > x;
   const float smaller = steep ? x : y, larger = steep ? y : x;
-  const float quotient = smaller == larger ? 1.0f : smaller / larger;
-  const float t = larger == 0.0f ? smaller : quotient;  // 0 or not-a-number
+  const float ratio = smaller == larger ? 1.0f : quotient(smaller, larger);
+  const float t = larger == 0.0f ? smaller : ratio;  // 0 or not-a-number
   const float z = t * t;
   const float p =
       (((((((2.6222448e-3f * z - 1.5132537e-2f) * z + 4.1121862e-2f) * z - 7.3667063e-2f) * z + 1.0573932e-1f) * z -

@@ -52,12 +52,16 @@ inline GridSample recall_of(const GridShape& shape, const float* cells, float a,
   const float* low = cells + shape.first + std::size_t{row.cell} * shape.columns;
   const float* high = cells + shape.first + std::size_t{row.next} * shape.columns;
   const float f = column.fraction, g = row.fraction;
-  const float below = (1.0f - f) * low[column.cell] + f * low[column.next];
-  const float above = (1.0f - f) * high[column.cell] + f * high[column.next];
-  const float across_below = low[column.next] - low[column.cell];
-  const float across_above = high[column.next] - high[column.cell];
-  return {(1.0f - g) * below + g * above, column.slope * ((1.0f - g) * across_below + g * across_above),
-          row.slope * (above - below)};
+  using namespace arithmetic;
+  const auto between = [](float from, float to, float share) {
+    return sum(product(1.0f - share, from), product(share, to));
+  };
+  const float below = between(low[column.cell], low[column.next], f);
+  const float above = between(high[column.cell], high[column.next], f);
+  const float across_below = difference(low[column.next], low[column.cell]);
+  const float across_above = difference(high[column.next], high[column.cell]);
+  return {between(below, above, g), column.slope * between(across_below, across_above, g),
+          row.slope * difference(above, below)};
 }
 
 /// The index, among all cells of the program, of this grid's cell nearest to (a, b).

@@ -40,7 +40,7 @@ float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<
     const std::size_t count = std::min<std::size_t>(lanes, peak.points - first);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const float v = block.value(value, lane, registers.data());
-      values[first + lane] = std::isfinite(v) ? v : 0.0f;
+      values[first + lane] = std::isfinite(v) ? v + 0.0f : 0.0f;  // -0 counts as 0
     }
   }
   const auto rank = static_cast<std::uint32_t>(std::ceil(peak.percentile * static_cast<float>(peak.points)));

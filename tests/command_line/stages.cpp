@@ -44,10 +44,44 @@ TEST(Emit, UnknownStagesAndConflictingOptionsAreMisuse) {
   EXPECT_EQ(unknown.status, 2);
   for (const char* stage : {"tree", "checked", "ir", "listing", "cpp"})
     EXPECT_TRUE(contains(unknown.err, stage)) << stage;
-  EXPECT_EQ(wale({"build", corduroy, "--emit", "cpp", "--all", "-o", "out"}).status, 2);
+  for (const auto& [words, said] : {std::pair{std::vector<std::string>{"--emit", "listing", "--all", "-o", "out"},
+                                              "with --all only C++ can be written"},
+                                    {{"--live", "all", "-o", "out.hpp"}, "only C++ has live parts"},
+                                    {{"--live", "all", "--emit", "ir"}, "only C++ has live parts"},
+                                    {{"--live", "roghness", "--emit", "cpp"}, "did you mean `roughness`?"},
+                                    {{"--live", "wale,nothing like it", "--emit", "cpp"}, "expected one of"}}) {
+    std::vector<std::string> all{"build", corduroy};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome misused = wale(all);
+    EXPECT_EQ(misused.status, 2) << testing::PrintToString(words);
+    EXPECT_EQ(misused.out, "");
+    EXPECT_TRUE(contains(misused.err, said)) << misused.err;
+  }
   const Outcome neither = wale({"build", corduroy});
   EXPECT_EQ(neither.status, 2);
   EXPECT_TRUE(contains(neither.err, "expected the name of the file to write")) << neither.err;
+}
+
+TEST(Emit, WritesAHeaderForEachMaterial) {
+  const TemporaryFolder folder;
+  const Outcome one = wale({"build", corduroy, "--all", "--emit", "cpp", "--live", "wale", "-o", folder / "one"});
+  EXPECT_EQ(one.status, 0) << one.err;
+  EXPECT_EQ(bytes_of(folder / "one/corduroy.hpp"), wale({"build", corduroy, "--emit", "cpp", "--live", "wale"}).out);
+  EXPECT_TRUE(contains(one.out, "corduroy.hpp")) << one.out;
+}
+
+TEST(Emit, KeepsLivePartsAdjustable) {
+  const std::string folded = wale({"build", corduroy, "--emit", "cpp"}).out;
+  EXPECT_FALSE(contains(folded, "Setup"));
+  EXPECT_FALSE(contains(folded, "struct Parameters"));
+  const std::string live = wale({"build", corduroy, "--emit", "cpp", "--live", "roughness"}).out;
+  EXPECT_TRUE(contains(live, "float roughness = 0.6f;"));
+  EXPECT_FALSE(contains(live, "float wale = "));
+  EXPECT_TRUE(contains(live, "inline constexpr float half_width"));
+  const std::string all = wale({"build", corduroy, "--emit", "cpp", "--live", "all"}).out;
+  EXPECT_TRUE(contains(all, "float wale = 0.0025f;"));
+  EXPECT_TRUE(contains(all, "struct Patch {"));
+  EXPECT_TRUE(contains(all, "stack while setup runs"));
 }
 
 TEST(Emit, StopsAtTheFirstStageWithErrors) {

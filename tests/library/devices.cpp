@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "compiler/describe/describe.hpp"
-#include "compiler/listing/print_cpp.hpp"
+#include "compiler/cpp/print_header.hpp"
 #include "compiler/listing/print_program.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "tests/library/shelf.hpp"
@@ -73,7 +73,7 @@ TEST_P(EveryDevice, BuildsEachMaterialOrSaysWhyNot) {
       EXPECT_TRUE(described.shaking);
       EXPECT_FALSE(description_text(described).empty());
       EXPECT_FALSE(descriptions_json({described}).empty());
-      EXPECT_FALSE(print_cpp(description).empty());
+      EXPECT_FALSE(print_header(*program, {}).empty());
       EXPECT_FALSE(print_program(description).empty());
     }
   }

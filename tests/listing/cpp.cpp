@@ -1,4 +1,5 @@
-// Programs that are printed as C++ and compiled give the bits of the machine: forces, states and grids, tick by tick.
+// Programs that are printed as C++ headers and compiled give the bits of the machine: forces, states and grids, tick by
+// tick, whether the processor flushes subnormal numbers or not, with everything live and with everything folded.
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -7,13 +8,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <sstream>
 
-#include "compiler/listing/print_cpp.hpp"
+#include "compiler/cpp/print_header.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
-#include "tests/listing/opening.hpp"
-#include "tests/machine/random_program.hpp"
+#include "tests/listing/subjects.hpp"
 #include "tests/temporary_folder.hpp"
 #include "wale/memory.hpp"
 
@@ -23,71 +24,32 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int ticks_each = 200;
-constexpr unsigned random_programs = 50;
 constexpr std::size_t hand_members = 14;
 
-/// A program; its C++ has a namespace of its own, such as `wale_patch_m12`.
-struct Subject {
-  std::string what;
-  Program program;
-};
-
-/// All materials of the library, a few of each file of library/sandpaper, and random programs.
-std::vector<Subject> subjects() {
-  std::vector<Subject> subjects;
-  const auto add = [&](std::string what, PatchProgram program) {
-    program.material = "m" + std::to_string(subjects.size());
-    auto loaded = Program::load(std::move(program));
-    if (!loaded) throw std::runtime_error(what + ": " + in_words(loaded.error()));
-    subjects.push_back({std::move(what), *loaded});
-  };
-  const auto add_file = [&](const std::string& path, std::size_t most) {
-    const File file(path);
-    for (const auto& material : materials_of(file.opened))
-      if (most-- > 0)
-        add(path + " " + material, file.program(material).description());
-      else
-        break;
-  };
-  for (const auto& path : shipped_files()) add_file(path, 100);
-  for (const char* stimuli :
-       {"chapter4", "chapter5", "textures_version2", "perlin", "jitter", "fractal", "triangle_wave"})
-    add_file((library / "sandpaper" / (std::string(stimuli) + ".wale")).string(), 2);
-  for (const char* stimuli : {"dynamics", "prototypes"})
-    add_file((library / "sandpaper" / (std::string(stimuli) + ".wale")).string(), 100);
-  for (unsigned seed = 0; seed < random_programs; ++seed) {
-    PatchProgram program = example::RandomProgram(seed).make();
-    if (seed % 2 == 0) {  // subnormal constants and bounds
-      for (std::size_t i = 7; i < program.constants.size(); i += 2) program.constants[i] *= 1e-42f;
-      program.parameters[1].low = 1e-40f;
-      program.states[0].high = program.grids[1].high = 1e-41f;
-      program.states[3].high = -1e-41f;
-      program.grids[1].low = program.grids[1].initial = -1e-42f;
-    }
-    add("random " + std::to_string(seed), std::move(program));
-  }
-  return subjects;
-}
+/// Whether the processor flushes subnormal numbers while the C++ runs.
+enum class Mode { of_the_machine, of_ieee };
 
 /// The C++ function that converts rows of floats to the program's structures, runs it, and converts back.
-std::string driver(const std::string& name, const PatchProgram& program) {
+std::string driver(const std::string& name, const PatchProgram& program, bool live) {
   std::ostringstream text;
   const std::size_t parameters = program.parameters.size(), states = program.states.size();
+  const char* bank = live ? "bank, " : "";
   text << "extern \"C\" void run_" << name
        << "(const float* parameters, const float* hands, int ticks, float* forces, float* states, float* cells) {\n"
-       << "  using namespace wale_patch_" << name << ";\n"
-       << "  Parameters asked;\n";
-  if (parameters > 0) text << "  std::memcpy(static_cast<void*>(&asked), parameters, sizeof asked);\n";
-  text << "  const Setup bank = setup(asked, Patch{});\n"
-       << "  const auto hand = [&](int i) {\n"
+       << "  using namespace wale_patch_" << name << ";\n";
+  if (live) text << "  Parameters asked;\n";
+  if (live && parameters > 0) text << "  std::memcpy(static_cast<void*>(&asked), parameters, sizeof asked);\n";
+  if (live) text << "  const Setup bank = setup(asked, Patch{});\n";
+  text << "  const auto hand = [&](int i) {\n"
        << "    Hand hand;\n"
        << "    std::memcpy(static_cast<void*>(&hand), hands + " << hand_members << " * i, sizeof hand);\n"
        << "    return within_envelope(hand);\n"
        << "  };\n"
-       << "  State state = enter(bank, hand(0));\n";
+       << "  State state = enter(" << bank << "hand(0));\n";
   if (!program.grids.empty()) text << "  const auto grids = std::make_unique<Cells>();\n";
   text << "  for (int i = 0; i < ticks; ++i) {\n"
-       << "    const Force force = tick(bank, state, " << (program.grids.empty() ? "" : "*grids, ") << "hand(i));\n"
+       << "    const Force force = tick(" << bank << "state, " << (program.grids.empty() ? "" : "*grids, ")
+       << "hand(i));\n"
        << "    forces[2 * i] = force.x, forces[2 * i + 1] = force.y;\n"
        << "    float all[" << 2 * states + 1 << "];\n"
        << "    std::memcpy(all, &state, " << 2 * states << " * sizeof(float));\n"
@@ -100,9 +62,10 @@ std::string driver(const std::string& name, const PatchProgram& program) {
 
 using RunProgram = void (*)(const float*, const float*, int, float*, float*, float*);
 
-[[gnu::noinline]] void run_in_mode(RunProgram run, const float* parameters, const float* hands, float* forces,
-                                   float* states, float* cells) {
-  const FloatingPointMode mode;
+[[gnu::noinline]] void run_in_mode(Mode mode, RunProgram run, const float* parameters, const float* hands,
+                                   float* forces, float* states, float* cells) {
+  std::optional<FloatingPointMode> flushing;
+  if (mode == Mode::of_the_machine) flushing.emplace();
   run(parameters, hands, ticks_each, forces, states, cells);
 }
 
@@ -151,10 +114,10 @@ std::vector<float> rows_of(const std::vector<Hand>& hands) {
   return rows;
 }
 
-void compare(const Subject& subject, RunProgram run, std::mt19937& random) {
+void compare(const Subject& subject, RunProgram run, bool live, Mode mode, std::mt19937& random) {
   const PatchProgram& description = subject.program.description();
   std::vector<float> parameters = subject.program.default_parameters();
-  for (int variant = 0; variant < 2; ++variant) {
+  for (int variant = 0; variant < (live ? 2 : 1); ++variant) {
     const std::vector<Hand> hands = walk(random);
     Bank bank(subject.program, parameters, subject.program.default_size());
     Memory memory(subject.program);
@@ -167,7 +130,7 @@ void compare(const Subject& subject, RunProgram run, std::mt19937& random) {
     }
     std::vector<float> cpp_forces(forces.size()), cpp_states(states.size() + 1), cpp_cells(memory.cells().size() + 1);
     const std::vector<float> rows = rows_of(hands);
-    run_in_mode(run, parameters.data(), rows.data(), cpp_forces.data(), cpp_states.data(), cpp_cells.data());
+    run_in_mode(mode, run, parameters.data(), rows.data(), cpp_forces.data(), cpp_states.data(), cpp_cells.data());
     cpp_states.pop_back();
     cpp_cells.pop_back();
     ASSERT_EQ(first_difference(cpp_forces, forces), "") << subject.what << ", forces";
@@ -184,6 +147,27 @@ void compare(const Subject& subject, RunProgram run, std::mt19937& random) {
   }
 }
 
+/// The header of a subject; a folded one has another name, so that it can stand beside the live one.
+std::string header_of(const Subject& subject, bool live) {
+  if (live) {
+    LiveParts all;
+    all.parameters.assign(subject.program.description().parameters.size(), true);
+    all.size = true;
+    return print_header(subject.program, all);
+  }
+  PatchProgram folded = subject.program.description();
+  folded.material = "f" + folded.material;
+  return print_header(*Program::load(std::move(folded)), {});
+}
+
+/// The option for instructions that multiply and add at once, if this processor has them.
+std::string fused() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("fma")) return " -mfma";
+#endif
+  return "";
+}
+
 /// All subjects, compiled by one call of `compiler`, against the machine.
 void compare_all(const std::string& compiler) {
   const TemporaryFolder folder;
@@ -192,33 +176,40 @@ void compare_all(const std::string& compiler) {
   {
     std::ofstream file(source);
     std::string drivers;
-    for (const Subject& subject : all) {
-      file << print_cpp(subject.program.description()) << "\n";
-      drivers += driver(subject.program.description().material, subject.program.description());
-    }
+    for (const Subject& subject : all)
+      for (const bool live : {true, false}) {
+        const PatchProgram& description = subject.program.description();
+        file << header_of(subject, live) << "\n";
+        drivers += driver((live ? "" : "f") + description.material, description, live);
+      }
     file << "#include <cstring>\n#include <memory>\n\n" << drivers;
   }
   if (const char* kept = std::getenv("WALE_KEEP_CPP"))
     fs::copy_file(source, kept, fs::copy_options::overwrite_existing);
-  // The compiler gets no include path of this project. WALE_CPP_FLAGS="-O3 -march=x86-64-v3" in the environment shows
-  // in a few minutes that optimisation changes no bit.
+  // The compiler gets no include path of this project, and may use instructions that multiply and add at once.
+  // WALE_CPP_FLAGS="-O3" in the environment shows in a few minutes that optimisation changes no bit.
   const char* flags = std::getenv("WALE_CPP_FLAGS");
-  const std::string command = compiler + " -std=c++20 " + (flags ? flags : "-O1") +
-                              " -Wall -Wextra -Werror -ffp-contract=off -fPIC -shared -o " + object + " " + source +
-                              " 2>" + (folder / "errors");
+  const std::string command = compiler + " -std=c++17 " + (flags ? flags : "-O1") + fused() +
+                              " -fno-exceptions -fno-rtti -Wall -Wextra -Werror -fPIC -shared -o " + object + " " +
+                              source + " 2>" + (folder / "errors");
   const int status = std::system(command.c_str());
   std::ifstream errors(folder / "errors");
   ASSERT_EQ(status, 0) << std::string{std::istreambuf_iterator<char>(errors), {}}.substr(0, 4000);
   void* library = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
   ASSERT_NE(library, nullptr) << dlerror();
   std::mt19937 random(1995);
-  for (const Subject& subject : all) {
-    const auto run =
-        reinterpret_cast<RunProgram>(dlsym(library, ("run_" + subject.program.description().material).c_str()));
-    ASSERT_NE(run, nullptr);
-    compare(subject, run, random);
-    if (testing::Test::HasFatalFailure()) break;
-  }
+  for (const Subject& subject : all)
+    for (const bool live : {true, false})
+      for (const Mode mode : {Mode::of_the_machine, Mode::of_ieee}) {
+        const std::string name = (live ? "run_" : "run_f") + subject.program.description().material;
+        const auto run = reinterpret_cast<RunProgram>(dlsym(library, name.c_str()));
+        ASSERT_NE(run, nullptr);
+        compare(subject, run, live, mode, random);
+        if (testing::Test::HasFatalFailure()) {
+          ADD_FAILURE() << name << (mode == Mode::of_ieee ? " with" : " without") << " subnormal numbers";
+          return;
+        }
+      }
   dlclose(library);
   testing::Test::RecordProperty("programs", std::to_string(all.size()));
 }

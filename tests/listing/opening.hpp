@@ -24,7 +24,8 @@ struct File {
   FileRequest request;
   OpenedFile opened;
 
-  explicit File(const std::string& path) : request{.file = path, .roots = {}}, opened(*open_file(request)) {
+  explicit File(const std::string& path, const std::string& device = default_device)
+      : request{.file = path, .device = device, .roots = {}}, opened(*open_file(request)) {
     if (opened.diagnostics.has_errors()) throw std::runtime_error(complaints(opened.diagnostics, opened.sources));
   }
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compiler/listing/cpp_names.hpp"
+#include "compiler/cpp/cpp_names.hpp"
 #include "compiler/listing/figures.hpp"
 #include "compiler/listing/print_program.hpp"
 #include "tests/listing/opening.hpp"

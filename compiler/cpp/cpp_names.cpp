@@ -1,4 +1,4 @@
-#include "compiler/listing/cpp_names.hpp"
+#include "compiler/cpp/cpp_names.hpp"
 
 #include <algorithm>
 
