@@ -338,14 +338,15 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
     const auto is_fine = [](const Diagnostic& each) { return each.code == Code::under_resolution; };
     const bool fine = std::ranges::any_of(diagnostics.all(), is_fine);
     // A period that was given as one is compared with device and patch already.
-    if ((doubted() || !warn_of_cycles(*material, solved.device, diagnostics)) &&
-        !warn_of_no_number(*material, solved.device, diagnostics)) {
+    const bool far = !doubted() && warn_of_cycles(*material, solved.device, diagnostics);
+    const bool partly = !far && warn_of_no_number(*material, solved.device, diagnostics);
+    if (!far && !partly) {
       if (!fine) warn_of_jumps(solved, *material, diagnostics);
       warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
       warn_of_no_force(bank, *material, solved, measured, diagnostics);
     }
     if (!fine) warn_of_fast_rates(bank, solved, diagnostics);
-    warn_of_undeclared_energy(bank, solved, hand, diagnostics);
+    if (!partly) warn_of_undeclared_energy(bank, solved, hand, diagnostics);
   }
   warn_of_a_device_that_gives_less(solved, diagnostics);
   if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), doubted(), diagnostics)) {

@@ -195,10 +195,10 @@ class AngleReader {
   std::vector<CheckedAngle> turning_;
 };
 
-/// Warns of a value outside the range that a function states for it.
-void check_usual(const CheckedUsual& usual, const CheckedMaterial& material, const Surroundings& surroundings) {
+/// Warns of a value outside the range that a function states for it. Whether it warned.
+bool check_usual(const CheckedUsual& usual, const CheckedMaterial& material, const Surroundings& surroundings) {
   const auto value = constant_value(material.terms, usual.value, &material.parameters);
-  if (!value || (*value >= usual.low && *value <= usual.high)) return;
+  if (!value || (*value >= usual.low && *value <= usual.high)) return false;
   const std::string unit = surroundings.declarations.names().unit(usual.dimension);
   const std::string suffix = unit.empty() ? "" : " " + unit;
   const Span literal = material.terms[usual.value].span;
@@ -215,7 +215,7 @@ void check_usual(const CheckedUsual& usual, const CheckedMaterial& material, con
             .about(Code::beyond_soft_range, span,
                    readable("`{}` is {}{}, and it is usually {:.6g}{} or more", usual.name, bare, suffix, usual.low,
                             suffix)));
-    return;
+    return true;
   }
   surroundings.diagnostics.report(
       Advice(in_percent ? fmt::format("percentages have their sign: write `{} %`", bare)
@@ -227,6 +227,7 @@ void check_usual(const CheckedUsual& usual, const CheckedMaterial& material, con
           .about(Code::beyond_soft_range, span,
                  readable("`{}` is {}{}, outside its usual range, {:.6g} .. {:.6g}{}", usual.name, bare, suffix,
                           usual.low, usual.high, suffix)));
+  return true;
 }
 
 }  // namespace
@@ -237,7 +238,8 @@ std::vector<CheckedAngle> check_usage(const CheckedMaterial& material, const Cal
   for (const CheckedAngle& each : record.angles) angles.read(each);
   std::set<std::pair<SourceId, std::uint32_t>> said;
   for (const CheckedUsual& each : record.usual)
-    if (said.emplace(each.span.source, each.span.begin).second) check_usual(each, material, surroundings);
+    if (!said.contains({each.span.source, each.span.begin}) && check_usual(each, material, surroundings))
+      said.emplace(each.span.source, each.span.begin);
   return angles.turning();
 }
 

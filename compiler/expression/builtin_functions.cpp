@@ -263,6 +263,12 @@ Value hold(const BuiltinCall& call) {
   if (!call.number(1)) return call.failed();
   if (call.value(0).dimension != call.value(1).dimension) return call.mismatched(1, 0);
   if (call.value(0).type != Value::Type::number && !call.is_vector(0)) return call.failed();
+  call.reading.record.usual.push_back({.name = "ceiling",
+                                       .value = call.value(1).x,
+                                       .low = 0,
+                                       .high = std::numeric_limits<double>::infinity(),
+                                       .dimension = call.value(1).dimension,
+                                       .span = call.reading.calls.blame(call.actuals[1].span)});
   return held(call.terms(), call.value(0), call.value(1).x, call.span);
 }
 

@@ -14,7 +14,7 @@ std::string codes(const std::string& height) {
       "export function rows(where: position, step: wavelength, pick: choice = 0) =\n"
       "  sin(2 pi * where / step) + 0.1 * noise(where / step, pick)\n"
       "export function plain(along: length, period: length, seed = 0) =\n"
-      "  sin(2 pi * along / period) + 0.1 * mix(lattice(along / period, seed), 0, 0.5)\n"
+      "  abs(fract(along / period) - 0.5) + 0.1 * mix(lattice(along / period, seed), 0, 0.5)\n"
       "material m { physical { force = lateral(" +
       height + ", amplitude: 1 N) } }\n");
   declared.program("m");
@@ -28,6 +28,9 @@ TEST(Uses, FollowFromTheDimensionAndNotFromTheName) {
   EXPECT_EQ(codes("rows(5 mm, 1 mm + abs(x))"), "W0313");
   EXPECT_EQ(codes("rows(x, 3 mm, x / 1 mm)"), "W0313");
   EXPECT_EQ(codes("plain(x, 0.1 mm)"), "");
+  // A sine says of itself what its period is.
+  EXPECT_EQ(codes("sin(2 pi * x / 0.1 mm)"), "W0309");
+  EXPECT_EQ(codes("sin(2 pi * x / 0.12 mm)"), "");
 }
 
 TEST(Uses, AFrequencyHasTwoTicksAPeriodAtLeast) {
