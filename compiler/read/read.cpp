@@ -10,6 +10,7 @@
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/read/breakaway.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/room.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "runtime/machine/parallel.hpp"
 
@@ -112,6 +113,8 @@ glm::dvec2 only_at_first(const Bank& bank, const std::vector<std::vector<Force>>
   constexpr double creeping = 1e-3;  // m/s
   std::array<Hand, 9> hands{};
   std::array<Force, 9> forces{};
+  const glm::vec2 place(Room(bank).nearest({}));
+  for (Hand& hand : hands) hand.position = hand.workspace = place;
   // Along no axis, so that none of the signs is that of a rest.
   for (std::size_t i = 1; i < hands.size(); ++i) {
     const double angle = (static_cast<double>(i) + 0.5) * std::numbers::pi / 4;

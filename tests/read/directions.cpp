@@ -42,6 +42,17 @@ TEST(ReadingDirections, AWallThatTheDeviceCutsOffIsThatWall) {
   EXPECT_NEAR(pushing.wall->preload, 2, 0.05);
 }
 
+/// A wall that fills most of the patch takes all that the device gives; what resists shows in front of it.
+TEST(ReadingDirections, AWallAtTheDevicesLimitHidesNoResistance) {
+  for (const std::string wall : {"firm(910 N/m, face: -40 mm)", "-1800 N/m * (hand - vector(-46 mm, -51 mm))"}) {
+    const ForceReading rubbing = found_in("force = " + wall + " + sticky(0.3 N)");
+    EXPECT_NEAR(rubbing.opposing.friction, 0.3, 0.006) << wall;
+    EXPECT_FALSE(rubbing.opposing.frictions().directed()) << wall;
+    EXPECT_NEAR(found_in("force = " + wall + " - 2 N s/m * velocity").opposing.damping, 2, 0.02) << wall;
+    EXPECT_NEAR(found_in("force = " + wall + " - 0.2 kg * acceleration").inertia.greatest, 0.2, 0.002) << wall;
+  }
+}
+
 TEST(ReadingDirections, ASpringThatRestsElsewhereIsASpringAndAPush) {
   const ForceReading found = found_in("force = spring(100 N/m, rest: vector(40 mm, 0 mm))");
   EXPECT_NEAR(found.stiffness, 100, 1);
