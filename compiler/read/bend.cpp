@@ -9,7 +9,7 @@ constexpr double least_beyond = 0.012;  // of the places, on either side of a be
 
 }  // namespace
 
-Bend best_bend(std::vector<PlaceOnLine> line, BendKind kind) {
+Bend best_bend(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every) {
   std::ranges::sort(line, {}, &PlaceOnLine::at);
   // Centred and in units of the line's length, so that the sums are well conditioned.
   const double low = line.front().at, length = line.back().at - low;
@@ -27,7 +27,7 @@ Bend best_bend(std::vector<PlaceOnLine> line, BendKind kind) {
   for (std::size_t i = 0; i + margin < line.size(); ++i) {
     const double u = line[i].at, value = line[i].value;
     n -= 1, v1 -= u, v2 -= u * u, t1 -= value, vt -= u * value;
-    if (i < margin) continue;
+    if (i < margin || i % every != 0) continue;
     const double d = u, h1 = v1 - n * d, h2 = v2 - 2 * d * v1 + n * d * d, hu = v2 - d * v1, hs = vt - d * t1;
     std::array<double, 4> found{};
     if (kind == BendKind::bends_and_jumps) {

@@ -42,7 +42,7 @@ struct PlaceOnLine {
 enum class BendKind { bends, jumps, bends_and_jumps };
 
 /// The best bend of all: least squares of a line, the depth behind the bend and a jump there, for each place of the
-/// bend.
-Bend best_bend(std::vector<PlaceOnLine> line, BendKind kind);
+/// bend, or each `every`-th.
+Bend best_bend(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every = 1);
 
 }  // namespace wale

@@ -21,7 +21,6 @@ constexpr std::size_t places_fitted = 6400;
 constexpr int rounds = 4;
 constexpr double turned_enough = 1e-5;   // rad: smaller turns end the rounds
 constexpr double worth_a_preload = 0.3;  // of what a face without a preload leaves, at most
-constexpr std::size_t profile_places = 1024;
 
 /// A face, the even force beside it, and the mean square that both leave, N^2.
 struct FaceFit {
@@ -188,26 +187,6 @@ std::optional<HalfPlane> find_half_plane(std::span<const glm::dvec2> even_places
   const double rise = fine.face.stiffness * deepest;
   if (fine.face.stiffness < least_stiffness || rise < 0.02 || std::abs(fine.face.preload) > rise) return std::nullopt;
   return fine.face;
-}
-
-Feature feature_of(const HalfPlane& face, std::span<const glm::dvec2> places) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const glm::dvec2& place : places) {
-    const double at = glm::dot(place, face.inward);
-    low = std::min(low, at), high = std::max(high, at);
-  }
-  Feature feature{.direction = face.inward};
-  feature.step = (high - low) / static_cast<double>(profile_places);
-  // One of the profile's places is where the face begins.
-  const auto before = static_cast<std::size_t>(std::max(1.0, std::ceil((face.offset - low) / feature.step)));
-  feature.low = face.offset - static_cast<double>(before) * feature.step;
-  for (std::size_t i = 0; feature.low + feature.step * (static_cast<double>(i) - 1) < high || i < before + 2; ++i) {
-    const double depth = feature.step * (static_cast<double>(i) - static_cast<double>(before));
-    feature.profile.push_back(i <= before ? glm::dvec2(0) : -(face.preload + face.stiffness * depth) * face.inward);
-  }
-  feature.range = glm::length(feature.profile.back());
-  feature.monotone = true;
-  return feature;
 }
 
 }  // namespace wale
