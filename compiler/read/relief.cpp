@@ -204,7 +204,8 @@ class ReliefReader {
     // A strong spring hides no step: beside it a line and the waves leave all of that.
     std::vector<glm::dvec2> beyond = whole_.forces;
     for (std::size_t i = 0; i < beyond.size(); ++i) beyond[i] -= waves_.trend.at(whole_.places[i]);
-    if (left > little * mean_square(beyond) && are_obstacles(forces)) {
+    const bool even = mean_square(cell_means(whole_.side, waves_.rest)) > 0.5 * left;
+    if (even && left > little * mean_square(beyond) && are_obstacles(forces)) {
       waves_ = find_waves(field_, whole_, found_.features);
       if (waves_.waves.empty() || waves_.local) return;
       refine(found_.features);
