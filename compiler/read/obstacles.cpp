@@ -15,7 +15,7 @@ namespace wale {
 namespace {
 
 constexpr std::size_t most_obstacles = 5;
-constexpr int ways_tried = 18;              // in half a turn
+constexpr int ways_tried = 12;              // in half a turn
 constexpr double worth_an_obstacle = 0.07;  // of what is left, at least, explained by one more
 constexpr double all_explained = 3e-4;      // of what a line leaves: nothing more is looked for
 constexpr double left_unexplained = 4e-3;   // of what a line leaves, by obstacles that explain it, beside noise ...
@@ -268,10 +268,11 @@ class ObstacleSearch {
     for (std::size_t number = 0; number < most && left > all_explained * by_line_; ++number) {
       ObstacleFit more = fit;
       const double here = add(more, kinds, left);
-      if (!(here < (1 - worth_an_obstacle) * left)) break;
+      if (!(here < (1 - worth_an_obstacle) * left) || (number >= 2 && here > 0.5 * by_line_)) break;
       fit = std::move(more), left = here;
     }
-    if (fit.found.walls.size() + fit.found.steps.size() > 1 && left > all_explained * by_line_)
+    if (fit.found.walls.size() + fit.found.steps.size() > 1 && left > all_explained * by_line_ &&
+        left < 0.15 * by_line_)
       left = seat_anew(fit, kinds, left);
     if (fit.found.empty() || left > far_from_all * by_line_) return std::nullopt;
     return accepted(std::move(fit));
