@@ -39,6 +39,9 @@ constexpr std::size_t every_bend = 6;        // that is tried, before it is fitt
 constexpr double first_width = 1.5e-3;       // m: of a step, before it is fitted
 constexpr double first_period_share = 0.25;  // of half the patch: between the centres that are tried for round walls
 constexpr int centres_aside = 2;
+constexpr std::size_t blocks = 8;  // along each side, in which a force without a bend is a plane
+constexpr double times_left = 3;   // what obstacles may leave, in a block: about a round wall no force is a plane
+constexpr double blocks_with_bends = 0.6;  // at most
 
 /// N^2: the part of a mean square that changes from one of these means to the next, as a texture's.
 double noise_of(std::span<const glm::dvec2> even) {
@@ -249,6 +252,27 @@ class ObstacleSearch {
     by_line_ = mean_square(rest_of(line_));
   }
 
+  /// Whether the forces are even between bends, as those of walls and steps are. Nearly all slow reliefs are not, and
+  /// are left at once.
+  bool is_even_between_bends() const {
+    const std::size_t side = whole_.side / blocks;
+    std::vector<glm::dvec2> places(side * side), forces(side * side);
+    std::size_t uneven = 0;
+    for (std::size_t block = 0; block < blocks * blocks; ++block) {
+      const std::size_t top = block / blocks * side, left = block % blocks * side;
+      for (std::size_t i = 0; i < forces.size(); ++i) {
+        const std::size_t at = (top + i / side) * whole_.side + left + i % side;
+        places[i] = whole_.places[at], forces[i] = forces_[at];
+      }
+      const LinearForce plane = linear_force(places, forces);
+      for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= plane.at(places[i]);
+      const double even = mean_square(cell_means(side, forces)), within = (mean_square(forces) - even) / places_a_mean;
+      const double noise = std::min(coarser_noise * within, most_noise * by_line_);
+      uneven += even > times_left * left_unexplained * by_line_ + times_noise * noise;
+    }
+    return static_cast<double>(uneven) <= blocks_with_bends * blocks * blocks;
+  }
+
   bool is_bent() const { return by_line_ >= least_force * least_force; }
   double by_line() const { return by_line_; }
 
@@ -350,7 +374,7 @@ class ObstacleSearch {
 
 std::optional<Obstacles> find_obstacles(const StillForces& whole, std::span<const glm::dvec2> forces) {
   const ObstacleSearch search(whole, forces);
-  if (!search.is_bent()) return std::nullopt;
+  if (!search.is_bent() || !search.is_even_between_bends()) return std::nullopt;
   const auto face =
       find_half_plane(cell_means(whole.side, whole.places), cell_means(whole.side, forces), whole.places, forces);
   if (face && search.explained_by({{wall_of(*face)}, {}})) return Obstacles{{wall_of(*face)}, {}};
