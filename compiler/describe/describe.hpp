@@ -96,6 +96,8 @@ struct Description {
     Principal size;
   };
   std::vector<Directed> directed;
+  Swing sway;                ///< slower than 10 Hz, which no percept tells; of amplitude 0 if there is none
+  double small_feature = 0;  ///< N: the largest force of what fills less than a hundredth of the patch
   glm::dvec2 constant_push{0};       ///< N: everywhere alike
   OtherForce other;                  ///< what no cue explains
   double aside = 0;                  ///< N: on a hand at 0.2 m/s, square to its way

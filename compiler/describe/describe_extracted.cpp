@@ -125,8 +125,16 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
                                        {"friction", "N", found.opposing.frictions()},
                                        {"mass", "kg", found.inertia}};
   constexpr double leasts[] = {least_stiffness, least_damping, least_force, least_mass};
-  for (std::size_t i = 0; i < std::size(all); ++i)
-    if (all[i].size.directed() && std::abs(all[i].size.greatest) >= leasts[i]) description.directed.push_back(all[i]);
+  for (std::size_t i = 0; i < std::size(all); ++i) {
+    // A percept tells what resists alike in all directions, but nothing that pushes on.
+    if ((all[i].size.directed() || all[i].size.greatest < 0) && std::abs(all[i].size.greatest) >= leasts[i]) {
+      description.directed.push_back(all[i]);
+      double& across = description.directed.back().size.across;
+      if (std::abs(across) < leasts[i]) across = 0;
+    }
+  }
+  if (found.sway.amplitude >= least_force) description.sway = found.sway;
+  description.small_feature = cues[CueKind::small_feature].value_or(0);
   if (glm::length(found.constant) >= least_force) description.constant_push = found.constant;
   const auto counting = [](double force) { return force >= least_force ? force : 0; };
   description.other = {counting(found.other.button), counting(found.other.slowly), counting(found.other.remembered),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "compiler/text/readable.hpp"
@@ -14,7 +15,7 @@ namespace wale {
 /// A figure with the digits of single precision: 0.6, not 0.60000002384.
 inline double figure(double value) {
   if (!std::isfinite(value)) return value;
-  return std::stod(fmt::format("{:.6g}", value)) + 0.0;  // -0 becomes 0
+  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr) + 0.0;  // no -0; stod throws at subnormals
 }
 /// A part of a direction, to six digits behind the point: less is rounding.
 inline double direction_figure(double part) { return std::round(part * 1e6) / 1e6 + 0.0; }

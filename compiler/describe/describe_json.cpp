@@ -210,6 +210,9 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
                                    {"unit", each.unit}};
   if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
     json["constant_push_newton"] = {figure(push.x), figure(push.y)};
+  if (description.sway.amplitude > 0)
+    json["sway"] = {{"amplitude_newton", figure(description.sway.amplitude)},
+                    {"frequency_hz", figure(description.sway.frequency)}};
   const auto other = [&](const char* name, double force) {
     if (force > 0) json["other_force_newton"][name] = figure(force);
   };
@@ -219,6 +222,7 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   other("moving", description.other.moving);
   other("aside", description.aside);
   other("unread", description.unread);
+  other("small_feature", description.small_feature);
 }
 
 nlohmann::ordered_json to_json(const Description::Wall& wall) {

@@ -253,6 +253,10 @@ std::string bound_lines(const Description& description) {
 std::string other_forces(const Description& description) {
   std::string text;
   for (const Description::Directed& each : description.directed) {
+    if (!each.size.directed()) {
+      text += readable("  {} {:.3g} {} in all directions: it pushes on\n", each.name, each.size.greatest, each.unit);
+      continue;
+    }
     const double across = std::abs(each.size.across) < 0.01 * std::abs(each.size.greatest) ? 0 : each.size.across;
     const long angle = degrees(std::atan2(each.size.axis.y, each.size.axis.x) + std::numbers::pi);
     const std::string way = angle == 0    ? "x"
@@ -265,6 +269,12 @@ std::string other_forces(const Description& description) {
     text +=
         readable("  a constant push of {:.3g} N towards {}\n", std::hypot(push.x, push.y),
                  in_degrees(readable("{:.0f}", std::round(std::atan2(push.y, push.x) * 180 / std::numbers::pi) + 0.0)));
+  if (description.sway.amplitude > 0)
+    text += readable("  a sway of {:.3g} N at {:.3g} Hz, which no percept tells\n", description.sway.amplitude,
+                     description.sway.frequency);
+  if (description.small_feature > 0)
+    text += readable("  up to {:.3g} N in less than a hundredth of the patch, which no percept tells\n",
+                     description.small_feature);
   const OtherForce& other = description.other;
   if (other.button > 0) text += readable("  up to {:.3g} N by the button, which no percept tells\n", other.button);
   if (other.slowly > 0)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "compiler/text/json_text.hpp"
@@ -13,7 +14,7 @@ namespace wale {
 namespace {
 
 /// The shortest decimal number that reads as this single-precision value: 0.0006, not 0.00060000002849.
-double shortest(float value) { return std::stod(fmt::format("{}", value)); }
+double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
 
 /// Computes accelerations and raw figures from a trace of places and velocities.
 void complete(std::vector<SampledHand>& hands) {

@@ -15,9 +15,11 @@ namespace {
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double none_is_little = -1;  // 0 is a value
 
-/// The principal value across the axis of the greatest; not-a-number if it is alike in all directions.
+/// The principal value across the axis of the greatest, 0 if that is less than counts; not-a-number if it is alike in
+/// all directions.
 double across(const Principal& found, double least) {
-  return found.directed() && std::abs(found.greatest) >= least ? found.across : no_value;
+  if (!found.directed() || std::abs(found.greatest) < least) return no_value;
+  return std::abs(found.across) < least ? 0 : found.across;
 }
 /// The direction of the greatest principal value, rad in [0, pi).
 double axis(const Principal& found, double least) {
@@ -36,7 +38,8 @@ double unread_force(const ForceReading& found) {
   const bool resisted = pushed || std::abs(found.opposing.damping) >= least_damping ||
                         std::abs(found.inertia.greatest) >= least_mass || found.vibration.amplitude >= least_force ||
                         found.sway.amplitude >= least_force;
-  const double still = pushed ? 0 : found.still.pushes_away ? -found.still.largest : found.still.largest;
+  const double alone = std::max(0.0, found.still.largest - found.at_first);
+  const double still = pushed ? 0 : found.still.pushes_away ? -alone : alone;
   const double moving = resisted ? 0 : found.opposing.scatter;
   const double other = std::max({moving, found.opposing.aside, found.other.largest()});
   return std::abs(still) < other ? other : still;
@@ -115,7 +118,10 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::push_axis:
     case CueKind::regularity:
     case CueKind::crest:
-    case CueKind::abruptness: return CueKind::amplitude;
+    case CueKind::abruptness:
+    case CueKind::other_waves: return CueKind::amplitude;
+    case CueKind::wall_push:
+    case CueKind::wall_preload: return CueKind::wall_stiffness;
     case CueKind::stiffness_across:
     case CueKind::stiffness_axis: return CueKind::stiffness;
     case CueKind::viscosity_across:

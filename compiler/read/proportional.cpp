@@ -80,7 +80,7 @@ ForceReading times_as_strong(ForceReading found, double times) {
         &opposing.damping,          &opposing.damping_across, &opposing.scatter,     &opposing.aside,
         &found.breakaway,           &found.inertia.greatest,  &found.inertia.across, &found.sway.amplitude,
         &found.vibration.amplitude, &found.other.button,      &found.other.slowly,   &found.other.remembered,
-        &found.other.moving,        &found.other.rehearsed})
+        &found.other.moving,        &found.other.rehearsed,   &found.wall_push,      &found.at_first})
     *each *= times;
   found.constant *= times;
   const auto scale = [&](WallFace& wall) {

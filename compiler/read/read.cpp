@@ -57,7 +57,8 @@ double even_stiffness(const StaticForce& still, PatchSize patch) {
 /// The walls and steps that were found in the static force. A face bends that, unless the program has memory and
 /// yielded to the hands that were placed behind the face.
 void tell_obstacles(const Bank& bank, ForceReading& found) {
-  const Obstacles& obstacles = found.still.obstacles;
+  Obstacles& obstacles = found.still.obstacles;
+  std::erase_if(obstacles.walls, [&](const Wall& each) { return !pushes_back(bank, wall_face(bank, each)); });
   found.steps = obstacles.steps;
   std::ranges::stable_sort(found.steps, std::greater(),
                            [](const StaticStep& each) { return glm::length(each.change); });
@@ -70,10 +71,13 @@ void tell_obstacles(const Bank& bank, ForceReading& found) {
     return;
   }
   const bool remembers = remembers_anything(bank.program().description());
-  if (remembers) found.wall = wall_face(bank);
+  const auto keep = [&](const std::optional<WallFace>& wall) {
+    if (wall && pushes_back(bank, *wall)) found.wall = wall;
+  };
+  if (remembers) keep(wall_face(bank));
   if (found.wall || found.still.features.empty() || !obstacles.empty()) return;
-  found.wall = wall_face(bank, found.still.features);
-  if (!found.wall && !remembers) found.wall = wall_face(bank);
+  keep(wall_face(bank, found.still.features));
+  if (!found.wall && !remembers) keep(wall_face(bank));
 }
 
 /// N: what a line that is fitted beside a relief has by chance at the patch's edge: four standard errors of the
@@ -192,7 +196,9 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   else
     part(0, parts);
   if (!wanted.still) return found;
+  found.at_first = glm::length(at_first);
   tell_obstacles(bank, found);
+  if (found.wall) found.wall_push = deepest(bank, *found.wall).newton;
   tell_trend(bank, found, at_first);
   // What damps the hand in a wall is the wall's.
   if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping)

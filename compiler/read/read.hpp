@@ -21,9 +21,11 @@ struct ForceReading {
   double stiffness = 0;
   double stiffness_across = 0;   ///< N/m: across that axis; the same if it is alike in all directions
   glm::dvec2 stiffness_axis{0};  ///< of length 1; (0, 0) if it is alike in all directions
+  double at_first = 0;           ///< N: how much more it pushes a hand that has just come than in the mean over time
   /// N: what pushes everywhere alike. Beside a spring, what pushes in the patch's middle.
   glm::dvec2 constant{0};
   std::optional<WallFace> wall;      ///< the stiffest
+  double wall_push = 0;              ///< N: with which it pushes a hand at most, that goes in to the patch's edge
   std::vector<WallFace> more_walls;  ///< that stand beside it, the stiffest first
   std::vector<StaticStep> steps;     ///< lines where the force jumps, the largest first
   OpposingForce opposing;

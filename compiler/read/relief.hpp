@@ -51,6 +51,11 @@ struct Relief {
   /// The size within a band, N: the amplitude times the root of the band's share of the mean square.
   double within(const PeriodBand& band) const;
   /// Whether it repeats, so that it has a period.
+  /// N: of the waves beside the strongest one, as of the amplitude.
+  double beside_strongest() const;
+  /// N: the largest force found, if that is much larger than the amplitude: of a feature that fills less than a
+  /// hundredth of the patch. 0 otherwise.
+  double small_feature() const;
   bool regular() const { return amplitude > 0 && regularity >= 0.5; }
   /// Whether it changes mostly in one direction, so that this direction has a meaning.
   bool oriented() const { return amplitude > 0 && anisotropy >= 0.5; }

@@ -56,6 +56,8 @@ struct Distribution {
   }
 };
 
+constexpr double much_larger = 3;  // than the amplitude: the largest force of a small feature
+
 /// The largest change of a waveform within a 16th of its period, against that of a sine with this maximum.
 double abruptness_of(const std::vector<glm::dvec2>& profile, double most) {
   constexpr double parts = 16;
@@ -88,7 +90,11 @@ class ReliefFigures {
     relief_.mean = sum / count, relief_.rms = std::sqrt(squares / count);
     relief_.amplitude = percentile(sizes, percentile_of_amplitude);
     const bool waved = !from_.waves.waves.empty() || from_.waves.lattice;
-    if (relief_.amplitude < least_amplitude || (!waved && relief_.amplitude < misfit)) return {};
+    if (relief_.amplitude < least_amplitude || (!waved && relief_.amplitude < misfit)) {
+      Relief small;  // What fills less than a hundredth of the patch is felt all the same.
+      if (relief_.maximum > much_larger * std::max(relief_.amplitude, misfit)) small.maximum = relief_.maximum;
+      return small;
+    }
     const bool hilly = std::ranges::any_of(from_.features, [](const Feature& each) { return !each.monotone; });
     tell_parts(hilly);
     tell_push();
@@ -307,6 +313,14 @@ double Relief::within(const PeriodBand& band) const {
     if (part.period >= band.low && part.period < band.high) share += part.share;
   return amplitude * std::sqrt(std::min(1.0, share));
 }
+
+double Relief::beside_strongest() const {
+  double share = 0;
+  for (std::size_t i = 1; i < waves.size(); ++i) share += waves[i].share;
+  return amplitude * std::sqrt(std::min(1.0, share));
+}
+
+double Relief::small_feature() const { return maximum > much_larger * amplitude ? maximum : 0; }
 
 Relief figures_of(const SplitRelief& split, const std::vector<glm::dvec2>& felt, double misfit) {
   return ReliefFigures(split).told(felt, misfit);

@@ -311,6 +311,27 @@ WallDepth deepest(const Bank& bank, const WallFace& face) {
   return reached;
 }
 
+bool pushes_back(const Bank& bank, const WallFace& face) {
+  constexpr double least_push = 0.02;        // N
+  constexpr double plainly_more = 2.5;       // times what pushes in
+  constexpr double near = 2e-3, far = 6e-3;  // m outside
+  constexpr double aside = 5e-3;             // m along the face
+  constexpr int places = 5;
+  const double out = deepest(bank, face).newton;
+  std::array<Hand, places * places> hands{};
+  std::array<Force, places * places> forces{};
+  const glm::dvec2 along(-face.inward.y, face.inward.x);
+  for (int i = 0; i < places * places; ++i) {
+    const double outside = near + (far - near) * (i % places) / (places - 1.0);
+    const glm::dvec2 place = face.place - outside * face.inward + aside * (i / places - places / 2) * along;
+    hands[static_cast<std::size_t>(i)].position = hands[static_cast<std::size_t>(i)].workspace = glm::vec2(place);
+  }
+  tick_coarsely(bank, hands, forces);
+  double in = 0;
+  for (const Force& force : forces) in += glm::dot(glm::dvec2(force), face.inward) / (places * places);
+  return out >= least_push && out >= plainly_more * in;
+}
+
 std::string wall_place(const WallFace& face) {
   constexpr double straight = 0.9999;  // cosine of less than a degree
   const auto in_mm = [](double metres) { return std::round(1e4 * metres) / 10 + 0.0; };

@@ -31,6 +31,10 @@ struct WallDepth {
 };
 WallDepth deepest(const Bank& bank, const WallFace& face);
 
+/// Whether a face pushes a hand out of it that goes in, and plainly more than the force outside pushes it in. The far
+/// side of what drives the hand away is no wall, nor is the end of a spring that slips.
+bool pushes_back(const Bank& bank, const WallFace& face);
+
 /// Where a wall stands, in words: "right of x = 20 mm", "beyond (3, 4) mm towards 53 degrees", "beyond 30 mm
 /// from (0, 0) mm, all round".
 std::string wall_place(const WallFace& face);
