@@ -85,7 +85,7 @@ const std::map<std::string, Floor>& floors() {
       {"round wall", {8, 192}},
       {"wall beside slow waves", {8, 192}},
       {"step beside", {7, 198}},
-      {"few steps", {7, 196}},
+      {"few steps", {8, 200}},
       {"staircase", {8, 184}},
       {"resistance at a limit", {8, 183}},
   };
