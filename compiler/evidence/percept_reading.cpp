@@ -30,6 +30,10 @@ bool is_still(Extractor extractor) {
   }
 }
 
+bool is_of_wall(Extractor extractor) {
+  return extractor == Extractor::wall_stiffness || extractor == Extractor::wall_damping;
+}
+
 /// The percept that a record is of, as far as a reading needs it.
 Percept read_as(const PerceptRecord& record) {
   Percept percept{.name = record.name, .extractor = record.extractor};
@@ -125,7 +129,11 @@ PerceptReading percept_reading(const Bank& bank, std::size_t index, const ForceR
     // What is read of a carrier is as good as its reader: nearer than that it is the size itself.
     if (std::abs(told.size - told.aimed) <= reading * std::abs(told.aimed)) told.size = told.aimed;
     // Where the device's limit cuts a force that other forces fill, what is left of it cannot be told from them.
-    const bool cut = is_still(record.extractor) && found.still.largest >= (1 - reading) * program.device.most();
+    // Walls and springs are read by their whole law.
+    const bool by_law = (is_of_wall(record.extractor) && found.wall) ||
+                        (record.extractor == Extractor::stiffness && found.stiffness != 0);
+    const bool cut =
+        is_still(record.extractor) && !by_law && found.still.largest >= (1 - reading) * program.device.most();
     const bool by_itself = record.unit == "N" && told.aimed >= program.device.most() * record.basis.share;
     if (cut && !by_itself && record.basis.summand && told.size != told.aimed) told.readable = false;
   }
@@ -154,8 +162,7 @@ bool differs(const PerceptRecord& record, double aimed, double asked, double siz
 }
 
 bool stands_outside(const PerceptRecord& record, const ForceReading& found) {
-  const bool of_a_wall = record.extractor == Extractor::wall_stiffness || record.extractor == Extractor::wall_damping;
-  return of_a_wall && !found.wall && found.still.largest < least_force;
+  return is_of_wall(record.extractor) && !found.wall && found.still.largest < least_force;
 }
 
 std::string cause_of_difference(const PerceptRecord& record, const PerceptReading& reading, const ForceReading& found,
