@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compiler/text/source.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -14,12 +14,12 @@
 #include <random>
 #include <string>
 
-#include "schema/patch_program.hpp"
 #include "tests/usb/falcon_model.hpp"
 #include "tests/usb_mock/running_wale.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/library.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale::test::hostile {
 namespace {

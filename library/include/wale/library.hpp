@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "schema/declared_device.hpp"
-#include "schema/result.hpp"
+#include "wale/declared_device.hpp"
 #include "wale/program.hpp"
+#include "wale/result.hpp"
 #include "wale/simulated.hpp"
 
 namespace wale {
