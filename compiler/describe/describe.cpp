@@ -158,6 +158,8 @@ void settle_stiffness(Description& description) {
   if (!description.wall || grade.jumps || grade.standing == Standing::not_analysed) return;
   double& stiffness = description.wall->face.stiffness;
   stiffness = std::min(stiffness, grade.stiffness);
+  for (Description::Wall& each : description.more_walls)
+    each.face.stiffness = std::min(each.face.stiffness, grade.stiffness);
 }
 
 /// The force, the stability of the loop, and the percepts and the texture that the force shows.

@@ -86,7 +86,9 @@ struct Description {
     WallFace face;
     WallDepth depth;
   };
-  std::optional<Wall> wall;  ///< the stiffest, if a reading found one
+  std::optional<Wall> wall;       ///< the stiffest, if a reading found one
+  std::vector<Wall> more_walls;   ///< beside it, the stiffest first
+  std::vector<StaticStep> steps;  ///< lines where the force jumps, the largest first
   /// What resists differently along its axis and across it: "stiffness", N/m.
   struct Directed {
     const char* name;

@@ -145,6 +145,8 @@ void describe_extracted(Description& description, const Bank& bank, const ForceR
                                    description.device.position_step(), declarations);
   tell_forces(description, found, cues);
   if (found.wall) description.wall = {*found.wall, deepest(bank, *found.wall)};
+  for (const WallFace& each : found.more_walls) description.more_walls.push_back({each, deepest(bank, each)});
+  description.steps = found.steps;
   // A patch program may be built for a device that nothing here declares.
   DeviceDeclaration undeclared;
   undeclared.profile = description.device;

@@ -221,6 +221,32 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   other("unread", description.unread);
 }
 
+nlohmann::ordered_json to_json(const Description::Wall& wall) {
+  nlohmann::ordered_json json = {
+      {"at", {figure(wall.face.place.x), figure(wall.face.place.y)}},
+      {"inward", {direction_figure(wall.face.inward.x), direction_figure(wall.face.inward.y)}},
+      {"stiffness", figure(wall.face.stiffness)},
+      {"preload_newton", figure(wall.face.preload)},
+      {"depth_m", figure(wall.depth.depth)},
+      {"max_newton", figure(wall.depth.newton)}};
+  if (wall.face.radius > 0)
+    json["round"] = {{"centre", {figure(wall.face.centre.x), figure(wall.face.centre.y)}},
+                     {"radius_m", figure(wall.face.radius)},
+                     {"within", wall.face.fills}};
+  return json;
+}
+
+/// Walls, and lines where the force jumps; only what there is.
+void add_obstacles(nlohmann::ordered_json& json, const Description& description) {
+  if (description.wall) json["wall"] = to_json(*description.wall);
+  for (const Description::Wall& each : description.more_walls) json["more_walls"].push_back(to_json(each));
+  for (const StaticStep& each : description.steps)
+    json["steps"].push_back({{"at", {figure(each.offset * each.way.x), figure(each.offset * each.way.y)}},
+                             {"across", {direction_figure(each.way.x), direction_figure(each.way.y)}},
+                             {"newton", {figure(each.change.x), figure(each.change.y)}},
+                             {"width_m", figure(2 * each.width)}});
+}
+
 nlohmann::ordered_json to_json(const Description& description) {
   nlohmann::ordered_json json;
   json["material"] = description.material;
@@ -238,13 +264,7 @@ nlohmann::ordered_json to_json(const Description& description) {
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
   if (!description.no_texture.empty()) json["no_texture"] = description.no_texture;
   if (description.texture) json["texture"] = to_json(*description.texture);
-  if (const auto& wall = description.wall)
-    json["wall"] = {{"at", {figure(wall->face.place.x), figure(wall->face.place.y)}},
-                    {"inward", {direction_figure(wall->face.inward.x), direction_figure(wall->face.inward.y)}},
-                    {"stiffness", figure(wall->face.stiffness)},
-                    {"preload_newton", figure(wall->face.preload)},
-                    {"depth_m", figure(wall->depth.depth)},
-                    {"max_newton", figure(wall->depth.newton)}};
+  add_obstacles(json, description);
   add_other_forces(json, description);
   json["fates"] = to_json(description.fates);
   if (description.shaking) {

@@ -279,6 +279,24 @@ std::string other_forces(const Description& description) {
   return text;
 }
 
+std::string wall_line(const Description::Wall& wall) {
+  return readable(
+      "  a wall {}: {:.3g} N/m{}, up to {:.3g} N on a hand that goes {:.3g} mm into it, to the patch's edge\n",
+      wall_place(wall.face), wall.face.stiffness,
+      wall.face.preload > 0 ? readable(" from {:.3g} N on", wall.face.preload) : "", wall.depth.newton,
+      1e3 * wall.depth.depth);
+}
+
+/// A line where the force jumps, and by how much.
+std::string step_line(const StaticStep& step) {
+  WallFace line;
+  line.inward = step.way, line.place = step.offset * step.way + 0.0;
+  const double towards = std::round(std::atan2(step.change.y, step.change.x) * 180 / std::numbers::pi) + 0.0;
+  return readable("  a step of {:.3g} N towards {}{}, {}\n", glm::length(step.change),
+                  in_degrees(readable("{:.0f}", towards)),
+                  step.width > 0 ? readable(" within {:.2g} mm", 2e3 * step.width) : "", wall_place(line));
+}
+
 void write_pushing(std::string& text, const Description& description) {
   text +=
       readable("\npushes\n  {:.3f} N {} with these parameters; with any, never more than {:.3f} N (proved)\n",
@@ -287,12 +305,9 @@ void write_pushing(std::string& text, const Description& description) {
   text += readable("  on a hand at rest, over the patch{}: P99 {:.3f} N, RMS {:.3f} N\n",
                    description.force.over_time ? " and time" : "", description.force.p99_newton,
                    description.force.rms_newton);
-  if (const auto& wall = description.wall)
-    text += readable(
-        "  a wall {}: {:.3g} N/m{}, up to {:.3g} N on a hand that goes {:.3g} mm into it, to the patch's edge\n",
-        wall_place(wall->face), wall->face.stiffness,
-        wall->face.preload > 0 ? readable(" from {:.3g} N on", wall->face.preload) : "", wall->depth.newton,
-        1e3 * wall->depth.depth);
+  if (description.wall) text += wall_line(*description.wall);
+  for (const Description::Wall& each : description.more_walls) text += wall_line(each);
+  for (const StaticStep& each : description.steps) text += step_line(each);
   text += other_forces(description);
   text += bound_lines(description);
   text += "\nstability\n" + grade_text(description.grade, description.device);

@@ -17,6 +17,8 @@ constexpr std::size_t hands_in_a_tick = 6;
 constexpr double most_cost = 2e8;      // units of cost of all their ticks, about a fifth of a second
 constexpr int halvings_for_jump = 5;   // of one encoder count
 constexpr double share_of_jump = 0.5;  // of the change over a count, which a smooth one does not keep so far down
+constexpr std::size_t moments = 60;    // of a second, at which the energy is summed up
+constexpr std::size_t way_back = 64;   // places on a way back
 
 /// The hand's place, m. It begins at rest at the centre and reaches its full radius after a quarter of the time.
 glm::dvec2 place(double time, double radius, double frequency, bool circles) {
@@ -45,6 +47,35 @@ RunAhead run_ahead(Bank bank, const GradingHand& hand, bool circles, double seco
     run.forces.emplace_back(tick(bank, memory, run.last));
   }
   return run;
+}
+
+/// What a hand has gained at some moment, J, and where it is, m.
+struct Gained {
+  double joule = 0;
+  glm::dvec2 place{0};
+};
+
+/// The most that a hand has gained at one of some moments, J. What a force by place gave it on its way, it takes back
+/// on the way to where the hand began: of a gain counts what is left after the straight way back through the forces on
+/// hands that have just entered.
+double gained_for_good(const Bank& bank, glm::dvec2 from, std::vector<Gained> all) {
+  std::erase_if(all, [](const Gained& each) { return !(each.joule > 0); });
+  std::vector<Hand> hands;
+  for (const Gained& each : all)
+    for (std::size_t i = 0; i < way_back; ++i) {
+      Hand& hand = hands.emplace_back();
+      const double part = (static_cast<double>(i) + 0.5) / way_back;
+      hand.position = hand.workspace = glm::vec2(each.place + part * (from - each.place));
+    }
+  std::vector<Force> forces(hands.size());
+  tick_all(bank, hands, forces);
+  double most = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    glm::dvec2 mean{0};
+    for (std::size_t k = 0; k < way_back; ++k) mean += glm::dvec2(forces[i * way_back + k]) / (1.0 * way_back);
+    most = std::max(most, std::min(all[i].joule, all[i].joule + glm::dot(mean, from - all[i].place)));
+  }
+  return most;
 }
 
 }  // namespace
@@ -102,7 +133,8 @@ Exploration explore(Bank bank, const GradingHand& hand) {
     Memory memory(bank.program());
     const auto at = [&](double time) { return place(time, radius, hand.frequency, circles); };
     std::vector<float> entered;
-    double work = 0, gained = 0, moved = 0;
+    std::vector<Gained> gained;
+    double work = 0, moved = 0;
     for (long i = 0; i < ticks; ++i) {
       const double time = static_cast<double>(i) * period;
       const Hand now = hand_along(at, time, period);
@@ -120,9 +152,10 @@ Exploration explore(Bank bank, const GradingHand& hand) {
       const double joule = force.x * step.x + force.y * step.y;
       work += joule;
       moved += std::abs(joule);
-      gained = std::max(gained, work);
+      if ((i + 1) % std::max(1L, ticks / static_cast<long>(moments)) == 0)
+        gained.push_back({work, at(time + 0.5 * period)});
     }
-    exploration.gained_joule = std::max(exploration.gained_joule, gained);
+    exploration.gained_joule = std::max(exploration.gained_joule, gained_for_good(bank, at(0), std::move(gained)));
     exploration.moved_joule = std::max(exploration.moved_joule, moved);
   }
   return exploration;

@@ -11,7 +11,7 @@ struct Exploration {
   std::vector<Hand> hands;     ///< one per tick
   std::vector<float> states;   ///< before each tick, hand by hand
   std::vector<char> changing;  ///< for each state, whether it changed after it was entered
-  double gained_joule = 0;     ///< largest net energy given to the hand up to any moment of either second
+  double gained_joule = 0;     ///< largest net energy that the hand keeps when it goes back to where it began
   double moved_joule = 0;      ///< sum of the energies in both directions, of the second in which it is larger
 };
 

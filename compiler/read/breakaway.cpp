@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "compiler/read/room.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "wale/memory.hpp"
 
@@ -48,9 +49,10 @@ double breakaway_of(const Bank& bank, double sliding) {
   const PatchSize patch = bank.size();
   const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
   const double rate = bank.program().description().device.rate;
-  std::vector<Creep> creeps;
-  for (const glm::dvec2 way : ways) creeps.push_back({-0.3 * half * way, way});
   const double most = std::min(longest_creep, std::min(half.x, half.y));
+  const Room room(bank);
+  std::vector<Creep> creeps;
+  for (const glm::dvec2 way : ways) creeps.push_back({room.nearest({-0.3 * half * way, way, 0, most}), way});
   const auto ticks = static_cast<std::size_t>(most / creep * rate);
   // There are too few hands to fill the lanes of a block: each runs alone.
   Bank own = bank;

@@ -31,7 +31,7 @@ double axis(const Principal& found, double least) {
 /// away from the middle.
 double unread_force(const ForceReading& found) {
   const bool pushed = found.relief().amplitude >= least_force || std::abs(found.stiffness) >= least_stiffness ||
-                      found.wall || std::abs(found.opposing.friction) >= least_force ||
+                      found.wall || !found.steps.empty() || std::abs(found.opposing.friction) >= least_force ||
                       glm::length(found.constant) >= least_force;
   const bool resisted = pushed || std::abs(found.opposing.damping) >= least_damping ||
                         std::abs(found.inertia.greatest) >= least_mass || found.vibration.amplitude >= least_force ||

@@ -19,6 +19,7 @@ constexpr double slow_periods = 12;               // over the patch
 constexpr double few_periods_together = 25;       // over the patch, so that two waves look alike
 constexpr double least_taken = 0.02;              // of what is left, by one more wave
 constexpr double least_parted = 5e-4;             // of the whole mean square: worth it to look for two waves in one
+constexpr double hardly_any = 0.1;                // of what waves leave, if one of them is parted ...
 constexpr double much_less = 0.5;                 // of what waves leave, if they are moved together
 constexpr std::size_t most_joined_harmonic = 24;  // that is found before the wave whose harmonic it is
 
@@ -154,7 +155,9 @@ void FittedWaves::part_slow_waves() {
   for (std::size_t i = 0; i < some.places.size(); ++i) some.forces[i] += found_.trend.at(some.places[i]);
   for (const FoundWave& each : found_.waves) add_wave(each.wave, 1, some);
   HarmonicFit fit = fit_harmonics(some.places, some.forces, waves, whole_.size, bins);
-  if (fit.left > much_less * fit.left_there) return;
+  // A few harmonics that are free to move fill any waveform a little better.
+  const bool parts_one = waves.size() > found_.waves.size();
+  if (fit.left > (parts_one ? hardly_any : much_less) * fit.left_there) return;
   const FoundWaves before = found_;
   const double left_before = mean_square(found_.rest);
   found_.waves.clear();

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "compiler/read/bend.hpp"
 #include "compiler/read/still_forces.hpp"
 #include "compiler/read/tolerances.hpp"
 
@@ -20,26 +21,6 @@ constexpr std::size_t places_fitted = 6400;
 constexpr int rounds = 4;
 constexpr double turned_enough = 1e-5;   // rad: smaller turns end the rounds
 constexpr double worth_a_preload = 0.3;  // of what a face without a preload leaves, at most
-constexpr std::size_t profile_places = 1024;
-
-/// Solves a small symmetric system by Gauss and Jordan; false if it is singular.
-template <std::size_t N>
-bool solve(std::array<std::array<double, N + 1>, N>& rows) {
-  for (std::size_t i = 0; i < N; ++i) {
-    std::size_t best = i;
-    for (std::size_t k = i + 1; k < N; ++k)
-      if (std::abs(rows[k][i]) > std::abs(rows[best][i])) best = k;
-    std::swap(rows[i], rows[best]);
-    if (!(std::abs(rows[i][i]) > 1e-12)) return false;
-    for (std::size_t k = 0; k < N; ++k) {
-      if (k == i) continue;
-      const double times = rows[k][i] / rows[i][i];
-      for (std::size_t column = i; column <= N; ++column) rows[k][column] -= times * rows[i][column];
-    }
-  }
-  for (std::size_t i = 0; i < N; ++i) rows[i][N] /= rows[i][i];
-  return true;
-}
 
 /// A face, the even force beside it, and the mean square that both leave, N^2.
 struct FaceFit {
@@ -47,56 +28,6 @@ struct FaceFit {
   LinearForce even;
   double left = HUGE_VAL;
 };
-
-/// Where along one coordinate a line bends or jumps. Of the values beyond the bend: their slope is steeper by `slope`,
-/// and they are larger by `jump` at the bend.
-struct Bend {
-  double at = 0, slope = 0, jump = 0, left = HUGE_VAL;
-};
-
-struct PlaceOnLine {
-  double at = 0, value = 0;
-};
-
-/// The best bend of all, with or without a jump there: least squares of (1, u, depth, step) for each place of the bend.
-Bend best_bend(std::vector<PlaceOnLine> line, bool may_jump) {
-  std::ranges::sort(line, {}, &PlaceOnLine::at);
-  // Centred and in units of the line's length, so that the sums are well conditioned.
-  const double low = line.front().at, length = line.back().at - low;
-  if (!(length > 0)) return {};
-  const auto count = static_cast<double>(line.size());
-  double u1 = 0, u2 = 0, s1 = 0, us = 0, ss = 0;
-  for (PlaceOnLine& each : line) {
-    each.at = (each.at - low) / length;
-    u1 += each.at, u2 += each.at * each.at, s1 += each.value, us += each.at * each.value, ss += each.value * each.value;
-  }
-  // Of the places beyond the bend.
-  double n = count, v1 = u1, v2 = u2, t1 = s1, vt = us;
-  const auto margin = std::max<std::size_t>(8, static_cast<std::size_t>(least_inside * count));
-  Bend best;
-  for (std::size_t i = 0; i + margin < line.size(); ++i) {
-    const double u = line[i].at, value = line[i].value;
-    n -= 1, v1 -= u, v2 -= u * u, t1 -= value, vt -= u * value;
-    if (i < margin) continue;
-    const double d = u, h1 = v1 - n * d, h2 = v2 - 2 * d * v1 + n * d * d, hu = v2 - d * v1, hs = vt - d * t1;
-    std::array<double, 4> found{};
-    double explained = 0;
-    if (may_jump) {
-      std::array<std::array<double, 5>, 4> rows = {
-          {{count, u1, h1, n, s1}, {u1, u2, hu, v1, us}, {h1, hu, h2, h1, hs}, {n, v1, h1, n, t1}}};
-      if (!solve<4>(rows)) continue;
-      found = {rows[0][4], rows[1][4], rows[2][4], rows[3][4]};
-    } else {
-      std::array<std::array<double, 4>, 3> rows = {{{count, u1, h1, s1}, {u1, u2, hu, us}, {h1, hu, h2, hs}}};
-      if (!solve<3>(rows)) continue;
-      found = {rows[0][3], rows[1][3], rows[2][3], 0};
-    }
-    explained = found[0] * s1 + found[1] * us + found[2] * hs + found[3] * t1;
-    const double left = (ss - explained) / count;
-    if (left < best.left) best = {low + length * d, found[2] / length, found[3], left};
-  }
-  return best;
-}
 
 /// The axis along which what a line leaves pushes; nothing if it pushes along both.
 std::optional<glm::dvec2> axis_of(std::span<const glm::dvec2> rest) {
@@ -176,7 +107,7 @@ FaceFit fit_face(glm::dvec2 axis, std::span<const glm::dvec2> places, std::span<
     const glm::dvec2 in = fit.face.inward, across(-in.y, in.x);
     for (std::size_t i = 0; i < places.size(); ++i)
       line[i] = {glm::dot(places[i], in), glm::dot(forces[i], in) - aside * glm::dot(places[i], across)};
-    const Bend bend = best_bend(std::move(line), may_jump);
+    const Bend bend = best_bend(std::move(line), may_jump ? BendKind::bends_and_jumps : BendKind::bends);
     if (!(bend.left < HUGE_VAL) || bend.slope == 0) return {};
     fit.face = {in, bend.at, -bend.slope, -bend.jump};
     // If it is less steep beyond the bend, the face is on the other side, and the steep side is the even one.
@@ -256,26 +187,6 @@ std::optional<HalfPlane> find_half_plane(std::span<const glm::dvec2> even_places
   const double rise = fine.face.stiffness * deepest;
   if (fine.face.stiffness < least_stiffness || rise < 0.02 || std::abs(fine.face.preload) > rise) return std::nullopt;
   return fine.face;
-}
-
-Feature feature_of(const HalfPlane& face, std::span<const glm::dvec2> places) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const glm::dvec2& place : places) {
-    const double at = glm::dot(place, face.inward);
-    low = std::min(low, at), high = std::max(high, at);
-  }
-  Feature feature{.direction = face.inward};
-  feature.step = (high - low) / static_cast<double>(profile_places);
-  // One of the profile's places is where the face begins.
-  const auto before = static_cast<std::size_t>(std::max(1.0, std::ceil((face.offset - low) / feature.step)));
-  feature.low = face.offset - static_cast<double>(before) * feature.step;
-  for (std::size_t i = 0; feature.low + feature.step * (static_cast<double>(i) - 1) < high || i < before + 2; ++i) {
-    const double depth = feature.step * (static_cast<double>(i) - static_cast<double>(before));
-    feature.profile.push_back(i <= before ? glm::dvec2(0) : -(face.preload + face.stiffness * depth) * face.inward);
-  }
-  feature.range = glm::length(feature.profile.back());
-  feature.monotone = true;
-  return feature;
 }
 
 }  // namespace wale

@@ -28,7 +28,4 @@ struct HalfPlane {
 std::optional<HalfPlane> find_half_plane(std::span<const glm::dvec2> even_places, std::span<const glm::dvec2> even,
                                          std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces);
 
-/// As a feature of forces at these places.
-Feature feature_of(const HalfPlane& face, std::span<const glm::dvec2> places);
-
 }  // namespace wale

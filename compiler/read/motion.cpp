@@ -10,6 +10,7 @@
 
 #include "compiler/measure/hands.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/room.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/unlimited.hpp"
 #include "wale/batch.hpp"
@@ -24,6 +25,7 @@ constexpr std::array<double, 4> few_speeds = {0.05, 0.1, 0.2, 0.4};
 constexpr double stretch = 0.024;             // m, length of a stroke, which goes there and back
 constexpr double least_stretch = 0.5;         // of the patch's extent, if that is smaller
 constexpr double looked_at = 0.5;             // of the stretch, in its middle: there a program with memory has settled
+constexpr int shortened = 3;                  // times by half, what is looked at
 constexpr int lines = 4;                      // parallel strokes
 constexpr int places = 64;                    // of a stroke, for programs without memory
 constexpr double push = 1;                    // m/s^2
@@ -40,7 +42,10 @@ constexpr double speed_aside = 0.2;           // m/s at which a push aside is to
 struct Stroke {
   glm::dvec2 direction{0}, middle{0};
   double speed = 0;
-  long pass = 0;  // ticks, an even number
+  long pass = 0;      // ticks, an even number
+  double counts = 0;  // m on either side of the middle: what is looked at
+  /// Rounding must not leave one way a place more than the other.
+  bool counts_at(double along) const { return std::abs(along) <= counts + 1e-9; }
 
   long ticks() const { return pass / 2 + 2 * pass; }
 
@@ -87,20 +92,30 @@ struct Outside {
   }
 };
 
-/// Strokes along `axis` (of length 1), then as many across it.
-std::vector<Stroke> strokes_over(const Bank& bank, bool alone, glm::dvec2 axis, const Outside& outside) {
-  const double rate = bank.program().description().device.rate;
+/// Strokes along `axis` (of length 1), then as many across it. Where a resting hand feels all that the device gives,
+/// strokes say nothing: they go elsewhere.
+std::vector<Stroke> strokes_over(const Bank& bank, bool alone, glm::dvec2 axis, const Outside& outside,
+                                 const Room& space) {
+  const double rate = bank.program().description().device.rate, reach = reach_of(bank);
   const glm::dvec2 middle = outside.middle(half_of(bank));
   std::vector<Stroke> strokes;
-  for (const glm::dvec2 direction : {axis, glm::dvec2(-axis.y, axis.x)})
-    for (int line = 0; line < lines; ++line)
-      for (const double speed : alone ? std::span<const double>(speeds) : std::span<const double>(few_speeds)) {
-        const glm::dvec2 across = glm::abs(glm::dvec2(direction.y, direction.x));
-        const double room = glm::dot(half_of(bank), across) / (across.x + across.y);
-        const glm::dvec2 aside = room * ((line + 0.5) / (0.5 * lines) - 1) * glm::dvec2(-direction.y, direction.x);
-        const glm::dvec2 at = outside.wall ? middle + 0.5 * aside : aside;
-        strokes.push_back({direction, at, speed, 2 * std::max(2L, std::lround(reach_of(bank) / speed * rate))});
-      }
+  for (const glm::dvec2 direction : {axis, glm::dvec2(-axis.y, axis.x)}) {
+    std::vector<glm::dvec2> taken;
+    for (int line = 0; line < lines; ++line) {
+      const glm::dvec2 across = glm::abs(glm::dvec2(direction.y, direction.x));
+      const double room = glm::dot(half_of(bank), across) / (across.x + across.y);
+      const glm::dvec2 aside = room * ((line + 0.5) / (0.5 * lines) - 1) * glm::dvec2(-direction.y, direction.x);
+      const glm::dvec2 wanted = outside.wall ? middle + 0.5 * aside : aside;
+      // Between the steep sides of a valley there may be room for a short stroke only.
+      double counts = looked_at * reach;
+      glm::dvec2 place = space.nearest({wanted, direction, counts, counts}, taken);
+      for (int turn = 0; turn < shortened && !space.is_along({place, direction, counts, counts}); ++turn)
+        counts *= 0.5, place = space.nearest({wanted, direction, counts, counts}, taken);
+      taken.push_back(place);
+      for (const double speed : alone ? std::span<const double>(speeds) : std::span<const double>(few_speeds))
+        strokes.push_back({direction, place, speed, 2 * std::max(2L, std::lround(reach / speed * rate)), counts});
+    }
+  }
   return strokes;
 }
 
@@ -129,7 +144,7 @@ std::vector<glm::dvec2> opposed_anywhere(const Bank& bank, const std::vector<Str
   for (const Stroke& stroke : strokes)
     for (const bool forth : {true, false})
       for (int i = 0; i < places; ++i)
-        hands.push_back(stroke.hand(looked_at * reach_of(bank) * (2 * (i + 0.5) / places - 1), forth));
+        hands.push_back(stroke.hand(stroke.counts * (2 * (i + 0.5) / places - 1), forth));
   std::vector<Force> forces(hands.size());
   tick_all(bank, hands, forces);
   const double most = bank.program().description().device.most();
@@ -186,7 +201,7 @@ std::vector<std::vector<Force>> felt_in_the_middles(const Bank& bank, const std:
 /// few to fill the lanes of a block.
 std::vector<glm::dvec2> opposed_one_by_one(const Bank& bank, const std::vector<Stroke>& strokes,
                                            const Outside& outside) {
-  const double rate = bank.program().description().device.rate, middle = looked_at * reach_of(bank);
+  const double rate = bank.program().description().device.rate;
   Bank own = bank;
   Memory memory(own.program());
   const std::vector<std::vector<Force>> resting = felt_in_the_middles(bank, strokes);
@@ -201,7 +216,7 @@ std::vector<glm::dvec2> opposed_one_by_one(const Bank& bank, const std::vector<S
       hand.time = static_cast<double>(now) / rate;
       if (now == 0) memory.enter(own, hand);
       const Force force = tick(own, memory, hand) - resting[i][std::min<std::size_t>(now, resting[i].size() - 1)];
-      if (now < stroke.pass / 2 || std::abs(along) > middle || !outside.at(glm::dvec2(hand.position))) continue;
+      if (now < stroke.pass / 2 || !stroke.counts_at(along) || !outside.at(glm::dvec2(hand.position))) continue;
       sum -= (forth ? 1.0 : -1.0) * glm::dvec2(force);
       ++count;
     }
@@ -214,7 +229,7 @@ std::vector<glm::dvec2> opposed_one_by_one(const Bank& bank, const std::vector<S
 std::vector<glm::dvec2> opposed_on_the_way(const Bank& bank, const std::vector<Stroke>& strokes,
                                            const Outside& outside) {
   if (bank.program().description().grids.empty()) return opposed_one_by_one(bank, strokes, outside);
-  const double rate = bank.program().description().device.rate, middle = looked_at * reach_of(bank);
+  const double rate = bank.program().description().device.rate;
   const long longest = std::ranges::max(strokes, {}, &Stroke::ticks).ticks();
   std::vector<glm::dvec2> sums(strokes.size());
   std::vector<long> counts(strokes.size());
@@ -222,7 +237,7 @@ std::vector<glm::dvec2> opposed_on_the_way(const Bank& bank, const std::vector<S
     for (std::size_t i = 0; i < hands.size(); ++i) {
       const Stroke& stroke = strokes[first + i];
       const bool counts_now = tick > stroke.pass / 2 && tick <= stroke.ticks();
-      if (counts_now && std::abs(stroke.at(tick - 1, rate).first) <= middle &&
+      if (counts_now && stroke.counts_at(stroke.at(tick - 1, rate).first) &&
           outside.at(glm::dvec2(hands[i].position))) {
         sums[first + i] -= (stroke.at(tick - 1, rate).second ? 1.0 : -1.0) * glm::dvec2(forces[i]);
         ++counts[first + i];
@@ -377,10 +392,11 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   if (!depends_on_the_moment(program) && !remembers_anything(program)) return {};
   const bool alone = !remembers_anything(program);
   const Outside outside{wall};
+  const Room space(bank);
   const auto felt = [&](const std::vector<Stroke>& strokes) {
     return alone ? opposed_anywhere(bank, strokes, outside) : opposed_on_the_way(bank, strokes, outside);
   };
-  std::vector<Stroke> strokes = strokes_over(bank, alone, {1, 0}, outside);
+  std::vector<Stroke> strokes = strokes_over(bank, alone, {1, 0}, outside, space);
   std::vector<glm::dvec2> opposed = felt(strokes);
   const std::size_t half = strokes.size() / 2;
   const MeanOpposed mean = mean_of(strokes, opposed);
@@ -397,7 +413,7 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   const bool oblique = std::min(std::abs(axis.x), std::abs(axis.y)) > 0.02;
   if (oblique) {
     for (int turn = 0; turn < 2; ++turn) {
-      strokes = strokes_over(bank, alone, axis, outside), opposed = felt(strokes);
+      strokes = strokes_over(bank, alone, axis, outside, space), opposed = felt(strokes);
       glm::dvec2 push{0};
       for (std::size_t i = 0; i < half; ++i) push += opposed[i];
       const bool turned = std::abs(push.x * axis.y - push.y * axis.x) > 0.01 * glm::length(push);
@@ -432,15 +448,19 @@ Principal inertia(const Bank& bank) {
              {Input::acceleration_x, Input::acceleration_y, Input::raw_acceleration_x, Input::raw_acceleration_y}))
     return {};
   const glm::dvec2 half = half_of(bank);
-  std::vector<Hand> hands;
   constexpr int side = 8;
+  // One place is sure to have room, if there is any.
+  std::vector<glm::dvec2> at = {Room(bank).nearest({})};
   for (int row = 0; row < side; ++row)
     for (int column = 0; column < side; ++column)
-      for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
-        Hand& hand = hands.emplace_back();
-        hand.position = hand.workspace = glm::vec2(half * ((glm::dvec2(column, row) + 0.5) / (0.5 * side) - 1.0));
-        hand.acceleration = hand.raw_acceleration = glm::vec2(push * direction);
-      }
+      at.push_back(half * ((glm::dvec2(column, row) + 0.5) / (0.5 * side) - 1.0));
+  std::vector<Hand> hands;
+  for (const glm::dvec2 place : at)
+    for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+      Hand& hand = hands.emplace_back();
+      hand.position = hand.workspace = glm::vec2(place);
+      hand.acceleration = hand.raw_acceleration = glm::vec2(push * direction);
+    }
   std::vector<Force> forces(hands.size());
   tick_all(bank, hands, forces);
   const double most = bank.program().description().device.most();

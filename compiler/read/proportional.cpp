@@ -69,7 +69,9 @@ ForceReading times_as_strong(ForceReading found, double times) {
     for (glm::dvec2& force : each.profile) force *= times;
     each.range *= times;
   }
-  if (still.face) still.face->stiffness *= times, still.face->preload *= times;
+  for (Wall& each : still.obstacles.walls) each.stiffness *= times, each.preload *= times;
+  for (std::vector<StaticStep>* steps : {&still.obstacles.steps, &found.steps})
+    for (StaticStep& each : *steps) each.change *= times;
   Relief& relief = still.relief;
   OpposingForce& opposing = found.opposing;
   for (double* each :
@@ -81,9 +83,11 @@ ForceReading times_as_strong(ForceReading found, double times) {
         &found.other.moving,        &found.other.rehearsed})
     *each *= times;
   found.constant *= times;
-  if (found.wall)
-    for (double* each : {&found.wall->stiffness, &found.wall->damping, &found.wall->release, &found.wall->preload})
-      *each *= times;
+  const auto scale = [&](WallFace& wall) {
+    for (double* each : {&wall.stiffness, &wall.damping, &wall.release, &wall.preload}) *each *= times;
+  };
+  if (found.wall) scale(*found.wall);
+  std::ranges::for_each(found.more_walls, scale);
   return found;
 }
 

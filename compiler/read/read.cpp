@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/read/breakaway.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/room.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "runtime/machine/parallel.hpp"
 
@@ -52,13 +54,26 @@ double even_stiffness(const StaticForce& still, PatchSize patch) {
   return static_cast<double>(near) >= mostly * places_a_side * places_a_side ? stiffness : 0;
 }
 
-/// A face bends the force, unless the program has memory and yielded to the hands that were placed behind the face.
-void tell_wall(const Bank& bank, ForceReading& found) {
+/// The walls and steps that were found in the static force. A face bends that, unless the program has memory and
+/// yielded to the hands that were placed behind the face.
+void tell_obstacles(const Bank& bank, ForceReading& found) {
+  const Obstacles& obstacles = found.still.obstacles;
+  found.steps = obstacles.steps;
+  std::ranges::stable_sort(found.steps, std::greater(),
+                           [](const StaticStep& each) { return glm::length(each.change); });
+  std::vector<WallFace> walls;
+  for (const Wall& each : obstacles.walls) walls.push_back(wall_face(bank, each));
+  std::ranges::stable_sort(walls, std::greater(), &WallFace::stiffness);
+  if (!walls.empty()) {
+    found.wall = walls.front();
+    found.more_walls.assign(walls.begin() + 1, walls.end());
+    return;
+  }
   const bool remembers = remembers_anything(bank.program().description());
   if (remembers) found.wall = wall_face(bank);
-  if (!found.wall && found.still.face) found.wall = wall_face(bank, *found.still.face);
-  if (!found.wall && !found.still.features.empty()) found.wall = wall_face(bank, found.still.features);
-  if (!found.wall && !remembers && !found.still.features.empty()) found.wall = wall_face(bank);
+  if (found.wall || found.still.features.empty() || !obstacles.empty()) return;
+  found.wall = wall_face(bank, found.still.features);
+  if (!found.wall && !remembers) found.wall = wall_face(bank);
 }
 
 /// N: what a line that is fitted beside a relief has by chance at the patch's edge: four standard errors of the
@@ -73,7 +88,7 @@ void tell_trend(const Bank& bank, ForceReading& found, glm::dvec2 at_first) {
   const StaticForce& still = found.still;
   const PatchSize patch = bank.size();
   const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
-  if (still.features.empty() || still.face) {
+  if (still.features.empty() || !still.obstacles.empty()) {
     const double chance = chance_of_line(found.relief(), half), nearest = std::min(half.x, half.y);
     Principal spring = principal_of(-still.trend.by_x, -still.trend.by_y, std::max(least_stiffness, chance / nearest));
     if (std::abs(spring.greatest) * nearest < chance) spring = {};
@@ -87,7 +102,7 @@ void tell_trend(const Bank& bank, ForceReading& found, glm::dvec2 at_first) {
   } else {
     found.stiffness = found.stiffness_across = even_stiffness(still, patch);
   }
-  const bool yielding = found.wall && !still.face;
+  const bool yielding = found.wall && still.obstacles.walls.empty();
   if (yielding &&
       (still.features.empty() || std::abs(found.stiffness - found.wall->stiffness) < alike * found.wall->stiffness))
     found.stiffness = found.stiffness_across = 0, found.stiffness_axis = {0, 0};
@@ -120,6 +135,8 @@ glm::dvec2 only_at_first(const Bank& bank, const std::vector<std::vector<Force>>
   constexpr double creeping = 1e-3;  // m/s
   std::array<Hand, 9> hands{};
   std::array<Force, 9> forces{};
+  const glm::vec2 place(Room(bank).nearest({}));
+  for (Hand& hand : hands) hand.position = hand.workspace = place;
   // Along no axis, so that none of the signs is that of a rest.
   for (std::size_t i = 1; i < hands.size(); ++i) {
     const double angle = (static_cast<double>(i) + 0.5) * std::numbers::pi / 4;
@@ -133,6 +150,18 @@ glm::dvec2 only_at_first(const Bank& bank, const std::vector<std::vector<Force>>
 }
 
 }  // namespace
+
+double ForceReading::more_wall_stiffness() const {
+  double sum = 0;
+  for (const WallFace& each : more_walls) sum += each.stiffness;
+  return sum;
+}
+
+double ForceReading::stepped() const {
+  double sum = 0;
+  for (const StaticStep& each : steps) sum += glm::length(each.change);
+  return sum;
+}
 
 ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   if (bank.program().description().vibrates()) return {};  // such a program has no force
@@ -163,7 +192,7 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   else
     part(0, parts);
   if (!wanted.still) return found;
-  tell_wall(bank, found);
+  tell_obstacles(bank, found);
   tell_trend(bank, found, at_first);
   // What damps the hand in a wall is the wall's.
   if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "compiler/declarations/declarations.hpp"
 #include "compiler/read/motion.hpp"
@@ -22,7 +23,9 @@ struct ForceReading {
   glm::dvec2 stiffness_axis{0};  ///< of length 1; (0, 0) if it is alike in all directions
   /// N: what pushes everywhere alike. Beside a spring, what pushes in the patch's middle.
   glm::dvec2 constant{0};
-  std::optional<WallFace> wall;
+  std::optional<WallFace> wall;      ///< the stiffest
+  std::vector<WallFace> more_walls;  ///< that stand beside it, the stiffest first
+  std::vector<StaticStep> steps;     ///< lines where the force jumps, the largest first
   OpposingForce opposing;
   double breakaway = 0;  ///< N: what makes a resting hand slide, if it is more than the friction of a sliding one
   Principal inertia;     ///< kg
@@ -30,6 +33,10 @@ struct ForceReading {
   Swing vibration;
   OtherForce other;
 
+  /// N/m: of all walls but the stiffest together.
+  double more_wall_stiffness() const;
+  /// N: of all steps together.
+  double stepped() const;
   Principal stiffnesses() const { return {stiffness, stiffness_across, stiffness_axis}; }
   const Relief& relief() const { return still.relief; }
 };

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/fundamental.hpp"
 #include "compiler/read/relief_figures.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/unlimited.hpp"
@@ -14,9 +15,12 @@ namespace wale {
 namespace {
 
 constexpr std::size_t side_of_whole = 160;  // 0.9 mm apart on a patch of 160 mm
-constexpr std::size_t cells_a_mean = 4;
+constexpr double bending_periods = 12;      // over the patch: slower waves bend like what stands in it
+constexpr std::size_t most_harmonics = 8;
+constexpr double weak_harmonic = 1e-3;      // of a wave's mean square
 constexpr double plainly_explained = 0.03;  // of the mean square, left by a trend that is found before the waves
 constexpr double little = 0.04;             // of the mean square: not worth its own spectrum
+constexpr double repeats = 0.02;            // of the mean square beyond a line, left by waves alone
 constexpr double curved = 0.02;             // of the mean square without waves, beyond a line
 constexpr double much_better = 0.3;         // of what a line leaves, left by features
 constexpr double a_micrometre = 1e-6;       // m: heights are read in these, since the least that counts is for newtons
@@ -61,8 +65,7 @@ class ReliefReader {
     find_plain_trend(beyond);
     waves_ = find_waves(field_, whole_, found_.features);
     if (!found_.features.empty() && !waves_.waves.empty() && !waves_.local) {
-      // What the features took of the waves goes back to them.
-      refine(found_.features, without_waves_and_with(found_.features));
+      refine(found_.features);
       waves_ = find_waves(field_, whole_, found_.features);
     }
     relief_ = whole_.forces;
@@ -118,45 +121,54 @@ class ReliefReader {
         static_cast<double>(cut) > least_cut * static_cast<double>(relief_.size()) && (cut < relief_.size() || slopes);
   }
 
-  /// Fits features anew to forces without waves.
-  void refine(std::vector<Feature>& features, const std::vector<glm::dvec2>& forces) {
-    if (!found_.face) return refine_features(features, whole_.places, forces);
-    std::vector<glm::dvec2> places, means;
-    add_means(forces, places, means);
-    if (const auto face = find_half_plane(places, means, whole_.places, forces)) found_.face = face;
-    features = {feature_of(*found_.face, whole_.places)};
-  }
-
-  /// Looks for a face among forces, whose means over small cells these are.
-  bool is_half_plane(const std::vector<glm::dvec2>& places, const std::vector<glm::dvec2>& means,
-                     const std::vector<glm::dvec2>& forces) {
-    found_.face = find_half_plane(places, means, whole_.places, forces);
-    if (found_.face) found_.features = {feature_of(*found_.face, whole_.places)};
-    return found_.face.has_value();
-  }
-
-  /// Adds the means over small cells, which are nearly free of texture.
-  void add_means(const std::vector<glm::dvec2>& forces, std::vector<glm::dvec2>& places,
-                 std::vector<glm::dvec2>& means) const {
-    for (std::size_t top = 0; top < whole_.side; top += cells_a_mean)
-      for (std::size_t left = 0; left < whole_.side; left += cells_a_mean) {
-        glm::dvec2 place{0}, force{0};
-        for (std::size_t row = top; row < top + cells_a_mean; ++row)
-          for (std::size_t column = left; column < left + cells_a_mean; ++column)
-            place += whole_.places[row * whole_.side + column], force += forces[row * whole_.side + column];
-        places.push_back(place / (1.0 * cells_a_mean * cells_a_mean));
-        means.push_back(force / (1.0 * cells_a_mean * cells_a_mean));
+  /// Fits features anew beside the waves that were found. What the features took of the waves goes back to them.
+  void refine(std::vector<Feature>& features) {
+    if (found_.obstacles.empty()) return refine_features(features, whole_.places, without_waves_and_with(features));
+    std::vector<glm::dvec2> forces = whole_.forces;
+    std::vector<SlowWave> slow;
+    for (const FoundWave& each : waves_.waves) {
+      if (glm::length(each.wave.waves * whole_.size) < bending_periods) {
+        slow.push_back({each.wave.waves, harmonics_worth(each)});
+        continue;
       }
+      for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= each.wave.at(whole_.places[i]);
+    }
+    found_.obstacles = fitted_beside(found_.obstacles, slow, whole_.places, forces);
+    features = features_of(found_.obstacles, whole_.places);
+  }
+
+  /// The number of a wave's harmonics that are worth a fit.
+  static std::size_t harmonics_worth(const FoundWave& wave) {
+    const std::vector<double> powers = harmonics_of(wave.wave, most_harmonics);
+    std::size_t number = 1;
+    for (std::size_t i = 0; i < powers.size(); ++i)
+      if (powers[i] > weak_harmonic) number = i + 1;
+    return number;
+  }
+
+  /// Looks for walls and steps in forces.
+  bool are_obstacles(const std::vector<glm::dvec2>& forces) {
+    const auto obstacles = find_obstacles(whole_, forces);
+    if (!obstacles) return false;
+    found_.obstacles = *obstacles;
+    found_.features = features_of(found_.obstacles, whole_.places);
+    return true;
   }
 
   /// Looks for a trend that bends before any wave: a spring that saturates looks like a slow square wave.
   void find_plain_trend(const std::vector<glm::dvec2>& beyond) {
-    std::vector<glm::dvec2> places, means, bent;
-    add_means(beyond, places, bent);
+    const std::vector<glm::dvec2> bent = cell_means(whole_.side, beyond);
     if (mean_square(bent) < 0.5 * mean_square(beyond)) return;
-    places.clear();
-    add_means(whole_.forces, places, means);
-    if (is_half_plane(places, means, whole_.forces)) return;
+    if (are_obstacles(whole_.forces)) {
+      // Steps that repeat are a wave.
+      if (found_.obstacles.steps.size() < 2) return;
+      const FoundWaves waves = find_waves(field_, whole_);
+      if (waves.waves.empty() || waves.local || mean_square(waves.rest) > repeats * mean_square(beyond)) return;
+      found_.obstacles = {}, found_.features.clear();
+      return;
+    }
+    const std::vector<glm::dvec2> places = cell_means(whole_.side, whole_.places),
+                                  means = cell_means(whole_.side, whole_.forces);
     std::vector<Feature> features = find_features(places, means, false);
     if (features.empty()) return;
     double left = 0, all = 0, beside_line = 0;
@@ -192,15 +204,20 @@ class ReliefReader {
   void find_trend() {
     const std::vector<glm::dvec2> forces = without_waves();
     const double left = mean_square(waves_.rest);
-    if (!found_.features.empty() || waves_.local || waves_.lattice || left < curved * mean_square(forces) ||
-        left < little * mean_square(whole_.forces))
-      return;
-    std::vector<glm::dvec2> places, some;
-    add_means(forces, places, some);
-    if (is_half_plane(places, some, forces)) {
+    if (!found_.features.empty() || waves_.local || waves_.lattice) return;
+    // A strong spring hides no step: beside it a line and the waves leave all of that.
+    std::vector<glm::dvec2> beyond = whole_.forces;
+    for (std::size_t i = 0; i < beyond.size(); ++i) beyond[i] -= waves_.trend.at(whole_.places[i]);
+    const bool even = mean_square(cell_means(whole_.side, waves_.rest)) > 0.5 * left;
+    if (even && left > little * mean_square(beyond) && are_obstacles(forces)) {
+      waves_ = find_waves(field_, whole_, found_.features);
+      if (waves_.waves.empty() || waves_.local) return;
+      refine(found_.features);
       waves_ = find_waves(field_, whole_, found_.features);
       return;
     }
+    if (left < curved * mean_square(forces) || left < little * mean_square(whole_.forces)) return;
+    std::vector<glm::dvec2> places = cell_means(whole_.side, whole_.places), some = cell_means(whole_.side, forces);
     add_closer_places(places, some);
     std::vector<Feature> features = find_features(places, some);
     if (features.empty() && waves_.waves.empty()) {
@@ -222,8 +239,7 @@ class ReliefReader {
     const bool waved = !waves_.waves.empty();
     waves_ = find_waves(field_, whole_, found_.features);
     if (waved || waves_.waves.empty() || waves_.local) return;
-    // What the features took of the waves goes back to them.
-    refine(found_.features, without_waves_and_with(found_.features));
+    refine(found_.features);
     waves_ = find_waves(field_, whole_, found_.features);
   }
   /// The forces without waves, with the features.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compiler/read/features.hpp"
-#include "compiler/read/half_plane.hpp"
+#include "compiler/read/obstacles.hpp"
 #include "compiler/read/period_band.hpp"
 #include "compiler/read/waves.hpp"
 #include "wale/memory.hpp"
@@ -62,8 +62,8 @@ struct StaticForce {
   LinearForce trend;              ///< the linear part, without the relief's; zero if features take its place
   bool pushes_away = false;       ///< the linear part points outward
   std::vector<Feature> features;  ///< walls, edges, springs that saturate, single hills
-  /// A half plane that explains all beside the linear part and the relief: then the only feature.
-  std::optional<HalfPlane> face;
+  /// Walls and steps that explain all beside the linear part and the relief: then they are the features.
+  Obstacles obstacles;
   /// The device's limit cuts trends off. They are told as they are where it does not.
   bool cut_off = false;
   Relief relief;

@@ -12,6 +12,7 @@
 namespace wale {
 namespace {
 
+constexpr std::size_t cells_a_mean = 4;
 constexpr std::size_t hands_at_once = 2048;  // so many stay in the cache
 /// Work above this, in units of cost over all hands, is worth another thread: about a millisecond.
 constexpr double worth_another_thread = 2e6;
@@ -59,6 +60,18 @@ StillForces still_forces(const StillField& field, glm::dvec2 centre, glm::dvec2 
     }
   still.forces = field(still.places);
   return still;
+}
+
+std::vector<glm::dvec2> cell_means(std::size_t side, std::span<const glm::dvec2> values) {
+  std::vector<glm::dvec2> means;
+  for (std::size_t top = 0; top < side; top += cells_a_mean)
+    for (std::size_t left = 0; left < side; left += cells_a_mean) {
+      glm::dvec2 sum{0};
+      for (std::size_t row = top; row < top + cells_a_mean; ++row)
+        for (std::size_t column = left; column < left + cells_a_mean; ++column) sum += values[row * side + column];
+      means.push_back(sum / (1.0 * cells_a_mean * cells_a_mean));
+    }
+  return means;
 }
 
 LinearForce linear_force(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {

@@ -30,6 +30,10 @@ StillForces still_forces(const StillField& field, glm::dvec2 centre, glm::dvec2 
 /// The forces at these places.
 std::vector<glm::dvec2> forces_at(const Bank& bank, std::span<const glm::dvec2> places);
 
+/// Means over blocks of neighbouring cells of a lattice with `side` cells along each axis: of forces, nearly free of
+/// texture.
+std::vector<glm::dvec2> cell_means(std::size_t side, std::span<const glm::dvec2> values);
+
 /// A linear field: the force at the origin, and its change along each axis (N/m).
 struct LinearForce {
   glm::dvec2 mean{0}, by_x{0}, by_y{0};

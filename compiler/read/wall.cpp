@@ -240,12 +240,34 @@ std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& 
   return stiffest;
 }
 
-WallFace wall_face(const Bank& bank, const HalfPlane& face) {
-  WallFace found{face.offset * face.inward + 0.0, face.inward + 0.0, face.stiffness, 0, 0, face.preload};
+namespace {
+
+/// Half the sides of the patch without its rim, m.
+glm::dvec2 half_inside(const Bank& bank) {
+  return 0.5 * glm::dvec2(bank.size().width, bank.size().height) - static_cast<double>(bank.size().rim);
+}
+
+/// A round wall, where a hand can go deepest into it along x or y.
+WallFace round_face(const Bank& bank, const Wall& wall) {
+  WallFace found{{}, {1, 0}, wall.stiffness, 0, 0, wall.preload, wall.offset, wall.centre + 0.0, wall.fills};
+  const glm::dvec2 half = half_inside(bank);
+  double most = -HUGE_VAL;
+  for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+    const glm::dvec2 place = wall.centre + wall.offset * way, room = half - glm::abs(place);
+    const double deep = wall.fills ? std::min(room.x, room.y) : glm::dot(room, glm::abs(way));
+    if (deep > most) most = deep, found.place = place + 0.0, found.inward = (wall.fills ? -1.0 : 1.0) * way + 0.0;
+  }
+  tell_damping(bank, found);
+  return found;
+}
+
+}  // namespace
+
+WallFace wall_face(const Bank& bank, const Wall& wall) {
+  if (wall.round()) return round_face(bank, wall);
+  WallFace found{wall.offset * wall.inward + 0.0, wall.inward + 0.0, wall.stiffness, 0, 0, wall.preload};
   // The part of the face that is nearest to the middle may lie beyond the patch's edge: the damping is felt within.
-  const PatchSize size = bank.size();
-  const glm::dvec2 half = 0.5 * glm::dvec2(size.width, size.height) - static_cast<double>(size.rim);
-  const glm::dvec2 along(-face.inward.y, face.inward.x);
+  const glm::dvec2 half = half_inside(bank), along(-wall.inward.y, wall.inward.x);
   double best = HUGE_VAL;
   glm::dvec2 place = found.place;
   for (int i = -32; i <= 32; ++i) {
@@ -256,7 +278,7 @@ WallFace wall_face(const Bank& bank, const HalfPlane& face) {
   }
   if (best < 1) found.place = place;
   tell_damping(bank, found);
-  found.place = face.offset * face.inward + 0.0;
+  found.place = wall.offset * wall.inward + 0.0;
   return found;
 }
 
@@ -269,6 +291,7 @@ WallDepth deepest(const Bank& bank, const WallFace& face) {
       reached.depth = std::min(reached.depth,
                                (std::copysign(half[axis], face.inward[axis]) - face.place[axis]) / face.inward[axis]);
   reached.depth = std::max(reached.depth, 0.0);
+  if (face.radius > 0 && face.fills) reached.depth = std::min(reached.depth, face.radius);
   constexpr std::size_t steps = 64;
   std::array<Hand, steps> hands{};
   std::array<Force, steps> forces{};
@@ -291,6 +314,9 @@ WallDepth deepest(const Bank& bank, const WallFace& face) {
 std::string wall_place(const WallFace& face) {
   constexpr double straight = 0.9999;  // cosine of less than a degree
   const auto in_mm = [](double metres) { return std::round(1e4 * metres) / 10 + 0.0; };
+  if (face.radius > 0)
+    return readable("{} {:g} mm {} ({:g}, {:g}) mm, all round", face.fills ? "within" : "beyond", in_mm(face.radius),
+                    face.fills ? "of" : "from", in_mm(face.centre.x), in_mm(face.centre.y));
   if (std::abs(face.inward.x) > straight)
     return readable("{} of x = {:g} mm", face.inward.x > 0 ? "right" : "left", in_mm(face.place.x));
   if (std::abs(face.inward.y) > straight)

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "compiler/read/features.hpp"
-#include "compiler/read/half_plane.hpp"
+#include "compiler/read/obstacles.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
 
-/// A face that pushes on one side only.
+/// A face that pushes on one side only, along a straight line or a circle.
 struct WallFace {
   glm::dvec2 place{0};   ///< m from the patch's centre: where the force begins
   glm::dvec2 inward{0};  ///< unit vector into the wall
@@ -19,6 +19,9 @@ struct WallFace {
   double damping = 0;    ///< N s/m: added against a hand that moves in, to what drags it outside
   double release = 0;    ///< N s/m: taken away from a hand that moves out
   double preload = 0;    ///< N: with which it pushes where it begins
+  double radius = 0;     ///< m: of a round face, of which `place` is one place; 0 if it is straight
+  glm::dvec2 centre{0};  ///< m: of a round face
+  bool fills = false;    ///< a round wall fills its circle; otherwise it lies around it
 };
 
 /// How far into a wall a hand can go before it leaves the patch, m, and the largest force that pushes it back on the
@@ -28,7 +31,8 @@ struct WallDepth {
 };
 WallDepth deepest(const Bank& bank, const WallFace& face);
 
-/// Where a wall stands, in words: "right of x = 20 mm", "beyond (3, 4) mm towards 53 degrees".
+/// Where a wall stands, in words: "right of x = 20 mm", "beyond (3, 4) mm towards 53 degrees", "beyond 30 mm
+/// from (0, 0) mm, all round".
 std::string wall_place(const WallFace& face);
 
 /// The stiffest face of the patch, if it has one: no force over some millimetres, then a force against the motion that
@@ -39,7 +43,7 @@ std::optional<WallFace> wall_face(const Bank& bank);
 /// proportion to the depth from there on. A texture may lie over it.
 std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& features);
 
-/// A half plane that was found, with its damping.
-WallFace wall_face(const Bank& bank, const HalfPlane& face);
+/// A wall that was found, with its damping.
+WallFace wall_face(const Bank& bank, const Wall& wall);
 
 }  // namespace wale

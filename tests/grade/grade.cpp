@@ -144,6 +144,16 @@ TEST(Grade, AStateThatGivesMoreEnergyThanItTakesIsActive) {
   EXPECT_GT(grade.energy.watt(), 0);
 }
 
+/// What a wall or a push gives a hand on its way out, it takes back on the way in.
+TEST(Grade, AMemoryBesideAPotentialIsNotActive) {
+  for (const char* beside :
+       {"firm(910 N/m, face: -40 mm)", "vector(4 N, 0 N)", "-60 N/m * (hand - vector(30 mm, 0 mm))"}) {
+    const Grade grade = graded(std::string("    force = sticky(0.3 N) + ") + beside);
+    EXPECT_EQ(grade.energy.watt(), 0) << beside;
+    EXPECT_NE(grade.standing, Standing::active) << beside;
+  }
+}
+
 TEST(Grade, AJumpIsFoundByItsStep) {
   const Grade grade = graded("    force = vector(if x < 3.21 mm then 1.5 N else -0.5 N, 0 N)");
   EXPECT_TRUE(grade.jumps);

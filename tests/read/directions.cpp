@@ -42,6 +42,51 @@ TEST(ReadingDirections, AWallThatTheDeviceCutsOffIsThatWall) {
   EXPECT_NEAR(pushing.wall->preload, 2, 0.05);
 }
 
+/// A wall that fills most of the patch takes all that the device gives; what resists shows in front of it.
+TEST(ReadingDirections, AWallAtTheDevicesLimitHidesNoResistance) {
+  for (const std::string wall : {"firm(910 N/m, face: -40 mm)", "-1800 N/m * (hand - vector(-46 mm, -51 mm))"}) {
+    const ForceReading rubbing = found_in("force = " + wall + " + sticky(0.3 N)");
+    EXPECT_NEAR(rubbing.opposing.friction, 0.3, 0.006) << wall;
+    EXPECT_FALSE(rubbing.opposing.frictions().directed()) << wall;
+    EXPECT_NEAR(found_in("force = " + wall + " - 2 N s/m * velocity").opposing.damping, 2, 0.02) << wall;
+    EXPECT_NEAR(found_in("force = " + wall + " - 0.2 kg * acceleration").inertia.greatest, 0.2, 0.002) << wall;
+  }
+}
+
+TEST(ReadingDirections, EveryWallIsAWall) {
+  const ForceReading both =
+      found_in("force = vector(-400 N/m * max(0 mm, x - 30 mm) + 700 N/m * max(0 mm, -40 mm - x), 0 N)");
+  ASSERT_TRUE(both.wall);
+  EXPECT_NEAR(both.wall->stiffness, 700, 7);
+  EXPECT_NEAR(both.wall->place.x, -0.04, 0.2e-3);
+  ASSERT_EQ(both.more_walls.size(), 1u);
+  EXPECT_NEAR(both.more_walls[0].stiffness, 400, 4);
+  EXPECT_NEAR(both.more_walls[0].place.x, 0.03, 0.2e-3);
+  EXPECT_EQ(both.relief().amplitude, 0);
+  const ForceReading round =
+      found_in("let far = max(length(hand), 1 um)\nforce = -300 N/m * max(0 mm, far - 30 mm) * hand / far");
+  ASSERT_TRUE(round.wall);
+  EXPECT_NEAR(round.wall->stiffness, 300, 3);
+  EXPECT_NEAR(round.wall->radius, 0.03, 0.2e-3);
+  EXPECT_EQ(wall_place(*round.wall), "beyond 30 mm from (0, 0) mm, all round");
+}
+
+TEST(ReadingDirections, AStepBesideASpringAndRibsIsAStep) {
+  const ForceReading found = found_in(
+      "force a = -30 N/m * hand\nforce s = vector(if x > 10 mm then 1 N else 0 N, 0 N)\n"
+      "force r = lateral(grating(y, period: 2.5 mm), amplitude: 0.8 N)");
+  ASSERT_EQ(found.steps.size(), 1u);
+  EXPECT_NEAR(glm::length(found.steps[0].change), 1, 0.02);
+  EXPECT_NEAR(found.steps[0].offset, 0.01, 0.5e-3);
+  EXPECT_NEAR(found.stiffness, 30, 0.5);
+  EXPECT_NEAR(found.relief().amplitude, 0.8, 0.03);
+  EXPECT_NEAR(found.relief().period, 2.5e-3, 0.03e-3);
+  const ForceReading stairs = found_in("force = vector(1 N * floor(x / 13.7 mm), 0 N)");
+  EXPECT_TRUE(stairs.steps.empty()) << "many equal ones are a sawtooth on a slope";
+  EXPECT_NEAR(stairs.relief().period, 13.7e-3, 0.2e-3);
+  EXPECT_NEAR(stairs.stiffness, -1 / 13.7e-3, 2);
+}
+
 TEST(ReadingDirections, ASpringThatRestsElsewhereIsASpringAndAPush) {
   const ForceReading found = found_in("force = spring(100 N/m, rest: vector(40 mm, 0 mm))");
   EXPECT_NEAR(found.stiffness, 100, 1);

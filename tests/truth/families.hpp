@@ -22,6 +22,7 @@ std::vector<Family> time_families();
 std::vector<Family> memory_families();
 std::vector<Family> mixture_families();
 std::vector<Family> axis_families();
+std::vector<Family> obstacle_families();
 
 /// All of them.
 std::vector<Family> families();

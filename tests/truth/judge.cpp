@@ -54,6 +54,37 @@ std::string text_of(const std::vector<WaveTruth>& waves) {
   return text.empty() ? "none" : text;
 }
 
+std::string text_of(const std::vector<WallTruth>& walls) {
+  std::string text;
+  for (const WallTruth& wall : walls)
+    text += fmt::format(
+        "{}{:.4g} N/m from {:.2f} mm on {}", text.empty() ? "" : " and ", wall.stiffness, 1e3 * wall.face,
+        wall.round == 0
+            ? fmt::format("towards {:.1f} degrees", wall.inward * 180 / std::numbers::pi)
+            : fmt::format("{} ({:.2f}, {:.2f}) mm", wall.round > 0 ? "around" : "within", 1e3 * wall.x, 1e3 * wall.y));
+  return text.empty() ? "none" : text;
+}
+
+std::string text_of(const std::vector<StepTruth>& steps) {
+  std::string text;
+  for (const StepTruth& step : steps)
+    text += fmt::format("{}({:.3f}, {:.3f}) N at {:.2f} mm towards {:.1f} degrees", text.empty() ? "" : " and ", step.x,
+                        step.y, 1e3 * step.place, step.angle * 180 / std::numbers::pi);
+  return text.empty() ? "none" : text;
+}
+
+/// Judges a list of things by what is alike.
+template <typename Thing>
+void judge_all(const std::vector<Thing>& expected, const std::vector<Thing>& read, std::size_t at,
+               Judgement& judgement) {
+  bool same = expected.size() == read.size();
+  for (const Thing& each : expected)
+    same = same && std::ranges::any_of(read, [&](const Thing& other) { return alike(each, other); });
+  judgement.verdicts[at] = same ? Verdict::right : Verdict::wrong;
+  judgement.errors[at] = same ? 0 : huge_error;
+  if (!same) judgement.faults[at] = fmt::format("expected {}, read {}", text_of(expected), text_of(read));
+}
+
 }  // namespace
 
 const std::array<CueRule, cue_count>& cue_rules() {
@@ -92,11 +123,31 @@ bool alike(const WaveTruth& a, const WaveTruth& b) {
   return std::abs(a.period - b.period) <= 0.02 * a.period && between_lines(a.orientation, b.orientation) <= 2 * degree;
 }
 
+bool alike(const WallTruth& a, const WallTruth& b) {
+  constexpr double degree = std::numbers::pi / 180;
+  if (a.round != b.round || std::abs(a.stiffness - b.stiffness) > 0.03 * a.stiffness ||
+      std::abs(a.face - b.face) > std::max(0.02 * std::abs(a.face), 0.3e-3))
+    return false;
+  if (a.round != 0) return std::hypot(a.x - b.x, a.y - b.y) < 0.5e-3;
+  return std::abs(std::remainder(a.inward - b.inward, 2 * std::numbers::pi)) <= 2 * degree;
+}
+
+bool alike(const StepTruth& a, const StepTruth& b) {
+  constexpr double degree = std::numbers::pi / 180;
+  // A line that is crossed the other way round has the same step with the other sign.
+  const double way = std::cos(a.angle - b.angle) < 0 ? -1 : 1;
+  return std::hypot(a.x - way * b.x, a.y - way * b.y) <= std::max(0.03 * std::hypot(a.x, a.y), 0.01) &&
+         std::abs(a.place - way * b.place) <= 0.5e-3 && between_lines(a.angle, b.angle) <= 2 * degree;
+}
+
 bool follows(Cue cue, Cue from) {
   return (cue == Cue::roughness || cue == Cue::bumpiness) && (from == Cue::amplitude || from == Cue::period);
 }
 
-const char* judged_name(std::size_t judged) { return judged < cue_count ? cue_rules()[judged].name : "waves"; }
+const char* judged_name(std::size_t judged) {
+  constexpr const char* lists[] = {"waves", "walls", "steps"};
+  return judged < cue_count ? cue_rules()[judged].name : lists[judged - cue_count];
+}
 
 bool Judgement::right() const { return std::ranges::find(verdicts, Verdict::wrong) == verdicts.end(); }
 
@@ -113,14 +164,9 @@ Judgement judge(const Truth& truth, const Reading& reading) {
     judgement.faults[i] = fault_of(rule, expected, reading.cues[i]);
     if (expected.kind == Expected::Kind::none) judgement.invents = true;
   }
-  if (!truth.waves) return judgement;
-  bool same = truth.waves->size() == reading.waves.size();
-  for (const WaveTruth& wave : *truth.waves)
-    same = same && std::ranges::any_of(reading.waves, [&](const WaveTruth& read) { return alike(wave, read); });
-  judgement.verdicts[cue_count] = same ? Verdict::right : Verdict::wrong;
-  judgement.errors[cue_count] = same ? 0 : huge_error;
-  if (!same)
-    judgement.faults[cue_count] = fmt::format("expected {}, read {}", text_of(*truth.waves), text_of(reading.waves));
+  if (truth.waves) judge_all(*truth.waves, reading.waves, cue_count, judgement);
+  if (truth.walls) judge_all(*truth.walls, reading.walls, cue_count + 1, judgement);
+  if (truth.steps) judge_all(*truth.steps, reading.steps, cue_count + 2, judgement);
   return judgement;
 }
 

@@ -55,6 +55,17 @@ Reading reading_of(const Program& program) {
        {CueKind::stiffness_axis, CueKind::viscosity_axis, CueKind::friction_axis, CueKind::mass_axis})
     if (cues[kind]) reading[Cue::axis] = cues[kind];
   if (found.wall) reading[Cue::face] = glm::dot(found.wall->place, found.wall->inward);
+  const auto tell_wall = [&](const WallFace& wall) {
+    if (wall.radius > 0)
+      reading.walls.push_back({wall.stiffness, wall.radius, 0, wall.fills ? -1 : 1, wall.centre.x, wall.centre.y});
+    else
+      reading.walls.push_back(
+          {wall.stiffness, glm::dot(wall.place, wall.inward), std::atan2(wall.inward.y, wall.inward.x)});
+  };
+  if (found.wall) tell_wall(*found.wall);
+  std::ranges::for_each(found.more_walls, tell_wall);
+  for (const StaticStep& step : found.steps)
+    reading.steps.push_back({step.offset, std::atan2(step.way.y, step.way.x), step.change.x, step.change.y});
   reading[Cue::roughness] = carrier_of(found, *declarations().percepts.find("roughness"), declarations());
   reading[Cue::bumpiness] = carrier_of(found, *declarations().percepts.find("bumpiness"), declarations());
   if (cues[CueKind::amplitude] && found.relief().regular())

@@ -22,7 +22,10 @@ void add(Score& score, const Case& made, const Judgement& judgement) {
     Score::OfCue& cue = score.cues[i];
     if (judgement.verdicts[i] == Verdict::open) continue;
     ++cue.judged;
-    const bool is_sized = i < cue_count ? made.truth.cues[i].kind == Expected::Kind::value : !made.truth.waves->empty();
+    const bool is_sized = i < cue_count        ? made.truth.cues[i].kind == Expected::Kind::value
+                          : i == cue_count     ? !made.truth.waves->empty()
+                          : i == cue_count + 1 ? !made.truth.walls->empty()
+                                               : !made.truth.steps->empty();
     if (is_sized) ++cue.sized;
     if (judgement.verdicts[i] == Verdict::right) {
       ++cue.right;

@@ -80,6 +80,14 @@ const std::map<std::string, Floor>& floors() {
       {"crisp wall", {8, 192}},
       {"displaced spring", {8, 192}},
       {"push beside", {8, 191}},
+      {"two walls", {8, 192}},
+      {"box", {8, 192}},
+      {"round wall", {8, 192}},
+      {"wall beside slow waves", {8, 192}},
+      {"step beside", {7, 198}},
+      {"few steps", {7, 196}},
+      {"staircase", {8, 184}},
+      {"resistance at a limit", {8, 183}},
   };
   return table;
 }

@@ -67,9 +67,29 @@ struct WaveTruth {
 /// Whether they count as one: periods within 2 %, directions within 2 degrees.
 bool alike(const WaveTruth& a, const WaveTruth& b);
 
+/// A wall: beyond a straight line, or all round.
+struct WallTruth {
+  double stiffness = 0;  ///< N/m
+  double face = 0;       ///< m: along the way into it from the patch's centre; of a round one, the radius
+  double inward = 0;     ///< rad: the way into a straight one
+  int round = 0;         ///< 1: it lies outside of a circle; -1: it fills the circle
+  double x = 0, y = 0;   ///< m: of the circle's centre
+};
+bool alike(const WallTruth& a, const WallTruth& b);
+
+/// A line where the force jumps.
+struct StepTruth {
+  double place = 0, angle = 0;  ///< m from the patch's centre along the way across it, and that way's angle, rad
+  double x = 0, y = 0;          ///< N: by so much the force is larger beyond it
+};
+bool alike(const StepTruth& a, const StepTruth& b);
+
 /// All that is known of a program. Without a word a cue is none.
 struct Truth {
   std::array<Expected, cue_count> cues;
+  /// All walls and steps; not judged if nothing.
+  std::optional<std::vector<WallTruth>> walls;
+  std::optional<std::vector<StepTruth>> steps;
   /// The waves of the relief; nothing if that is open.
   std::optional<std::vector<WaveTruth>> waves = std::vector<WaveTruth>{};
 
@@ -81,6 +101,8 @@ struct Truth {
 struct Reading {
   std::array<std::optional<double>, cue_count> cues;
   std::vector<WaveTruth> waves;
+  std::vector<WallTruth> walls;
+  std::vector<StepTruth> steps;
 
   std::optional<double>& operator[](Cue cue) { return cues[static_cast<std::size_t>(cue)]; }
   const std::optional<double>& operator[](Cue cue) const { return cues[static_cast<std::size_t>(cue)]; }
@@ -88,8 +110,8 @@ struct Reading {
 
 enum class Verdict { open, right, wrong };
 
-/// Of each cue, then of the waves.
-inline constexpr std::size_t judged_count = cue_count + 1;
+/// Of each cue, then of the waves, the walls and the steps.
+inline constexpr std::size_t judged_count = cue_count + 3;
 struct Judgement {
   std::array<Verdict, judged_count> verdicts{};
   std::array<std::string, judged_count> faults;  ///< "expected 2.5 mm, read 7.5 mm"; empty where right or open

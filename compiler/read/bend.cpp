@@ -1,0 +1,54 @@
+#include "compiler/read/bend.hpp"
+
+#include <algorithm>
+
+namespace wale {
+namespace {
+
+constexpr double least_beyond = 0.012;  // of the places, on either side of a bend
+
+}  // namespace
+
+Bend best_bend(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every) {
+  std::ranges::sort(line, {}, &PlaceOnLine::at);
+  // Centred and in units of the line's length, so that the sums are well conditioned.
+  const double low = line.front().at, length = line.back().at - low;
+  if (!(length > 0)) return {};
+  const auto count = static_cast<double>(line.size());
+  double u1 = 0, u2 = 0, s1 = 0, us = 0, ss = 0;
+  for (PlaceOnLine& each : line) {
+    each.at = (each.at - low) / length;
+    u1 += each.at, u2 += each.at * each.at, s1 += each.value, us += each.at * each.value, ss += each.value * each.value;
+  }
+  // Of the places beyond the bend.
+  double n = count, v1 = u1, v2 = u2, t1 = s1, vt = us;
+  const auto margin = std::max<std::size_t>(8, static_cast<std::size_t>(least_beyond * count));
+  Bend best;
+  for (std::size_t i = 0; i + margin < line.size(); ++i) {
+    const double u = line[i].at, value = line[i].value;
+    n -= 1, v1 -= u, v2 -= u * u, t1 -= value, vt -= u * value;
+    if (i < margin || i % every != 0) continue;
+    const double d = u, h1 = v1 - n * d, h2 = v2 - 2 * d * v1 + n * d * d, hu = v2 - d * v1, hs = vt - d * t1;
+    std::array<double, 4> found{};
+    if (kind == BendKind::bends_and_jumps) {
+      std::array<std::array<double, 5>, 4> rows = {
+          {{count, u1, h1, n, s1}, {u1, u2, hu, v1, us}, {h1, hu, h2, h1, hs}, {n, v1, h1, n, t1}}};
+      if (!solve<4>(rows)) continue;
+      found = {rows[0][4], rows[1][4], rows[2][4], rows[3][4]};
+    } else if (kind == BendKind::bends) {
+      std::array<std::array<double, 4>, 3> rows = {{{count, u1, h1, s1}, {u1, u2, hu, us}, {h1, hu, h2, hs}}};
+      if (!solve<3>(rows)) continue;
+      found = {rows[0][3], rows[1][3], rows[2][3], 0};
+    } else {
+      std::array<std::array<double, 4>, 3> rows = {{{count, u1, n, s1}, {u1, u2, v1, us}, {n, v1, n, t1}}};
+      if (!solve<3>(rows)) continue;
+      found = {rows[0][3], rows[1][3], 0, rows[2][3]};
+    }
+    const double explained = found[0] * s1 + found[1] * us + found[2] * hs + found[3] * t1;
+    const double left = (ss - explained) / count;
+    if (left < best.left) best = {low + length * d, found[2] / length, found[3], left};
+  }
+  return best;
+}
+
+}  // namespace wale

@@ -1,0 +1,279 @@
+#include "compiler/read/obstacle_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "compiler/read/bend.hpp"
+
+namespace wale {
+namespace {
+
+constexpr double most_turn = 0.1;       // rad, in one step
+constexpr double most_shift = 10e-3;    // m, in one step
+constexpr double most_widening = 0.7;   // of the logarithm of a width, in one step
+constexpr double hardly_wide = 0.1e-3;  // m: a step that narrow jumps
+constexpr double least_gain = 1e-4;     // of what is left, by a step worth going on
+constexpr int tries = 5;
+constexpr std::size_t rough_places = 300;  // of a jump, that are tried
+
+/// Cholesky's solution of a symmetric system with unit diagonal; empty if it is not definite.
+std::vector<double> solved(std::vector<double> matrix, std::vector<double> right) {
+  const std::size_t n = right.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k <= i; ++k) {
+      double sum = matrix[i * n + k];
+      for (std::size_t j = 0; j < k; ++j) sum -= matrix[i * n + j] * matrix[k * n + j];
+      if (i == k && !(sum > 1e-12)) return {};
+      matrix[i * n + k] = i == k ? std::sqrt(sum) : sum / matrix[k * n + k];
+    }
+    for (std::size_t j = 0; j < i; ++j) right[i] -= matrix[i * n + j] * right[j];
+    right[i] /= matrix[i * n + i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t j = i + 1; j < n; ++j) right[i] -= matrix[j * n + i] * right[j];
+    right[i] /= matrix[i * n + i];
+  }
+  return right;
+}
+
+glm::dvec2 turned(glm::dvec2 way, double by) {
+  by = std::clamp(by, -most_turn, most_turn);
+  return glm::normalize(way + by * glm::dvec2(-way.y, way.x));
+}
+double shift(double by) { return std::clamp(by, -most_shift, most_shift); }
+
+/// How far a step has risen at some distance beyond its line.
+double risen(double distance, double width) {
+  return width > 0 ? 0.5 * (1 + std::tanh(distance / width)) : distance > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+double Wall::depth(glm::dvec2 place) const {
+  if (!round()) return glm::dot(place, inward) - offset;
+  const double far = glm::length(place - centre);
+  return fills ? offset - far : far - offset;
+}
+
+glm::dvec2 Wall::into(glm::dvec2 place) const {
+  if (!round()) return inward;
+  const glm::dvec2 off = place - centre;
+  const double far = glm::length(off);
+  return far > 0 ? (fills ? -1.0 : 1.0) / far * off : glm::dvec2(0);
+}
+
+glm::dvec2 Wall::at(glm::dvec2 place) const {
+  const double deep = depth(place);
+  return deep > 0 ? -(preload + stiffness * deep) * into(place) : glm::dvec2(0);
+}
+
+Wall wall_of(const HalfPlane& face) {
+  return {.inward = face.inward, .offset = face.offset, .stiffness = face.stiffness, .preload = face.preload};
+}
+
+glm::dvec2 StaticStep::at(glm::dvec2 place) const { return risen(glm::dot(place, way) - offset, width) * change; }
+
+glm::dvec2 ObstacleFit::at(glm::dvec2 place) const {
+  glm::dvec2 force = even.at(place);
+  for (const Wall& each : found.walls) force += each.at(place);
+  for (const StaticStep& each : found.steps) force += each.at(place);
+  for (const Wave& wave : waves) {
+    const double turn = 2 * std::numbers::pi * glm::dot(wave.waves, place);
+    for (std::size_t i = 0; i < wave.parts.size(); ++i) {
+      const double angle = static_cast<double>(i + 1) * turn;
+      force += std::cos(angle) * wave.parts[i][0] + std::sin(angle) * wave.parts[i][1];
+    }
+  }
+  return force;
+}
+
+std::vector<glm::dvec2> ObstacleFit::rest(std::span<const glm::dvec2> places,
+                                          std::span<const glm::dvec2> forces) const {
+  std::vector<glm::dvec2> left(forces.begin(), forces.end());
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] -= at(places[i]);
+  return left;
+}
+
+// The order of the unknowns: the even force, walls, steps, waves.
+std::size_t ObstacleFit::columns() const {
+  std::size_t count = 6;
+  for (const Wall& each : found.walls) count += each.round() ? 4 : 3;
+  for (const StaticStep& each : found.steps) count += each.width > 0 ? 5 : 2;
+  for (const Wave& each : waves) count += 2 + 4 * each.parts.size();
+  return count;
+}
+
+void ObstacleFit::fill(glm::dvec2 place, std::span<glm::dvec2> by) const {
+  std::ranges::fill(by, glm::dvec2(0));
+  const glm::dvec2 x(1, 0), y(0, 1);
+  by[0] = x, by[1] = y, by[2] = place.x * x, by[3] = place.x * y, by[4] = place.y * x, by[5] = place.y * y;
+  std::size_t next = 6;
+  for (const Wall& each : found.walls) {
+    const std::size_t first = next;
+    next += each.round() ? 4 : 3;
+    const double deep = each.depth(place);
+    if (!(deep > 0)) continue;
+    const glm::dvec2 in = each.into(place);
+    const double push = each.preload + each.stiffness * deep;
+    by[first] = -deep * in;
+    // A face with a preload stays where it jumps; another one pushes less if it stands further in.
+    by[first + 1] = each.preload != 0 ? -in : (each.round() && each.fills ? -each.stiffness : each.stiffness) * in;
+    if (!each.round()) {
+      const glm::dvec2 across(-in.y, in.x);
+      by[first + 2] = -each.stiffness * glm::dot(place, across) * in - push * across;
+      continue;
+    }
+    const double far = glm::length(place - each.centre);
+    for (const int axis : {0, 1}) {
+      const glm::dvec2 moved = axis == 0 ? x : y;
+      const double along = glm::dot(moved, in);
+      // Into a wall around its circle the depth falls as the circle moves along; the way in turns with it.
+      const double turn = each.fills ? -1 : 1;
+      by[first + 2 + static_cast<std::size_t>(axis)] =
+          each.stiffness * along * in + turn * push / far * (moved - along * in);
+    }
+  }
+  for (const StaticStep& each : found.steps) {
+    const double distance = glm::dot(place, each.way) - each.offset, up = risen(distance, each.width);
+    by[next] = up * x, by[next + 1] = up * y;
+    if (each.width > 0) {
+      const double slope = 2 * up * (1 - up) / each.width;
+      by[next + 2] = -slope * each.change;
+      by[next + 3] = slope * glm::dot(place, glm::dvec2(-each.way.y, each.way.x)) * each.change;
+      by[next + 4] = -slope * distance * each.change;  // by the logarithm of the width
+    }
+    next += each.width > 0 ? 5 : 2;
+  }
+  for (const Wave& wave : waves) {
+    const double turn = 2 * std::numbers::pi * glm::dot(wave.waves, place);
+    const std::size_t first = next;
+    next += 2;
+    glm::dvec2 by_turn{0};
+    for (std::size_t i = 0; i < wave.parts.size(); ++i, next += 4) {
+      const auto number = static_cast<double>(i + 1);
+      const double cosine = std::cos(number * turn), sine = std::sin(number * turn);
+      by[next] = cosine * x, by[next + 1] = cosine * y, by[next + 2] = sine * x, by[next + 3] = sine * y;
+      by_turn += number * (cosine * wave.parts[i][1] - sine * wave.parts[i][0]);
+    }
+    by[first] = 2 * std::numbers::pi * place.x * by_turn, by[first + 1] = 2 * std::numbers::pi * place.y * by_turn;
+  }
+}
+
+void ObstacleFit::move(std::span<const double> by) {
+  even.mean += glm::dvec2(by[0], by[1]);
+  even.by_x += glm::dvec2(by[2], by[3]);
+  even.by_y += glm::dvec2(by[4], by[5]);
+  std::size_t next = 6;
+  for (Wall& each : found.walls) {
+    each.stiffness += by[next];
+    (each.preload != 0 ? each.preload : each.offset) += each.preload != 0 ? by[next + 1] : shift(by[next + 1]);
+    if (each.round())
+      each.centre += glm::dvec2(shift(by[next + 2]), shift(by[next + 3]));
+    else
+      each.inward = turned(each.inward, by[next + 2]);
+    next += each.round() ? 4 : 3;
+  }
+  for (StaticStep& each : found.steps) {
+    each.change += glm::dvec2(by[next], by[next + 1]);
+    next += 2;
+    if (!(each.width > 0)) continue;
+    each.offset += shift(by[next]);
+    each.way = turned(each.way, by[next + 1]);
+    each.width *= std::exp(std::clamp(by[next + 2], -most_widening, most_widening));
+    next += 3;
+  }
+  for (Wave& wave : waves) {
+    wave.waves += glm::dvec2(by[next], by[next + 1]);
+    next += 2;
+    for (auto& part : wave.parts)
+      for (glm::dvec2& each : part) each += glm::dvec2(by[next], by[next + 1]), next += 2;
+  }
+}
+
+void ObstacleFit::move_jumps(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+  const std::size_t rough = std::max<std::size_t>(1, places.size() / rough_places);
+  const auto best_along = [&](const std::vector<glm::dvec2>& without, glm::dvec2 way, glm::dvec2 of, BendKind kind,
+                              std::size_t every) {
+    std::vector<PlaceOnLine> line(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) line[i] = {glm::dot(places[i], way), glm::dot(without[i], of)};
+    return best_bend(std::move(line), kind, every);
+  };
+  for (StaticStep& each : found.steps) {
+    if (each.width > 0 || each.change == glm::dvec2(0)) continue;
+    std::vector<glm::dvec2> without = rest(places, forces);
+    for (std::size_t i = 0; i < places.size(); ++i) without[i] += each.at(places[i]);
+    const glm::dvec2 of = glm::normalize(each.change);
+    Bend best = best_along(without, each.way, of, BendKind::jumps, rough);
+    for (double step = 0.02; step > 5e-4; step *= 0.5)
+      for (const double by : {step, -step}) {
+        const glm::dvec2 way = turned(each.way, by);
+        const Bend other = best_along(without, way, of, BendKind::jumps, rough);
+        if (other.left < best.left) best = other, each.way = way;
+      }
+    best = best_along(without, each.way, of, BendKind::jumps, 1);
+    if (best.left < HUGE_VAL) each.offset = best.at;
+  }
+  for (Wall& each : found.walls) {
+    if (each.preload == 0 || each.round()) continue;
+    std::vector<glm::dvec2> without = rest(places, forces);
+    for (std::size_t i = 0; i < places.size(); ++i) without[i] += each.at(places[i]);
+    const Bend best = best_along(without, each.inward, each.inward, BendKind::bends_and_jumps, 1);
+    if (best.left < HUGE_VAL) each.offset = best.at;
+  }
+}
+
+double ObstacleFit::improve(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, int steps) {
+  double damping = 1e-6;
+  move_jumps(places, forces);
+  std::vector<glm::dvec2> left = rest(places, forces);
+  double least = mean_square(left);
+  for (int step = 0; step < steps; ++step) {
+    const std::size_t n = columns();
+    std::vector<double> matrix(n * n, 0.0), right(n, 0.0), size(n);
+    std::vector<glm::dvec2> by(n);
+    std::vector<std::size_t> used;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      fill(places[i], by);
+      used.clear();
+      for (std::size_t k = 0; k < n; ++k)
+        if (by[k] != glm::dvec2(0)) used.push_back(k);
+      for (const std::size_t a : used) {
+        for (const std::size_t b : used) {
+          if (b > a) break;
+          matrix[a * n + b] += glm::dot(by[a], by[b]);
+        }
+        right[a] += glm::dot(by[a], left[i]);
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) size[i] = std::sqrt(std::max(matrix[i * n + i], 1e-30));
+    for (std::size_t i = 0; i < n; ++i) {
+      right[i] /= size[i];
+      for (std::size_t k = 0; k <= i; ++k) matrix[i * n + k] /= size[i] * size[k];
+    }
+    bool better = false;
+    const double before = least;
+    for (int turn = 0; turn < tries && !better; ++turn) {
+      std::vector<double> damped = matrix;
+      for (std::size_t i = 0; i < n; ++i) damped[i * n + i] = 1 + damping;
+      std::vector<double> moved = solved(std::move(damped), right);
+      damping *= 30;
+      if (moved.empty()) continue;
+      for (std::size_t i = 0; i < n; ++i) moved[i] /= size[i];
+      ObstacleFit other = *this;
+      other.move(moved);
+      for (StaticStep& each : other.found.steps)
+        if (each.width < hardly_wide) each.width = 0;
+      std::vector<glm::dvec2> now = other.rest(places, forces);
+      const double here = mean_square(now);
+      if (!(here < least)) continue;
+      better = true, least = here, left = std::move(now), *this = std::move(other);
+      damping = std::max(1e-8, damping / 900);
+    }
+    if (!better || before - least < least_gain * before) break;
+  }
+  return least;
+}
+
+}  // namespace wale

@@ -1,0 +1,461 @@
+#include "compiler/read/obstacles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "compiler/read/bend.hpp"
+#include "compiler/read/obstacle_fit.hpp"
+#include "compiler/read/tolerances.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::size_t most_obstacles = 5;
+constexpr int ways_tried = 12;              // in half a turn
+constexpr double worth_an_obstacle = 0.07;  // of what is left, at least, explained by one more
+constexpr double all_explained = 3e-4;      // of what a line leaves: nothing more is looked for
+constexpr double left_unexplained = 4e-3;   // of what a line leaves, by obstacles that explain it, beside noise ...
+constexpr double times_noise = 1.7;         // ... and so many times that
+constexpr double coarser_noise = 5;         // times what a texture finer than the cells leaves in means over them
+constexpr double places_a_mean = 16;
+constexpr double far_from_all = 0.3;                     // of what a line leaves, in means over cells that steps cross
+constexpr int steps_at_means = 8, steps_at_places = 12;  // of a fit, at most
+constexpr double most_noise = 0.2;                       // of what a line leaves
+constexpr double least_beside = 0.012;                   // of the places, on either side of an obstacle
+constexpr double least_push_of_wall = 0.02;              // N, at its deepest
+constexpr double mended = 0.2;                           // of a wall's stiffness
+constexpr double alike_ways = 0.94;                      // cosine: two walls that stand so are a curve
+constexpr double less_than_others = 0.9;                 // of what other kinds leave
+constexpr double widest_step = 5e-3;                     // m
+constexpr double apart_at_least = 4e-3;                  // m between two steps
+constexpr double opposed_ways = -0.9;                    // cosine
+constexpr std::size_t places_fitted_at = 6400;
+constexpr std::size_t profile_values = 1024;
+constexpr std::size_t every_bend = 6;        // that is tried, before it is fitted
+constexpr double first_width = 1.5e-3;       // m: of a step, before it is fitted
+constexpr double first_period_share = 0.25;  // of half the patch: between the centres that are tried for round walls
+constexpr int centres_aside = 2;
+constexpr std::size_t blocks = 8;  // along each side, in which a force without a bend is a plane
+constexpr double times_left = 3;   // what obstacles may leave, in a block: about a round wall no force is a plane
+constexpr double blocks_with_bends = 0.6;  // at most
+
+/// N^2: the part of a mean square that changes from one of these means to the next, as a texture's.
+double noise_of(std::span<const glm::dvec2> even) {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < even.size(); ++i) {
+    const glm::dvec2 off = even[i - 1] - 2.0 * even[i] + even[i + 1];
+    sum += glm::dot(off, off) / 6;
+  }
+  return even.size() > 2 ? sum / static_cast<double>(even.size() - 2) : 0;
+}
+
+/// What is looked for.
+struct Kinds {
+  bool straight = false, round = false, steps = false;
+};
+// A box looks a little like a round room, and a step like two walls: what one kind explains is of that kind.
+constexpr std::array<Kinds, 4> all_kinds = {
+    {{true, false, false}, {false, true, false}, {false, false, true}, {true, false, true}}};
+
+/// One more obstacle, and what it explains of a mean square, N^2.
+struct Candidate {
+  Obstacles one;
+  double explained = 0;
+};
+
+/// The best obstacle for what a model leaves.
+class NextObstacle {
+ public:
+  NextObstacle(std::span<const glm::dvec2> places, std::span<const glm::dvec2> rest) : places_(places), rest_(rest) {
+    for (const glm::dvec2& place : places) half_ = glm::max(half_, glm::abs(place));
+  }
+
+  Candidate found(const Kinds& kinds) {
+    if (kinds.round) {
+      try_round();
+      return std::move(best_);
+    }
+    const glm::dvec2 push = axis_of_rest();
+    for (int i = 0; i < ways_tried; ++i) {
+      const double angle = i * std::numbers::pi / ways_tried;
+      const glm::dvec2 way(std::cos(angle), std::sin(angle));
+      if (kinds.straight) try_straight(way);
+      if (!kinds.steps) continue;
+      try_step(way, push);
+      try_step(way, glm::dvec2(-push.y, push.x));
+    }
+    return std::move(best_);
+  }
+
+ private:
+  /// The axis along which the rest pushes most.
+  glm::dvec2 axis_of_rest() const {
+    double xx = 0, xy = 0, yy = 0;
+    for (const glm::dvec2& each : rest_) xx += each.x * each.x, xy += each.x * each.y, yy += each.y * each.y;
+    const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+    return {std::cos(angle), std::sin(angle)};
+  }
+
+  /// What a bend explains of the parts of the rest along a way, over one coordinate.
+  template <typename At, typename Value>
+  std::pair<Bend, double> bend(const At& at, const Value& value, BendKind kind) const {
+    std::vector<PlaceOnLine> line(places_.size());
+    double squares = 0;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      line[i] = {at(places_[i]), value(i)};
+      squares += line[i].value * line[i].value / static_cast<double>(places_.size());
+    }
+    const Bend best = best_bend(std::move(line), kind, every_bend);
+    return {best, squares - best.left};
+  }
+
+  void try_straight(glm::dvec2 way) {
+    const auto [best, explained] = bend([&](glm::dvec2 place) { return glm::dot(place, way); },
+                                        [&](std::size_t i) { return glm::dot(rest_[i], way); }, BendKind::bends);
+    if (!(explained > best_.explained)) return;
+    // Where it is less steep beyond the bend, the wall is on the other side.
+    const double side = best.slope > 0 ? -1 : 1;
+    best_ = {{{{.inward = side * way, .offset = side * best.at, .stiffness = std::abs(best.slope)}}, {}}, explained};
+  }
+
+  void try_step(glm::dvec2 way, glm::dvec2 push) {
+    const auto [best, explained] = bend([&](glm::dvec2 place) { return glm::dot(place, way); },
+                                        [&](std::size_t i) { return glm::dot(rest_[i], push); }, BendKind::jumps);
+    if (explained > best_.explained) best_ = {{{}, {{way, best.at, first_width, best.jump * push}}}, explained};
+  }
+
+  /// A round wall about a point; returns what it explains.
+  double try_round(glm::dvec2 centre) {
+    const auto out = [&](std::size_t i) {
+      const glm::dvec2 off = places_[i] - centre;
+      const double far = glm::length(off);
+      return far > 0 ? off / far : glm::dvec2(0);
+    };
+    const auto [best, explained] = bend([&](glm::dvec2 place) { return glm::length(place - centre); },
+                                        [&](std::size_t i) { return glm::dot(rest_[i], out(i)); }, BendKind::bends);
+    // Outwards ever less: a wall around. Inwards ever more: within it, and the even force is that outside.
+    if (explained > best_.explained && best.at > 0)
+      best_ = {
+          {{{.centre = centre, .offset = best.at, .fills = best.slope > 0, .stiffness = std::abs(best.slope)}}, {}},
+          explained};
+    return explained;
+  }
+
+  void try_round() {
+    glm::dvec2 best{0};
+    double most = -1;
+    const auto look = [&](glm::dvec2 centre) {
+      const double here = try_round(centre);
+      if (here > most) most = here, best = centre;
+    };
+    for (int row = -centres_aside; row <= centres_aside; ++row)
+      for (int column = -centres_aside; column <= centres_aside; ++column)
+        look(first_period_share * half_ * glm::dvec2(column, row));
+    for (double step = 0.5 * first_period_share; step > 0.05; step *= 0.5) {
+      const glm::dvec2 middle = best;
+      for (const glm::dvec2 aside : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)})
+        look(middle + step * aside * half_);
+    }
+  }
+
+  std::span<const glm::dvec2> places_, rest_;
+  glm::dvec2 half_{0};
+  Candidate best_;
+};
+
+/// Joins a step along a wall's face to the wall: with so much it begins to push.
+void join_preloads(Obstacles& found) {
+  for (Wall& wall : found.walls) {
+    if (wall.round() || wall.preload != 0) continue;
+    const auto along = std::ranges::find_if(found.steps, [&](const StaticStep& step) {
+      const double cosine = glm::dot(step.way, wall.inward);
+      return std::abs(cosine) > 0.999 && std::abs(std::copysign(1.0, cosine) * step.offset - wall.offset) < 1.5e-3 &&
+             std::copysign(1.0, cosine) * glm::dot(step.change, wall.inward) < 0;
+    });
+    if (along == found.steps.end()) continue;
+    wall.preload = glm::length(along->change);
+    found.steps.erase(along);
+  }
+}
+
+/// Whether walls and steps are such as stand in a patch: none that is hardly there, no two in the same place.
+bool is_sound(const ObstacleFit& fit, std::span<const glm::dvec2> places) {
+  const auto count = static_cast<double>(places.size());
+  const auto share = [&](const auto& beyond) {
+    return static_cast<double>(std::ranges::count_if(places, beyond)) / count;
+  };
+  const auto& [walls, steps] = fit.found;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Wall& wall = walls[i];
+    double deepest = 0;
+    for (const glm::dvec2& place : places) deepest = std::max(deepest, wall.depth(place));
+    const double inside = share([&](glm::dvec2 place) { return wall.depth(place) > 0; });
+    const double rise = wall.stiffness * deepest;
+    if (inside < least_beside || inside > 1 - least_beside || wall.stiffness < least_stiffness ||
+        rise < least_push_of_wall || wall.preload < -least_force || wall.preload > rise)
+      return false;
+    // A wall that mends what the even force pushes away is no wall.
+    const glm::dvec2 in = wall.round() ? glm::dvec2(1, 0) : wall.inward;
+    if (glm::dot(in, in.x * fit.even.by_x + in.y * fit.even.by_y) > mended * wall.stiffness) return false;
+    for (std::size_t k = 0; k < i; ++k) {
+      const Wall& other = walls[k];
+      if (wall.round() || other.round()) return false;
+      const double cosine = glm::dot(wall.inward, other.inward);
+      // A profile that bends twice the same way is a curve, and one with two overlapping walls is a spring that ends.
+      if (cosine > alike_ways || (cosine < opposed_ways && wall.offset + other.offset < 0)) return false;
+    }
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const StaticStep& step = steps[i];
+    // Two in one place are no two.
+    for (std::size_t k = 0; k < i; ++k) {
+      const double cosine = glm::dot(step.way, steps[k].way);
+      if (std::abs(cosine) > alike_ways &&
+          std::abs(step.offset - std::copysign(1.0, cosine) * steps[k].offset) < apart_at_least)
+        return false;
+    }
+    if (step.width > widest_step) return false;
+    const double beyond = share([&](glm::dvec2 place) { return glm::dot(place, step.way) > step.offset; });
+    if (beyond < least_beside || beyond > 1 - least_beside || glm::length(step.change) < 2 * least_force) return false;
+  }
+  return true;
+}
+
+/// Every so-many-th.
+std::vector<glm::dvec2> some_of(std::span<const glm::dvec2> all, std::size_t most) {
+  std::size_t every = 1;
+  // The next prime does not stay within some columns of the lattice.
+  for (const std::size_t prime : {std::size_t{3}, std::size_t{7}, std::size_t{11}, std::size_t{13}})
+    if (all.size() > most * every * 4 / 3) every = prime;
+  std::vector<glm::dvec2> some;
+  for (std::size_t i = 0; i < all.size(); i += every) some.push_back(all[i]);
+  return some;
+}
+
+}  // namespace
+
+namespace {
+
+/// Finds obstacles of some kinds, one after another.
+class ObstacleSearch {
+ public:
+  ObstacleSearch(const StillForces& whole, std::span<const glm::dvec2> forces)
+      : whole_(whole),
+        forces_(forces),
+        places_(cell_means(whole.side, whole.places)),
+        even_(cell_means(whole.side, forces)),
+        line_(linear_force(places_, even_)) {
+    by_line_ = mean_square(rest_of(line_));
+  }
+
+  /// Whether the forces are even between bends, as those of walls and steps are. Nearly all slow reliefs are not, and
+  /// are left at once.
+  bool is_even_between_bends() const {
+    const std::size_t side = whole_.side / blocks;
+    std::vector<glm::dvec2> places(side * side), forces(side * side);
+    std::size_t uneven = 0;
+    for (std::size_t block = 0; block < blocks * blocks; ++block) {
+      const std::size_t top = block / blocks * side, left = block % blocks * side;
+      for (std::size_t i = 0; i < forces.size(); ++i) {
+        const std::size_t at = (top + i / side) * whole_.side + left + i % side;
+        places[i] = whole_.places[at], forces[i] = forces_[at];
+      }
+      const LinearForce plane = linear_force(places, forces);
+      for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= plane.at(places[i]);
+      const double even = mean_square(cell_means(side, forces)), within = (mean_square(forces) - even) / places_a_mean;
+      const double noise = std::min(coarser_noise * within, most_noise * by_line_);
+      uneven += even > times_left * left_unexplained * by_line_ + times_noise * noise;
+    }
+    return static_cast<double>(uneven) <= blocks_with_bends * blocks * blocks;
+  }
+
+  bool is_bent() const { return by_line_ >= least_force * least_force; }
+  double by_line() const { return by_line_; }
+
+  /// Whether these explain all.
+  bool explained_by(const Obstacles& found) const {
+    ObstacleFit fit;
+    fit.found = found;
+    fit.even = linear_force(whole_.places, fit.rest(whole_.places, forces_));
+    return explains(fit);
+  }
+
+  std::optional<ObstacleFit> found(const Kinds& kinds) const {
+    ObstacleFit fit;
+    fit.even = line_;
+    double left = by_line_;
+    const std::size_t most = kinds.round ? 1 : most_obstacles;
+    for (std::size_t number = 0; number < most && left > all_explained * by_line_; ++number) {
+      ObstacleFit more = fit;
+      const double here = add(more, kinds, left);
+      if (!(here < (1 - worth_an_obstacle) * left) || (number >= 2 && here > 0.5 * by_line_)) break;
+      fit = std::move(more), left = here;
+    }
+    if (fit.found.walls.size() + fit.found.steps.size() > 1 && left > all_explained * by_line_ &&
+        left < 0.15 * by_line_)
+      left = seat_anew(fit, kinds, left);
+    if (fit.found.empty() || left > far_from_all * by_line_) return std::nullopt;
+    return accepted(std::move(fit));
+  }
+
+ private:
+  std::vector<glm::dvec2> rest_of(const LinearForce& line) const {
+    std::vector<glm::dvec2> rest = even_;
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= line.at(places_[i]);
+    return rest;
+  }
+
+  /// Adds the obstacle that explains most, and returns what is left, N^2.
+  double add(ObstacleFit& fit, const Kinds& kinds, double left) const {
+    const std::vector<glm::dvec2> rest = fit.rest(places_, even_);
+    const Candidate next = NextObstacle(places_, rest).found(kinds);
+    if (!(next.explained > 0)) return left;
+    for (const Wall& each : next.one.walls) fit.found.walls.push_back(each);
+    for (const StaticStep& each : next.one.steps) fit.found.steps.push_back(each);
+    return fit.improve(places_, even_, steps_at_means);
+  }
+
+  /// The first obstacles were found where there seemed to be no others. Each is taken away and looked for again.
+  double seat_anew(ObstacleFit& fit, const Kinds& kinds, double left) const {
+    const std::size_t all = fit.found.walls.size() + fit.found.steps.size();
+    for (std::size_t i = 0; i < all; ++i) {
+      const std::size_t walls = fit.found.walls.size();
+      ObstacleFit other = fit;
+      if (i < walls)
+        other.found.walls.erase(other.found.walls.begin() + static_cast<std::ptrdiff_t>(i));
+      else
+        other.found.steps.erase(other.found.steps.begin() + static_cast<std::ptrdiff_t>(i - walls));
+      other.improve(places_, even_, steps_at_means);
+      const double here = add(other, kinds, left);
+      if (other.found.walls.size() + other.found.steps.size() == all && here < left)
+        left = here, fit = std::move(other);
+    }
+    return left;
+  }
+
+  /// Fits obstacles exactly; nothing if they leave too much, or are none.
+  std::optional<ObstacleFit> accepted(ObstacleFit fit) const {
+    join_preloads(fit.found);
+    const std::vector<glm::dvec2> places = some_of(whole_.places, places_fitted_at),
+                                  forces = some_of(forces_, places_fitted_at);
+    fit.improve(places, forces, steps_at_places);
+    if (!fit.found.steps.empty()) {
+      ObstacleFit sharp = fit;
+      for (StaticStep& each : sharp.found.steps) each.width = 0;
+      // What jumps is put in its place with all else.
+      for (int turn = 0; turn < 2; ++turn) sharp.improve(places, forces, steps_at_places);
+      if (mean_square(sharp.rest(places, forces)) < mean_square(fit.rest(places, forces))) fit = std::move(sharp);
+    }
+    if (!explains(fit) || !is_sound(fit, whole_.places)) return std::nullopt;
+    return fit;
+  }
+
+  /// Whether what a model leaves is no more than a texture.
+  bool explains(const ObstacleFit& fit) const {
+    // At the places themselves: a mean over a cell that a step crosses is neither force.
+    const std::vector<glm::dvec2> fine = fit.rest(whole_.places, forces_), rest = cell_means(whole_.side, fine);
+    const double within = (mean_square(fine) - mean_square(rest)) / places_a_mean;
+    const double noise = std::min({noise_of(rest), coarser_noise * within, most_noise * by_line_});
+    return mean_square(rest) <= left_unexplained * by_line_ + times_noise * noise;
+  }
+
+  const StillForces& whole_;
+  std::span<const glm::dvec2> forces_;
+  std::vector<glm::dvec2> places_, even_;  // of means over small cells
+  LinearForce line_;
+  double by_line_ = 0;  // N^2: what a line leaves
+};
+
+}  // namespace
+
+std::optional<Obstacles> find_obstacles(const StillForces& whole, std::span<const glm::dvec2> forces) {
+  const ObstacleSearch search(whole, forces);
+  if (!search.is_bent() || !search.is_even_between_bends()) return std::nullopt;
+  const auto face =
+      find_half_plane(cell_means(whole.side, whole.places), cell_means(whole.side, forces), whole.places, forces);
+  if (face && search.explained_by({{wall_of(*face)}, {}})) return Obstacles{{wall_of(*face)}, {}};
+  // What explains all but rounding is it; a texture leaves more, and then what leaves least.
+  std::optional<ObstacleFit> best;
+  double least = HUGE_VAL;
+  for (const Kinds& kinds : all_kinds) {
+    auto fit = search.found(kinds);
+    if (!fit) continue;
+    const double left = mean_square(fit->rest(whole.places, forces));
+    if (left < all_explained * search.by_line()) return fit->found;
+    if (left < less_than_others * least) least = left, best = std::move(fit);
+  }
+  if (best) return best->found;
+  return face ? std::optional(Obstacles{{wall_of(*face)}, {}}) : std::nullopt;
+}
+
+Obstacles fitted_beside(const Obstacles& found, std::span<const SlowWave> waves, std::span<const glm::dvec2> places,
+                        std::span<const glm::dvec2> forces) {
+  ObstacleFit fit;
+  fit.found = found;
+  for (const SlowWave& each : waves)
+    fit.waves.push_back(
+        {each.waves, std::vector<std::array<glm::dvec2, 2>>(each.harmonics, {glm::dvec2(0), glm::dvec2(0)})});
+  const std::vector<glm::dvec2> some_places = some_of(places, places_fitted_at),
+                                some = some_of(forces, places_fitted_at);
+  fit.even = linear_force(some_places, fit.rest(some_places, some));
+  fit.improve(some_places, some, 10);
+  return is_sound(fit, places) ? fit.found : found;
+}
+
+namespace {
+
+Feature feature_of(const Wall& wall, std::span<const glm::dvec2> places) {
+  Feature feature{.radial = wall.round(), .origin = wall.centre, .direction = wall.inward};
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const glm::dvec2& place : places) {
+    const double at = feature.coordinate(place);
+    low = std::min(low, at), high = std::max(high, at);
+  }
+  feature.step = (high - low) / static_cast<double>(profile_values);
+  // One of the profile's places is where the wall begins.
+  const auto before = static_cast<std::size_t>(std::max(1.0, std::ceil((wall.offset - low) / feature.step)));
+  feature.low = wall.offset - static_cast<double>(before) * feature.step;
+  for (std::size_t i = 0; feature.low + feature.step * (static_cast<double>(i) - 1) < high || i < before + 2; ++i) {
+    const double beyond = feature.step * (static_cast<double>(i) - static_cast<double>(before));
+    const double deep = wall.fills ? -beyond : beyond;
+    const double push = deep > 0 ? wall.preload + wall.stiffness * deep : 0;
+    // Outward from a round wall's centre.
+    feature.profile.push_back(wall.round() ? glm::dvec2(wall.fills ? push : -push, 0) : -push * wall.inward);
+  }
+  for (const glm::dvec2& force : feature.profile) feature.range = std::max(feature.range, glm::length(force));
+  feature.monotone = true;
+  return feature;
+}
+
+Feature feature_of(const StaticStep& step, std::span<const glm::dvec2> places) {
+  Feature feature{.direction = step.way};
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const glm::dvec2& place : places) {
+    const double at = feature.coordinate(place);
+    low = std::min(low, at), high = std::max(high, at);
+  }
+  feature.step = (high - low) / static_cast<double>(profile_values);
+  // The jump is in the middle between two of the profile's places.
+  const auto before = std::ceil((step.offset - low) / feature.step);
+  feature.low = step.offset - (before + 0.5) * feature.step;
+  for (double at = feature.low; at < high + feature.step; at += feature.step)
+    feature.profile.push_back(StaticStep{{1, 0}, step.offset, step.width, step.change}.at({at, 0}));
+  feature.range = glm::length(step.change);
+  feature.monotone = true;
+  return feature;
+}
+
+}  // namespace
+
+std::vector<Feature> features_of(const Obstacles& found, std::span<const glm::dvec2> places) {
+  std::vector<Feature> features;
+  for (const Wall& each : found.walls) features.push_back(feature_of(each, places));
+  for (const StaticStep& each : found.steps) features.push_back(feature_of(each, places));
+  return features;
+}
+
+}  // namespace wale

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compiler/read/features.hpp"
+#include "compiler/read/half_plane.hpp"
+#include "compiler/read/still_forces.hpp"
+
+namespace wale {
+
+/// A wall that pushes back in proportion to the depth of the hand in it: behind a straight line, or all round.
+struct Wall {
+  glm::dvec2 inward{0};  ///< straight: unit vector into it; (0, 0) of a round one
+  glm::dvec2 centre{0};  ///< round: m, of its circle
+  double offset = 0;     ///< straight: m along `inward` from the patch's centre, where it begins; round: the radius
+  bool fills = false;    ///< round: it fills its circle; otherwise it lies around it
+  double stiffness = 0;  ///< N/m
+  double preload = 0;    ///< N: with which it pushes where it begins
+
+  bool round() const { return inward == glm::dvec2(0); }
+  double depth(glm::dvec2 place) const;     ///< m; negative outside
+  glm::dvec2 into(glm::dvec2 place) const;  ///< unit vector into it there
+  glm::dvec2 at(glm::dvec2 place) const;    ///< N
+};
+Wall wall_of(const HalfPlane& face);
+
+/// A straight line beyond which the force is another one.
+struct StaticStep {
+  glm::dvec2 way{1, 0};  ///< unit vector across the line
+  double offset = 0;     ///< m along `way` from the patch's centre
+  double width = 0;      ///< m: of the hyperbolic tangent in which it rises; 0 if it jumps
+  glm::dvec2 change{0};  ///< N: by so much the force beyond is larger
+
+  glm::dvec2 at(glm::dvec2 place) const;
+};
+
+/// What stands in a patch beside an even force and textures.
+struct Obstacles {
+  std::vector<Wall> walls;
+  std::vector<StaticStep> steps;
+
+  bool empty() const { return walls.empty() && steps.empty(); }
+};
+
+/// The walls and steps that explain forces at the places of `whole`, beside a force that changes evenly over the patch;
+/// nothing if they do not explain nearly all that a line leaves and that is no texture.
+std::optional<Obstacles> find_obstacles(const StillForces& whole, std::span<const glm::dvec2> forces);
+
+/// A slow wave beside them: its harmonics are fitted with them.
+struct SlowWave {
+  glm::dvec2 waves{0};  ///< periods over a metre
+  std::size_t harmonics = 1;
+};
+
+/// Fits obstacles anew, together with waves and an even force.
+Obstacles fitted_beside(const Obstacles& found, std::span<const SlowWave> waves, std::span<const glm::dvec2> places,
+                        std::span<const glm::dvec2> forces);
+
+/// As features of forces at these places.
+std::vector<Feature> features_of(const Obstacles& found, std::span<const glm::dvec2> places);
+
+}  // namespace wale
