@@ -65,6 +65,20 @@ TEST(ByName, OneMaterialIsTheSameByEveryWay) {
   EXPECT_EQ(bytes_of(coarse->program), bytes_of(later->program));
 }
 
+TEST(ByName, MaterialsOfOnesOwnFoldersGoFirstAndThatIsSaid) {
+  const TemporaryFolder folder;
+  folder.write("mine/denim.wale", text_of(denim_file()));
+  const Library library({.folders = {folder.path().string()}});
+  for (const char* name : {"denim", "mine.denim"}) {
+    const Result<Compiled> own = library.find(name);
+    ASSERT_TRUE(own) << in_words(own.error());
+    EXPECT_EQ(own->taken.find(folder / "mine/denim.wale") != std::string::npos, std::string(name) == "denim")
+        << name << ": " << own->taken;
+  }
+  EXPECT_EQ(Library().find("denim")->taken, "");
+  EXPECT_FALSE(Library().find("mine.denim"));
+}
+
 TEST(ByName, ErrorsAreAboutTheArgument) {
   const Library library;
   const std::string huge(1 << 20, 'a');
