@@ -5,7 +5,7 @@
 
 #include "compiler/diagnostics/diagnostic.hpp"
 #include "compiler/text/resolver.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

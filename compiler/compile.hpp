@@ -11,9 +11,6 @@
 
 namespace wale {
 
-/// The device for which a program is built unless another is named.
-inline constexpr const char* default_device = "sandpaper";
-
 /// Checks a text: all stages that do not depend on a material and a device. Errors are reported to `diagnostics`.
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics);
 

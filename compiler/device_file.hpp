@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "compiler/text/resolver.hpp"
-#include "schema/declared_device.hpp"
-#include "schema/result.hpp"
+#include "wale/declared_device.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

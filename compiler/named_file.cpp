@@ -57,12 +57,7 @@ Result<NamedFile> read_named(const std::string& path, const std::string& materia
     }
   auto read = read_file(path);
   if (read) {
-    const auto other = is_patch_program(path, read->bytes) ? std::nullopt : other_file(path, read->bytes);
-    if (other)
-      return Error{.code = Code::damaged_file,
-                   .sentence = fmt::format("this is {}, not a Wale file or a patch program", other->what),
-                   .mend = std::string(other->mend),
-                   .place = {.name = path}};
+    if (auto right = is_wale_or_program(path, read->bytes); !right) return std::move(right.error());
     return NamedFile{.name = path, .bytes = std::move(read->bytes), .embedded = {}, .material = material, .taken = {}};
   }
   Error error = read.error();
@@ -87,7 +82,15 @@ std::string instead_of_shipped(const LibraryIndex& index, const std::string& nam
                      (*shipped)->file, (*shipped)->name);
 }
 
-Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::string>& roots) {
+/// The first bytes of a name that may be as long as its author likes.
+std::string shortened(const std::string& name) {
+  constexpr std::size_t longest = 200;
+  return name.size() <= longest ? name : name.substr(0, longest) + "…";
+}
+
+/// `is_not` goes on with the sentence of the error: "`corderoy` …".
+Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::string>& roots,
+                               std::string_view is_not) {
   const std::shared_ptr<const LibraryIndex> index = index_here(roots);
   if (name.find('.') != std::string::npos) {
     const auto in_module = std::ranges::find(index->materials(), name, &IndexedMaterial::module);
@@ -99,19 +102,19 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
     if (found) found->taken = instead_of_shipped(*index, name, **meant);
     return found;
   }
-  if (is_folder(name)) return read_named(name, "");
   Error error = meant.error();
   error.place = {.text = name};  // the sentence names it
   if (error.code == Code::unknown_name) {
-    error.sentence = fmt::format("`{}` is neither a file nor a material", name);
+    error.sentence = fmt::format("`{}` {}", shortened(name), is_not);
     const auto kinds = kinds_in(*index);
     const bool is_kind = std::ranges::find(kinds, name) != kinds.end();
     if (is_kind) {
       error.sentence = fmt::format("`{}` is a kind of material, not a material", name);
       error.mend = fmt::format("`wale find --kind {}` lists its materials", name);
-    } else if (const auto near = nearest_materials(*index, name); !near.empty())
+    } else if (const auto near = nearest_materials(*index, name); !near.empty()) {
       error.mend = fmt::format("the nearest: {}; `wale find` lists all", listed_near(near));
-    else
+      for (const NearMaterial& each : near) error.nearest.push_back(each.material->name);
+    } else
       error.mend = "`wale find` lists the materials of the library";
     if (!index->left_out().empty())
       error.sentence += fmt::format(" in the first {} MB of modules, which are read", most_indexed >> 20);
@@ -121,13 +124,13 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
 
 /// The file that `name` means in `name:material`: the module of that name, else the file of the material of that name.
 Result<NamedFile> find_in_module(const std::string& name, const std::string& material,
-                                 const std::vector<std::string>& roots) {
+                                 const std::vector<std::string>& roots, std::string_view is_not) {
   const std::shared_ptr<const LibraryIndex> index = index_here(roots);
   const auto in_module = std::ranges::find(index->materials(), name, &IndexedMaterial::module);
   const bool is_material =
       std::ranges::find(index->materials(), name, &IndexedMaterial::name) != index->materials().end();
   return in_module != index->materials().end() && !is_material ? read_named(in_module->file, material)
-                                                               : find_by_name(name, roots);
+                                                               : find_by_name(name, roots, is_not);
 }
 
 }  // namespace
@@ -149,6 +152,32 @@ bool is_searched_for(const std::string& argument) {
   return !is_path(file) && (!exists(file) || is_folder(file));
 }
 
+Result<NamedFile> find_named_material(const std::string& name, const std::vector<std::string>& roots) {
+  constexpr std::string_view is_not = "is not the name of a material";
+  const auto colon = name.find(':');
+  if (colon == std::string::npos) return find_by_name(name, roots, is_not);
+  const std::string module = name.substr(0, colon), material = name.substr(colon + 1);
+  if (module.empty() || material.empty() || material.find(':') != std::string::npos)
+    return Error{.code = Code::malformed_value,
+                 .sentence = fmt::format("expected MODULE:MATERIAL, found `{}`", shortened(name)),
+                 .mend = "write a module or a material, one colon, and a material of that file",
+                 .place = {.text = name}};
+  auto found = find_in_module(module, material, roots, is_not);
+  if (found) found->material = material;
+  return found;
+}
+
+Result<NamedFile> read_named_file(const std::string& path) { return read_named(path, ""); }
+
+Result<> is_wale_or_program(const std::string& path, std::string_view bytes) {
+  const auto other = is_patch_program(path, bytes) ? std::nullopt : other_file(path, bytes);
+  if (!other) return {};
+  return Error{.code = Code::damaged_file,
+               .sentence = fmt::format("this is {}, not a Wale file or a patch program", other->what),
+               .mend = std::string(other->mend),
+               .place = {.name = path}};
+}
+
 Result<NamedFile> find_named(const std::string& argument, const std::vector<std::string>& roots) {
   const auto [file, material] = named_material(argument);
   if (file.ends_with(':') && !exists(file))
@@ -163,7 +192,9 @@ Result<NamedFile> find_named(const std::string& argument, const std::vector<std:
                  .mend = "write a file or the name of a material, one colon, and a material of that file",
                  .place = {.text = argument}};
   if (!is_file && !is_path(file)) {
-    auto found = material.empty() ? find_by_name(file, roots) : find_in_module(file, material, roots);
+    constexpr std::string_view is_not = "is neither a file nor a material";
+    auto found = material.empty() ? find_by_name(file, roots, is_not) : find_in_module(file, material, roots, is_not);
+    if (!found && is_folder(file)) return read_named(file, "");
     if (found && !material.empty()) found->material = material;
     return found;
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compiler/text/source.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 
@@ -33,6 +33,16 @@ struct NamedFile {
 /// W0201 for an unknown name, with the nearest three, W0217 for a name of several materials, W0801 for nothing after
 /// the colon, W0506 for a file of another kind, such as a recording or a picture.
 Result<NamedFile> find_named(const std::string& argument, const std::vector<std::string>& roots);
+
+/// As `find_named`, but never a file of that name: a module, or a material by its name, or MODULE:MATERIAL. Errors:
+/// W0201, W0217, W0801.
+Result<NamedFile> find_named_material(const std::string& name, const std::vector<std::string>& roots);
+
+/// Reads a file by its path alone, also a shipped one outside a checkout. Errors: W0501, W0506.
+Result<NamedFile> read_named_file(const std::string& path);
+
+/// Error W0506 if the bytes are those of another kind of file, such as a recording or a picture.
+Result<> is_wale_or_program(const std::string& path, std::string_view bytes);
 
 /// Whether a file is a patch program, by its name or by its first bytes.
 bool is_patch_program(std::string_view path, std::string_view bytes);

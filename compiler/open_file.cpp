@@ -9,10 +9,14 @@ namespace wale {
 Result<OpenedFile> open_file(const FileRequest& request) {
   auto named = find_named(request.file, request.roots);
   if (!named) return named.error();
+  return open_named(*std::move(named), request);
+}
+
+Result<OpenedFile> open_named(NamedFile named, const FileRequest& request) {
   OpenedFile opened;
-  opened.name = named->name, opened.material = named->material, opened.taken = named->taken;
-  opened.is_on_disk = !named->embedded;
-  std::string& bytes = named->bytes;
+  opened.name = named.name, opened.material = named.material, opened.taken = named.taken;
+  opened.is_on_disk = !named.embedded;
+  std::string& bytes = named.bytes;
   if (is_patch_program(opened.name, bytes)) {
     auto loaded = Program::load(std::as_bytes(std::span(bytes)));
     if (!loaded) {
@@ -27,7 +31,7 @@ Result<OpenedFile> open_file(const FileRequest& request) {
     return opened;
   }
   const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
-  opened.source = named->embedded ? *named->embedded : opened.sources.add(opened.name, std::move(bytes));
+  opened.source = named.embedded ? *named.embedded : opened.sources.add(opened.name, std::move(bytes));
   opened.module = check_source(opened.sources, opened.source, *resolver, opened.diagnostics);
   if (!opened.diagnostics.has_errors())
     check_levels(opened.module->declarations(), opened.source, request.device, opened.diagnostics);

@@ -39,6 +39,9 @@ struct OpenedFile {
 /// compiled yet. Errors: those of `find_named`, and W0606 for a patch program that does not load.
 Result<OpenedFile> open_file(const FileRequest& request);
 
+/// The same for a file that was found and read.
+Result<OpenedFile> open_named(NamedFile named, const FileRequest& request);
+
 /// Compiles one material of an opened Wale file; its errors and warnings go to `diagnostics`. An empty name means the
 /// material that was named with the file, or else the first one of the file.
 std::optional<Program> compile_opened(const OpenedFile& opened, const FileRequest& request, const std::string& material,

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "compiler/declarations/declarations.hpp"
-#include "schema/patch_program.hpp"
-#include "schema/result.hpp"
+#include "wale/patch_program.hpp"
 #include "wale/program.hpp"
+#include "wale/result.hpp"
 
 /// Reads quantities as people type them for an option, "5mm" or "10 mm, 5 mm", with the units of `known`. `option` is
 /// its name, "--at". An error has the text, the expected value, and an example. If the dimension, the unit or the size

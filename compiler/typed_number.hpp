@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 /// Reads plain numbers as people type them for an option. `option` is its name, "--steps". An error (W0801) has the
 /// text, the expected value, and an example. Empty texts, letters after the number, digits of other scripts,

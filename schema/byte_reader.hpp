@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/instruction.hpp"
 #include "schema/patch_program_format.hpp"
 #include "schema/sentence.hpp"
+#include "wale/instruction.hpp"
 
 namespace wale::patch_program_format {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/instruction.hpp"
 #include "schema/patch_program_format.hpp"
+#include "wale/instruction.hpp"
 
 namespace wale::patch_program_format {
 

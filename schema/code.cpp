@@ -1,4 +1,4 @@
-#include "schema/code.hpp"
+#include "wale/code.hpp"
 
 namespace wale {
 namespace {
@@ -11,7 +11,7 @@ struct CodeEntry {
 
 constexpr CodeEntry entries[] = {
 #define CODE(number, name, severity, title) {Code::name, Severity::severity, title},
-#include "schema/codes.def"
+#include "wale/codes.def"
 };
 
 const CodeEntry& entry(Code code) {

@@ -1,4 +1,4 @@
-#include "schema/device_profile.hpp"
+#include "wale/device_profile.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "schema/device_wiring.hpp"
+#include "wale/device_wiring.hpp"
 
 #include <array>
 #include <cstdio>

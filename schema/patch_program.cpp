@@ -1,4 +1,4 @@
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 #include "schema/patch_program_format.hpp"
 

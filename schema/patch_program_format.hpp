@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 /// What the reader and the writer of `.wpp` files agree on; the prose is schema/PATCH_PROGRAM.md.
 namespace wale::patch_program_format {

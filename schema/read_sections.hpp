@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "schema/byte_reader.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale::patch_program_format {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

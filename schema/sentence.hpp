@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "schema/as_people_write.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
+#include <utility>
 
 namespace wale {
 
 namespace {
+
+constexpr std::size_t longest_compared = 64;
 
 char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter; }
 
@@ -43,7 +47,6 @@ std::size_t letters_changed(std::string_view a, std::string_view b) {
 }
 
 std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t longest_compared = 64;
   // Among thousands of names one is always near, and searching them for each of a thousand errors takes minutes.
   constexpr std::size_t most_compared = 2000;
   if (word.size() > longest_compared || candidates.size() > most_compared) return std::nullopt;
@@ -72,6 +75,22 @@ std::optional<std::string> nearest_spelling(std::string_view word, const std::ve
   auto near = near_spelling(word, candidates);
   if (!near) return std::nullopt;
   return std::move(near->text);
+}
+
+std::vector<std::string> nearest_spellings(std::string_view word, const std::vector<std::string>& candidates,
+                                           std::size_t most) {
+  if (word.empty() || word.size() > longest_compared) return {};
+  const std::size_t limit = std::max<std::size_t>(1, word.size() / 2);
+  std::set<std::pair<std::size_t, std::string>> near;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > longest_compared) continue;
+    const std::size_t changed = letters_changed(word, candidate);
+    if (changed <= limit) near.emplace(changed, candidate);
+  }
+  std::vector<std::string> nearest;
+  for (const auto& [changed, candidate] : near)
+    if (nearest.size() < most) nearest.push_back(candidate);
+  return nearest;
 }
 
 bool has_ending(std::string_view name, std::string_view ending) {

@@ -27,6 +27,11 @@ struct NearSpelling {
 /// As `nearest_spelling`, with its certainty.
 std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates);
 
+/// The candidates with the fewest slips, each once, at most `most`, the nearest first: at most half of the word's
+/// letters, or one. Empty for words of more than 64 bytes.
+std::vector<std::string> nearest_spellings(std::string_view word, const std::vector<std::string>& candidates,
+                                           std::size_t most = 3);
+
 /// Whether the name of a file ends with `ending`, as in ".wrec", in capital or small ASCII letters.
 bool has_ending(std::string_view name, std::string_view ending);
 

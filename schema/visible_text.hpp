@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 /// Texts that somebody else wrote, for people to read: the names and titles of a file, a device's name on USB, the
 /// value of an option, a path. Written as they are, they could move a terminal's cursor, hide or forge lines, or turn

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "schema/byte_writer.hpp"
-#include "schema/device_profile.hpp"
+#include "wale/device_profile.hpp"
 
 namespace wale::patch_program_format {
 

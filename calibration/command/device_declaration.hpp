@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "runtime/device/identification.hpp"
-#include "schema/declared_device.hpp"
+#include "wale/declared_device.hpp"
 
 namespace wale::command {
 

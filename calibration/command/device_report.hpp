@@ -5,7 +5,7 @@
 
 #include "runtime/device/driver.hpp"
 #include "runtime/device/trusted_device.hpp"
-#include "schema/declared_device.hpp"
+#include "wale/declared_device.hpp"
 
 namespace wale::command {
 

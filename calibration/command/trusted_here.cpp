@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "compiler/command/command.hpp"
-#include "compiler/modules/owners_devices_file.hpp"
+#include "schema/owners_devices_file.hpp"
 
 namespace wale::command {
 

@@ -11,8 +11,8 @@
 #include "calibration/feel/felt_report.hpp"
 #include "compiler/declarations/declarations.hpp"
 #include "runtime/device/open_device.hpp"
-#include "schema/patch_program.hpp"
 #include "wale/device.hpp"
+#include "wale/patch_program.hpp"
 #include "wale/stage.hpp"
 
 namespace wale {

@@ -7,7 +7,7 @@
 #include "compiler/device_file.hpp"
 #include "compiler/text/resolver.hpp"
 #include "runtime/device/trusted_device.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

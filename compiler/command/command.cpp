@@ -13,7 +13,7 @@
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
-#include "compiler/modules/owners_devices_file.hpp"
+#include "schema/owners_devices_file.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/typed_number.hpp"
 #include "schema/spelling.hpp"

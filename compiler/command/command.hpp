@@ -10,7 +10,7 @@
 
 #include "compiler/open_file.hpp"
 #include "compiler/text/output_file.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 /// The verbs of the command line: they read files, print, and return an exit status. Only `wale.cpp` calls them.
 namespace wale::command {

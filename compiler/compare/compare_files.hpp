@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "compiler/read/cues.hpp"
 #include "compiler/open_file.hpp"
-#include "schema/result.hpp"
+#include "compiler/read/cues.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

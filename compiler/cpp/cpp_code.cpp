@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t comment_column = 84;
 
-/// The column `meaning` of schema/instruction.def as written there; empty for special operations.
+/// The column `meaning` of schema/include/wale/instruction.def as written there; empty for special operations.
 constexpr std::string_view meaning_of(Operation operation) {
   // clang-format off
   switch (operation) {
@@ -29,7 +29,7 @@ constexpr std::string_view meaning_of(Operation operation) {
   case Operation::name: return #meaning;
 #define SPECIAL(number, name, fields, results, cost, ...) \
   case Operation::name: break;
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   }
   // clang-format on
   return {};

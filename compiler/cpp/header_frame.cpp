@@ -180,7 +180,7 @@ void reserve_cpp_words(CppNames& names) {
     }
   };
 #define INSTRUCTION(number, name, fields, results, cost, meaning, ...) reserve_words(#meaning);
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   for (unsigned number = 0; number < first_constant; ++number) names.reserve(input_name(number));
   names.reserve(shared_arithmetic().name);
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compiler/cpp/cpp_names.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "schema/result.hpp"
 #include "wale/program.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 
@@ -25,7 +25,8 @@ Result<LiveParts> live_parts(const PatchProgram& program, const std::vector<std:
 /// straight-line functions and, if something is live, setup. It gives the same bits as the machine, on any processor
 /// with IEEE floats; the comment at its head says how to use it and what memory it needs.
 ///
-/// Operations are written as in the column `meaning` of schema/instruction.def. Pictures and predictions are left out.
+/// Operations are written as in the column `meaning` of schema/include/wale/instruction.def. Pictures and predictions
+/// are left out.
 std::string print_header(const Program& program, const LiveParts& live);
 
 }  // namespace wale

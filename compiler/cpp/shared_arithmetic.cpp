@@ -89,7 +89,7 @@ std::string using_arithmetic() {
     }
   };
 #define INSTRUCTION(number, name, fields, results, cost, meaning, ...) add_words(#meaning);
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   const std::string& space = shared_arithmetic().name;
   std::string text = fmt::format("namespace arithmetic = ::{}::arithmetic;\n", space);
   for (const char* name : {"sum", "difference", "product", "quotient"})

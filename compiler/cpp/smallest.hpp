@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compiler/prove/interval.hpp"
-#include "schema/instruction.hpp"
+#include "wale/instruction.hpp"
 
 namespace wale {
 

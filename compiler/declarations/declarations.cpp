@@ -46,6 +46,7 @@ std::vector<const Levels*> Declarations::levels() const {
 PerceptName Declarations::percept_named(std::string_view name) const {
   if (const Percept* found = percepts.find(name)) return {found, false};
   PerceptName found;
+  if (name.empty()) return found;  // as most antonyms are
   percepts.each([&](const std::string&, const Percept& percept) {
     if (percept.antonym == name) found = {&percept, true};
   });

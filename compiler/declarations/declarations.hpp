@@ -14,9 +14,9 @@
 #include "compiler/diagnostics/diagnostic.hpp"
 #include "compiler/graph/term.hpp"
 #include "compiler/parse/syntax_tree.hpp"
-#include "schema/declared_device.hpp"
-#include "schema/device_wiring.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/declared_device.hpp"
+#include "wale/device_wiring.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "compiler/declarations/declarations.hpp"
-#include "schema/declared_device.hpp"
+#include "wale/declared_device.hpp"
 
 namespace wale {
 

@@ -10,7 +10,7 @@
 #include "compiler/declarations/dimension.hpp"
 #include "compiler/graph/term.hpp"
 #include "compiler/parse/syntax_tree.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

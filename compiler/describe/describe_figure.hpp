@@ -8,7 +8,7 @@
 #include <string>
 
 #include "compiler/text/readable.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compiler/describe/fates_at.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

@@ -8,7 +8,7 @@
 
 #include "compiler/diagnostics/budget.hpp"
 #include "compiler/text/source.hpp"
-#include "schema/code.hpp"
+#include "wale/code.hpp"
 
 namespace wale {
 

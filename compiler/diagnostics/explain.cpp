@@ -28,7 +28,7 @@ std::vector<Code> all_codes() {
   std::vector<Code> codes = {
 // clang-format off
 #define CODE(number, name, severity, title) Code::name,
-#include "schema/codes.def"
+#include "wale/codes.def"
       // clang-format on
   };
   std::ranges::sort(codes);

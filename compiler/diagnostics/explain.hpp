@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostic.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

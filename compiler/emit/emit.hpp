@@ -5,7 +5,7 @@
 #include "compiler/diagnostics/diagnostic.hpp"
 #include "compiler/emit/lower.hpp"
 #include "compiler/emit/source_lines.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

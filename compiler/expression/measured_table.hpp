@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "compiler/declarations/declarations.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

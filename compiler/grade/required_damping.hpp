@@ -5,7 +5,7 @@
 #include <complex>
 #include <vector>
 
-#include "schema/device_profile.hpp"
+#include "wale/device_profile.hpp"
 
 namespace wale {
 

@@ -57,7 +57,7 @@ Expression operator/(Expression a, Expression b) { return a.zero() ? a : apply(O
   case Operation::name: return (derivative).id;
 #define SPECIAL(number_, name, fields, results, cost) \
   case Operation::name: break;
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   }
   // clang-format on
   (void)r, (void)a, (void)b, (void)c, (void)da, (void)db, (void)dc;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compiler/text/source.hpp"
-#include "schema/instruction.hpp"
+#include "wale/instruction.hpp"
 
 namespace wale {
 

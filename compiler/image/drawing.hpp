@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "compiler/text/resolver.hpp"
-#include "schema/patch_program.hpp"
-#include "schema/result.hpp"
+#include "wale/patch_program.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compiler/image/drawing.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

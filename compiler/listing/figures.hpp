@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

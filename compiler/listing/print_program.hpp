@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

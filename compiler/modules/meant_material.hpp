@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compiler/modules/library_index.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

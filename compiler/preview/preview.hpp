@@ -6,8 +6,8 @@
 
 #include "compiler/image/drawing.hpp"
 #include "compiler/preview/exhibit.hpp"
-#include "schema/result.hpp"
 #include "wale/program.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compiler/prove/interval.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

@@ -240,7 +240,7 @@ Interval range_of(Operation operation, const Interval& A, const Interval& B, con
   case Operation::name: return range;
 #define SPECIAL(number, name, fields, results, cost) \
   case Operation::name: break;
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   }
   // clang-format on
   return Interval::everything(true);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "schema/instruction.hpp"
+#include "wale/instruction.hpp"
 
 namespace wale {
 
@@ -43,8 +43,8 @@ Interval intersection(const Interval& a, const Interval& b);
 /// The interval as text with six digits: "-1 .. 2.5", "3", "0 .. inf or nan".
 std::string shown(const Interval& interval);
 
-/// The rules of the column `range` in `schema/instruction.def`: for all values in A, B and C that an instruction may
-/// have as operands, the machine's result lies in the interval of the rule.
+/// The rules of the column `range` in `schema/include/wale/instruction.def`: for all values in A, B and C that an
+/// instruction may have as operands, the machine's result lies in the interval of the rule.
 ///
 /// The four operations, the root and floor are rounded to nearest by the machine, and rounding is monotonic: the ends
 /// are the machine's own results at the ends of the operands. The machine's own functions are monotonic only within

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compiler/prove/enclosure.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compiler/declarations/declarations.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

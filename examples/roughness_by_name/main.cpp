@@ -1,33 +1,37 @@
 // Asks for a roughness by name, puts it under the hand, and reads back what came out of the handle.
 #include <cstdio>
-#include <wale/felt.hpp>
-#include <wale/library.hpp>
-#include <wale/stage.hpp>
+#include <wale/wale.hpp>
+
+namespace {
+
+/// Prints what is wrong, and gives the program's exit status.
+int failed(const wale::Error& error) {
+  std::fprintf(stderr, "%s\n", wale::in_words(error).c_str());
+  for (const std::string& name : error.nearest) std::fprintf(stderr, "  near: %s\n", name.c_str());
+  return 1;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   const char* name = argc > 1 ? argv[1] : "coarse";
 
   const wale::Library library;
   const auto surface = library.level("roughness", name);
-  if (!surface) {
-    std::fprintf(stderr, "%s\n", wale::in_words(surface.error()).c_str());
-    return 1;
-  }
+  if (!surface) return failed(surface.error());
+  for (const wale::Error& warning : surface->warnings)
+    std::fprintf(stderr, "warning: %s\n", wale::in_words(warning).c_str());
 
-  const auto joystick = library.simulated_joystick();
-  wale::Stage stage(*joystick);
-  auto patch = stage.add(*surface);
-  if (!patch) {
-    std::fprintf(stderr, "%s\n", wale::in_words(patch.error()).c_str());
-    return 1;
-  }
+  auto joystick = library.open_device("simulated");
+  if (!joystick) return failed(joystick.error());
+  const double position_step = (*joystick)->profile().position_step();
+  wale::Stage stage(*std::move(joystick));
+  auto patch = stage.add(surface->program);
+  if (!patch) return failed(patch.error());
   const auto run = stage.run({.seconds = 3, .virtual_time = true});
-  if (!run) {
-    std::fprintf(stderr, "%s\n", wale::in_words(run.error()).c_str());
-    return 1;
-  }
+  if (!run) return failed(run.error());
 
-  const auto felt = wale::measure(run->record, {.position_step = joystick->profile().position_step(),
+  const auto felt = wale::measure(run->record, {.position_step = position_step,
                                                 .predicted_amplitude = wale::predicted_amplitude(*patch->bank()),
                                                 .settling = 0.5});
   for (const auto& level : wale::levels_back(*patch->bank(), felt))

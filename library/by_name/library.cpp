@@ -2,93 +2,202 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <utility>
 
+#include "calibration/feel/trusted_declarations.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/declarations/declared_devices.hpp"
+#include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/open_file.hpp"
-#include "schema/spelling.hpp"
+#include "library/by_name/told.hpp"
+#include "library/by_name/worker.hpp"
+#include "schema/owners_devices_file.hpp"
 
 namespace wale {
 
 namespace {
 
-/// The first error of a compilation, about an argument or a line of a file.
-Error first_error(const Diagnostics& diagnostics, Place place) {
-  for (const Diagnostic& each : diagnostics.all())
-    if (severity_of(each.code) == Severity::error) return {each.code, each.message, each.help, std::move(place)};
-  return {Code::refused_program, "this cannot be compiled", "", std::move(place)};
-}
-
-/// The place of the first error of a compilation.
-Place first_place(const Diagnostics& diagnostics, const SourceSet& sources) {
-  for (const Diagnostic& each : diagnostics.all())
-    if (severity_of(each.code) == Severity::error)
-      return {.name = sources[each.span.source].name,
-              .number = sources.place(each.span).line,
-              .text = std::string(sources.line(each.span))};
-  return {};
-}
-
-Error unknown(Code code, const char* argument, const std::string& name, const std::vector<std::string>& known) {
-  const auto near = nearest_spelling(name, known);
-  return {code,
-          std::string("no ") + argument + " is called `" + name + "`",
-          near ? "did you mean `" + *near + "`?" : "",
-          {.name = argument, .text = name}};
-}
-
 /// Whether the text is a word of Wale or a number, so that it cannot end the statement into which it is put.
 bool is_level(const std::string& text) {
-  return !text.empty() &&
-         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; });
+  constexpr std::size_t longest = 64;
+  const std::string_view digits = std::string_view(text).substr(text.starts_with("-") ? 1 : 0);
+  return !digits.empty() && text.size() <= longest &&
+         std::ranges::all_of(digits, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; });
+}
+
+/// The named levels of a percept.
+std::vector<std::string> levels_of(const Declarations& known, const std::string& percept) {
+  std::vector<std::string> names;
+  for (const Levels* levels : known.levels())
+    if (levels->percept == percept)
+      for (const Levels::Level& each : levels->levels) names.push_back(each.name);
+  return names;
+}
+
+/// Error: a patch program holds another material, or is for another device, than was asked for.
+Result<> is_as_asked(const PatchProgram& program, const CompileOptions& options) {
+  if (!options.material.empty() && options.material != program.material)
+    return unknown(Code::unknown_material, "material", options.material, {program.material});
+  if (!options.device.empty() && options.device != program.device.name)
+    return Error{.code = Code::other_device,
+                 .sentence = "`" + program.material + "` is built for `" + program.device.name + "`",
+                 .mend = "ask for it without a device, or compile its Wale file for that device",
+                 .place = {.name = "device", .text = options.device}};
+  return {};
 }
 
 }  // namespace
 
 struct Library::Parts {
   std::shared_ptr<const CommonModules> common = common_modules();
+  std::vector<std::string> roots;
   Sandbox sandbox = Sandbox::required;
+  Result<TrustedDeclarations> trusted;
+  std::unique_ptr<Worker> worker = std::make_unique<Worker>();
+
+  explicit Parts(const LibraryOptions& options)
+      : roots(library_folders(options.folders, std::getenv("WALE_LIBRARY"))),
+        sandbox(options.unsandboxed_pictures ? Sandbox::if_possible : Sandbox::required),
+        trusted(trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")))) {}
+
+  /// Shipped devices do not change with what the owner declares.
+  FileRequest request(const CompileOptions& options) const {
+    FileRequest request{.device = options.device.empty() ? default_device : options.device, .roots = roots};
+    request.sandbox = sandbox;
+    if (trusted && !common->declarations.devices.contains(request.device)) request.devices = trusted->files;
+    return request;
+  }
+
+  std::vector<std::string> device_names() const {
+    std::vector<std::string> names = common->declarations.devices.spellings();
+    for (const DeclaredDevice& each : of_owner()) names.push_back(each.profile.name);
+    return names;
+  }
+
+  /// What the owner's devices.wale exports; nothing if it does not exist or has an error.
+  std::vector<DeclaredDevice> of_owner() const {
+    std::vector<DeclaredDevice> devices;
+    if (!trusted) return devices;
+    for (const DeviceFile& file : trusted->checked)
+      for (const DeviceFile::Device& each : file.exported) devices.push_back(each.declared);
+    return devices;
+  }
+
+  Result<Compiled> compiled(NamedFile named, const CompileOptions& options) const {
+    const FileRequest request = this->request(options);
+    auto opened = open_named(std::move(named), request);
+    if (!opened) return std::move(opened.error());
+    if (opened->program) {
+      if (auto right = is_as_asked(opened->program->description(), options); !right) return std::move(right.error());
+      return Compiled{*std::move(opened->program)};
+    }
+    if (opened->diagnostics.has_errors()) return first_error(opened->diagnostics, opened->sources);
+    if (!options.material.empty() && !find_material(*opened->module, options.material, opened->name)) {
+      opened->material.clear();
+      return unknown(Code::unknown_material, "material", options.material, materials_of(*opened));
+    }
+    if (!opened->module->declarations().devices.contains(request.device))
+      return unknown(Code::unknown_device, "device", request.device,
+                     opened->module->declarations().devices.spellings());
+    auto program = compile_opened(*opened, request, options.material, opened->diagnostics);
+    if (!program) return first_error(opened->diagnostics, opened->sources);
+    return Compiled{*std::move(program), warnings_in(opened->diagnostics, opened->sources), std::move(opened->taken)};
+  }
 };
 
-Library::Library(const LibraryOptions& options) : parts_(std::make_unique<Parts>()) {
-  if (options.unsandboxed_pictures) parts_->sandbox = Sandbox::if_possible;
+Library::Library(const LibraryOptions& options) : parts_(std::make_unique<Parts>(options)) {}
+
+Library::~Library() { parts_->worker.reset(); }  // its work uses the other parts
+
+Result<Compiled> Library::find(const std::string& name, const CompileOptions& options) const {
+  auto named = find_named_material(name, parts_->roots);
+  if (!named) {
+    Error error = std::move(named.error());
+    if (error.place.name.empty()) error.place.name = "name";
+    return error;
+  }
+  return parts_->compiled(*std::move(named), options);
 }
 
-Library::~Library() = default;
-
-Result<Program> Library::level(const std::string& percept, const std::string& level, const std::string& device) const {
+Result<Compiled> Library::level(const std::string& percept, const std::string& level,
+                                const CompileOptions& options) const {
   const Declarations& known = parts_->common->declarations;
   if (!known.percept_named(percept).percept)
     return unknown(Code::unknown_name, "percept", percept, known.percept_spellings());
-  if (!known.devices.find(device)) return unknown(Code::unknown_device, "device", device, known.devices.spellings());
+  const FileRequest request = parts_->request(options);
+  const auto devices = parts_->device_names();
+  if (std::ranges::find(devices, request.device) == devices.end())
+    return unknown(Code::unknown_device, "device", request.device, devices);
+  const Place argument{.name = "level", .text = level};
   if (!is_level(level))
-    return Error{Code::malformed_value,
-                 "expected the name of a level or a number from 0 to 1, found \"" + level + "\"",
-                 "write, for example, \"coarse\" or \"0.6\"",
-                 {.name = "level", .text = level}};
+    return Error{Code::malformed_value, "expected the name of a level or a number from 0 to 1",
+                 "write, for example, \"coarse\" or \"0.6\"", argument};
   SourceSet sources;
   Diagnostics diagnostics;
-  const auto resolver = file_resolver({});
+  const auto resolver = file_resolver({}, nullptr, parts_->sandbox, request.devices);
   const SourceId source =
       sources.add("level", "wale 1\nmaterial " + percept + "_level { perceptual { " + percept + " " + level + " } }\n");
-  auto program = compile(sources, source, "", device, *resolver, diagnostics);
-  if (!program) return first_error(diagnostics, {.name = "level", .text = level});
-  return *std::move(program);
+  auto program = wale::compile(sources, source, "", request.device, *resolver, diagnostics);
+  if (!program) {
+    Error error = about(first_error(diagnostics, sources), argument);
+    if (error.code == Code::unknown_name)
+      return unknown(Code::unknown_name, "level", level, levels_of(known, known.percept_named(percept).percept->name));
+    return error;
+  }
+  Compiled compiled{*std::move(program), warnings_in(diagnostics, sources)};
+  for (Error& each : compiled.warnings) each = about(std::move(each), argument);
+  return compiled;
 }
 
-Result<Program> Library::material(const std::string& file_or_name, const std::string& name,
-                                  const std::string& device) const {
-  const FileRequest request{.file = file_or_name, .device = device, .roots = {}, .sandbox = parts_->sandbox};
-  auto opened = open_file(request);
-  if (!opened) return opened.error();
-  if (opened->program) return *std::move(opened->program);
-  if (!opened->diagnostics.has_errors())
-    if (auto program = compile_opened(*opened, request, name, opened->diagnostics)) return *std::move(program);
-  return first_error(opened->diagnostics, first_place(opened->diagnostics, opened->sources));
+Result<Compiled> Library::compile(std::string_view text, const CompileOptions& options) const {
+  return parts_->compiled({.name = options.name, .bytes = std::string(text)}, options);
 }
 
-std::vector<DeclaredDevice> Library::devices() const { return declared_devices(parts_->common->declarations); }
+Result<Compiled> Library::open(const std::string& path, const CompileOptions& options) const {
+  auto named = read_named_file(path);
+  if (!named) return std::move(named.error());
+  return parts_->compiled(*std::move(named), options);
+}
+
+Result<Compiled> Library::open(std::span<const std::byte> bytes, const CompileOptions& options) const {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (auto right = is_wale_or_program(options.name, text); !right) return std::move(right.error());
+  return parts_->compiled({.name = options.name, .bytes = std::string(text)}, options);
+}
+
+std::future<Result<Compiled>> Library::find_later(std::string name, CompileOptions options) const {
+  return parts_->worker->begin(
+      [this, name = std::move(name), options = std::move(options)] { return find(name, options); });
+}
+
+std::future<Result<Compiled>> Library::level_later(std::string percept, std::string level,
+                                                   CompileOptions options) const {
+  return parts_->worker->begin([this, percept = std::move(percept), level = std::move(level),
+                                options = std::move(options)] { return this->level(percept, level, options); });
+}
+
+std::future<Result<Compiled>> Library::compile_later(std::string text, CompileOptions options) const {
+  return parts_->worker->begin(
+      [this, text = std::move(text), options = std::move(options)] { return compile(text, options); });
+}
+
+std::future<Result<Compiled>> Library::open_later(std::string path, CompileOptions options) const {
+  return parts_->worker->begin(
+      [this, path = std::move(path), options = std::move(options)] { return open(path, options); });
+}
+
+std::future<Result<Compiled>> Library::open_later(std::vector<std::byte> bytes, CompileOptions options) const {
+  return parts_->worker->begin(
+      [this, bytes = std::move(bytes), options = std::move(options)] { return open(std::span(bytes), options); });
+}
+
+std::vector<DeclaredDevice> Library::devices() const {
+  std::vector<DeclaredDevice> devices = declared_devices(parts_->common->declarations);
+  for (DeclaredDevice& each : parts_->of_owner()) devices.push_back(std::move(each));
+  return devices;
+}
 
 Result<SimulatedPerson> Library::person(const std::string& name) const {
   const auto& hands = parts_->common->declarations.hands;
@@ -99,6 +208,25 @@ Result<SimulatedPerson> Library::person(const std::string& name) const {
                          .lateral = {hand.lateral_amplitude, hand.lateral_frequency, {}},
                          .circular = {hand.circular_radius, hand.circular_frequency, {}},
                          .source = hand.source};
+}
+
+Result<TrustedDevices> Library::trusted_devices() const {
+  const auto& trusted = parts_->trusted;
+  if (!trusted) return trusted.error();
+  if (trusted->owners_problem) return *trusted->owners_problem;
+  return TrustedDevices(std::make_shared<const std::vector<TrustedDevice>>(trusted->devices));
+}
+
+Result<std::unique_ptr<Device>> Library::open_device(std::string_view spelling, OpenOptions options) const {
+  if (!options.trusted) {
+    auto trusted = trusted_devices();
+    if (!trusted) return std::move(trusted.error());
+    options.trusted = *std::move(trusted);
+  }
+  const bool has_motion = !std::holds_alternative<Rest>(options.motion);
+  if (const SimulatedPerson person = *this->person(); options.hand.mass == 0 && !has_motion)
+    options.hand = person.hand, options.motion = person.lateral;
+  return wale::open_device(spelling, options);
 }
 
 std::unique_ptr<SimulatedJoystick> Library::simulated_joystick() const {

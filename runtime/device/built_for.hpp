@@ -1,7 +1,7 @@
 #pragma once
 
-#include "schema/patch_program.hpp"
-#include "schema/result.hpp"
+#include "wale/patch_program.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -6,8 +6,8 @@
 
 #include "runtime/device/driver.hpp"
 #include "runtime/device/trusted_device.hpp"
-#include "schema/declared_device.hpp"
-#include "schema/result.hpp"
+#include "wale/declared_device.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

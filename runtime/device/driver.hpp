@@ -14,7 +14,7 @@
 #include "runtime/device/trusted_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "runtime/keeper/keeper.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 
-#include "schema/device_wiring.hpp"
+#include "wale/device_wiring.hpp"
 
 namespace wale {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "runtime/device/plugged_device.hpp"
-#include "schema/device_wiring.hpp"
+#include "wale/device_wiring.hpp"
 
 namespace wale {
 

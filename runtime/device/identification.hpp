@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "schema/device_profile.hpp"
-#include "schema/device_wiring.hpp"
+#include "wale/device_profile.hpp"
+#include "wale/device_wiring.hpp"
 #include "wale/program.hpp"
 
 namespace wale {

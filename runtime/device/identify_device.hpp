@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "runtime/device/identification.hpp"
-#include "schema/device_wiring.hpp"
-#include "schema/result.hpp"
 #include "wale/device.hpp"
+#include "wale/device_wiring.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "schema/result.hpp"
 #include "wale/device.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "schema/declared_device.hpp"
-#include "schema/result.hpp"
+#include "wale/declared_device.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

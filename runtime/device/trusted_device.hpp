@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "schema/declared_device.hpp"
-#include "schema/result.hpp"
+#include "wale/declared_device.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

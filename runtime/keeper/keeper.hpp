@@ -8,7 +8,7 @@
 
 #include "runtime/keeper/keeper_board.hpp"
 #include "runtime/keeper/let_go_plan.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

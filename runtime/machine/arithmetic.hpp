@@ -5,7 +5,7 @@
 
 #include "runtime/machine/operations.hpp"
 
-/// The functions that `schema/instruction.def` names in its column of meanings, on 32-bit floats.
+/// The functions that `schema/include/wale/instruction.def` names in its column of meanings, on 32-bit floats.
 ///
 /// The same bits on every machine that rounds to nearest, in one lane and in a block: no call of the mathematical
 /// library, no fused multiply-add, no branch that lanes would have to share. Not-a-number propagates, except through

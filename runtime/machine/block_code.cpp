@@ -208,7 +208,7 @@ Kernels all_kernels(bool wide) {
   all[number] = variants<Operation::name>(wide);
 #define SPECIAL(number, name, fields, results, cost) \
   all[number] = variants<Operation::name>(wide);
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   // clang-format on
   return all;
 }

@@ -9,7 +9,7 @@
 #include "runtime/machine/grid.hpp"
 #include "runtime/machine/held_state.hpp"
 #include "runtime/machine/spline.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

@@ -13,7 +13,7 @@
 #include "runtime/machine/shared_maps.hpp"
 #include "runtime/machine/spline.hpp"
 #include "runtime/machine/threaded_code.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

@@ -2,7 +2,7 @@
 
 #include "runtime/machine/arithmetic.hpp"
 #include "runtime/machine/grid.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

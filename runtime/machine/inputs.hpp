@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 #include "wale/program.hpp"
 
 namespace wale {

@@ -47,7 +47,7 @@ void run_lane(const DecodedProgram& program, std::span<const Instruction> code, 
       case Operation::name:                          \
         run_##name(program, i, registers, cells);    \
         break;
-#include "schema/instruction.def"
+#include "wale/instruction.def"
     }
     // clang-format on
   }

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "runtime/machine/arithmetic.hpp"
-#include "schema/instruction.hpp"
+#include "wale/instruction.hpp"
 
 namespace wale {
 
-/// The result of an operation on its operands, for all interpreters: the column `meaning` of `schema/instruction.def`.
-/// SPECIAL operations have none.
+/// The result of an operation on its operands, for all interpreters: the column `meaning` of
+/// `schema/include/wale/instruction.def`. SPECIAL operations have none.
 template <Operation>
 struct Meaning;
 
@@ -18,7 +18,7 @@ struct Meaning;
       return meaning;                                                                                         \
     }                                                                                                         \
   };
-#include "schema/instruction.def"
+#include "wale/instruction.def"
 // clang-format on
 
 }  // namespace wale

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "runtime/machine/spline.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

@@ -14,7 +14,7 @@ namespace {
   case Operation::name: return Meaning<Operation::name>::of(a, b, c);
 #define SPECIAL(number, name, fields, results, cost) \
   case Operation::name: break;
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   }
   // clang-format on
   return 0;

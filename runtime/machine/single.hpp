@@ -1,6 +1,6 @@
 #pragma once
 
-#include "schema/instruction.hpp"
+#include "wale/instruction.hpp"
 
 namespace wale {
 

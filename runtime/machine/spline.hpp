@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "runtime/machine/spline_sample.hpp"
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

@@ -86,7 +86,7 @@ void run_by_switch(const ThreadedInstruction* at, const LaneLookups& lookups, fl
       case handler_number(static_cast<unsigned>(Operation::name), forwarded): last = WALE_STEP(name, forwarded); break;
 #define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) WALE_ALL_FORWARDINGS(name)
 #define SPECIAL(number, name, fields, results, cost) WALE_ALL_FORWARDINGS(name)
-#include "schema/instruction.def"
+#include "wale/instruction.def"
 #undef WALE_HANDLER
       default: return;
     }
@@ -150,7 +150,7 @@ constexpr auto handlers_by_number = [] {
       handler<wide, Operation::name, forwarded>();
 #define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) WALE_ALL_FORWARDINGS(name)
 #define SPECIAL(number, name, fields, results, cost) WALE_ALL_FORWARDINGS(name)
-#include "schema/instruction.def"
+#include "wale/instruction.def"
 #undef WALE_HANDLER
   // clang-format on
   return all;

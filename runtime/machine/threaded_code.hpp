@@ -8,7 +8,7 @@
 
 #include "runtime/machine/grid.hpp"
 #include "runtime/machine/spline.hpp"
-#include "schema/instruction.hpp"
+#include "wale/instruction.hpp"
 
 namespace wale {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "schema/patch_program.hpp"
 #include "schema/sentence.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

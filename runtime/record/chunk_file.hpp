@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runtime/record/format.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "schema/device_profile.hpp"
-#include "schema/result.hpp"
+#include "wale/device_profile.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "schema/device_profile.hpp"
+#include "wale/device_profile.hpp"
 
 namespace wale {
 

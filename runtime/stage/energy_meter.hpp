@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 
-#include "schema/device_profile.hpp"
+#include "wale/device_profile.hpp"
 #include "wale/program.hpp"
 
 namespace wale {

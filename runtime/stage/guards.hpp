@@ -6,7 +6,7 @@
 #include "runtime/stage/energy_meter.hpp"
 #include "runtime/stage/motor_heat.hpp"
 #include "runtime/stage/passivity_observer.hpp"
-#include "schema/device_profile.hpp"
+#include "wale/device_profile.hpp"
 #include "wale/run.hpp"
 
 namespace wale {

@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "schema/device_profile.hpp"
+#include "wale/device_profile.hpp"
 
 namespace wale {
 

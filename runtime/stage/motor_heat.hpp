@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "schema/device_profile.hpp"
+#include "wale/device_profile.hpp"
 #include "wale/program.hpp"
 
 namespace wale {

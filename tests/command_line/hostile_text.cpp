@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "schema/patch_program.hpp"
 #include "tests/command_line/running.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale::command_line::hostile_test {
 namespace {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "schema/patch_program.hpp"
 #include "tests/compiler/compiling.hpp"
 #include "tests/compiler/random_material.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale::compiling::determinism_test {
 namespace {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "schema/patch_program.hpp"
 #include "tests/compiler/compiling.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale::compiling::written_out_test {
 namespace {

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "calibration/feel/trusted_declarations.hpp"
-#include "compiler/modules/owners_devices_file.hpp"
+#include "schema/owners_devices_file.hpp"
 #include "runtime/device/built_for.hpp"
 #include "runtime/device/driver.hpp"
 #include "runtime/device/force_limits.hpp"

@@ -37,7 +37,7 @@ Files sources() {
 
 /// The path of the file that an include of `name` means; empty when the file is not of the project.
 std::string found(const std::string& name, const Files& files) {
-  for (const char* root : {"", "runtime/include/", "library/include/"})
+  for (const char* root : {"", "schema/include/", "runtime/include/", "library/include/"})
     if (files.contains(root + name)) return root + name;
   return {};
 }
@@ -80,15 +80,16 @@ const std::vector<Rule>& rules() {
         "runtime/include/wale/picture.hpp",
     };
     return std::vector<Rule>{
+        {"schema/include/", {}},
         {"schema/", {}},
         {"runtime/machine/", machine},
-        {"runtime/include/", {"schema/"}},
+        {"runtime/include/", {"schema/include/"}},
         {"runtime/", {"schema/"}},
         {"compiler/", machine},
         {"calibration/", {"schema/", "compiler/", "runtime/"}},
-        {"library/include/", {"schema/", "runtime/include/"}},
-        {"library/", {"schema/", "compiler/", "runtime/"}},
-        {"examples/", {"runtime/include/", "library/include/"}},
+        {"library/include/", {"schema/include/", "runtime/include/"}},
+        {"library/", {"schema/", "compiler/", "runtime/", "calibration/feel/trusted_declarations.hpp"}},
+        {"examples/", {"schema/include/", "runtime/include/", "library/include/"}},
     };
   }();
   return all;
@@ -154,7 +155,9 @@ TEST(Includes, AreFollowedThroughTheProject) {
   const Includes all = includes();
   EXPECT_GT(all.size(), 300u);
   EXPECT_TRUE(all.at("runtime/machine/verify.cpp").contains("runtime/machine/verify.hpp"));
-  EXPECT_TRUE(all.at("examples/roughness_by_name/main.cpp").contains("runtime/include/wale/stage.hpp"));
+  EXPECT_TRUE(all.at("examples/roughness_by_name/main.cpp").contains("library/include/wale/wale.hpp"));
+  EXPECT_TRUE(all.at("runtime/include/wale/stage.hpp").contains("runtime/include/wale/device.hpp"));
+  EXPECT_TRUE(all.at("runtime/include/wale/device.hpp").contains("schema/include/wale/device_profile.hpp"));
   EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"c", "d"}}, {"d", {"b"}}}), (std::vector<std::string>{"b", "d"}));
   EXPECT_TRUE(circle_in({{"a", {"b", "c"}}, {"b", {"c"}}}).empty());
 }

@@ -245,7 +245,7 @@ TEST(DiagnosticCodes, EachHasACase) {
   };
   std::set<std::string> codes;
 #define CODE(number, name, severity, title) codes.insert(code_name(Code::name));
-#include "schema/codes.def"
+#include "wale/codes.def"
   // Plugged devices and measured values have no text of Wale: tests/usb_mock, tests/runtime and tests/command_line.
   std::erase_if(codes, [](const std::string& code) { return code >= "W0700"; });
   for (const auto& code : codes)

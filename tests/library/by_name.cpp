@@ -2,53 +2,241 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <thread>
+
+#include "tests/temporary_folder.hpp"
 #include "wale/library.hpp"
 
 namespace wale::by_name_test {
 namespace {
 
-TEST(ByName, AMaterialIsThatOfItsFile) {
+using Bytes = std::vector<std::byte>;
+
+std::string denim_file() { return std::string(WALE_SOURCE_DIR) + "/library/fabric/denim.wale"; }
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Bytes bytes_of(const Program& program) {
+  const auto bytes = write_patch_program(program.description());
+  const auto view = std::as_bytes(std::span(bytes));
+  return {view.begin(), view.end()};
+}
+
+Bytes bytes_of(const std::string& text) {
+  const auto view = std::as_bytes(std::span(text));
+  return {view.begin(), view.end()};
+}
+
+void expect_denim(const Result<Compiled>& result) {
+  static const Bytes denim = bytes_of(Library().open(denim_file())->program);
+  ASSERT_TRUE(result) << in_words(result.error());
+  EXPECT_EQ(bytes_of(result->program), denim);
+}
+
+TEST(ByName, OneMaterialIsTheSameByEveryWay) {
   const Library library;
-  const auto named = library.material("denim"),
-             from_file = library.material(std::string(WALE_SOURCE_DIR) + "/library/fabric/denim.wale");
-  ASSERT_TRUE(named) << in_words(named.error());
-  ASSERT_TRUE(from_file) << in_words(from_file.error());
-  EXPECT_EQ(write_patch_program(named->description()), write_patch_program(from_file->description()));
+  const std::string text = text_of(denim_file());
+  expect_denim(library.find("denim"));
+  expect_denim(library.find("fabric.denim"));
+  expect_denim(library.find("fabric.denim:denim"));
+  expect_denim(library.find("denim", {.device = "sandpaper"}));
+  expect_denim(library.compile(text, {.name = denim_file()}));
+  expect_denim(library.open(bytes_of(text), {.name = denim_file()}));
+  const Bytes program = bytes_of(library.find("denim")->program);
+  expect_denim(library.open(program));
+  const TemporaryFolder folder;
+  expect_denim(library.open(
+      folder.write("denim.wpp", std::string(reinterpret_cast<const char*>(program.data()), program.size()))));
+
+  expect_denim(library.find_later("denim").get());
+  expect_denim(library.compile_later(text, {.name = denim_file()}).get());
+  expect_denim(library.open_later(denim_file()).get());
+  expect_denim(library.open_later(program).get());
+  const auto coarse = library.level("roughness", "coarse"), later = library.level_later("roughness", "coarse").get();
+  ASSERT_TRUE(coarse && later);
+  EXPECT_EQ(bytes_of(coarse->program), bytes_of(later->program));
+}
+
+TEST(ByName, MaterialsOfOnesOwnFoldersGoFirstAndThatIsSaid) {
+  const TemporaryFolder folder;
+  folder.write("mine/denim.wale", text_of(denim_file()));
+  const Library library({.folders = {folder.path().string()}});
+  for (const char* name : {"denim", "mine.denim"}) {
+    const Result<Compiled> own = library.find(name);
+    ASSERT_TRUE(own) << in_words(own.error());
+    EXPECT_EQ(own->taken.find(folder / "mine/denim.wale") != std::string::npos, std::string(name) == "denim")
+        << name << ": " << own->taken;
+  }
+  EXPECT_EQ(Library().find("denim")->taken, "");
+  EXPECT_FALSE(Library().find("mine.denim"));
 }
 
 TEST(ByName, ErrorsAreAboutTheArgument) {
   const Library library;
-  const auto percept = library.level("rougness", "coarse"), level = library.level("roughness", "coarze"),
-             text = library.level("roughness", "0.5 } }"), high = library.level("roughness", "1.5"),
-             device = library.level("roughness", "coarse", "falcom");
+  const std::string huge(1 << 20, 'a');
   const struct {
-    const Result<Program>& result;
+    Result<Compiled> result;
     Code code;
-    const char *place, *mend;
-  } cases[] = {{percept, Code::unknown_name, "percept", "`roughness`"},
-               {level, Code::unknown_name, "level", "`coarse`"},
-               {text, Code::malformed_value, "level", "\"0.6\""},
-               {high, Code::level_out_of_range, "level", ""},
-               {device, Code::unknown_device, "device", "`falcon`"}};
+    const char* place;
+    std::vector<std::string> first;  ///< of `nearest`
+  } cases[] = {
+      {library.level("rougness", "coarse"), Code::unknown_name, "percept", {"roughness"}},
+      {library.level("", "coarse"), Code::unknown_name, "percept", {}},
+      {library.level("rough\xff\x1bness", "coarse"), Code::unknown_name, "percept", {"roughness"}},
+      {library.level(huge, "coarse"), Code::unknown_name, "percept", {}},
+      {library.level("roughness", "coarze"), Code::unknown_name, "level", {"coarse"}},
+      {library.level("roughness", "0.5 } }"), Code::malformed_value, "level", {}},
+      {library.level("roughness", ""), Code::malformed_value, "level", {}},
+      {library.level("roughness", huge), Code::malformed_value, "level", {}},
+      {library.level("roughness", "\xff"), Code::malformed_value, "level", {}},
+      {library.level("roughness", "-0.5"), Code::level_out_of_range, "level", {}},
+      {library.level("roughness", "-"), Code::malformed_value, "level", {}},
+      {library.level("roughness", "1.5"), Code::level_out_of_range, "level", {}},
+      {library.level("roughness", "coarse", {.device = "falcom"}), Code::unknown_device, "device", {"falcon"}},
+      {library.find("denim", {.device = "falcom"}), Code::unknown_device, "device", {"falcon"}},
+      {library.find("denim", {.material = "denin"}), Code::unknown_material, "material", {"denim"}},
+      {library.open(denim_file(), {.material = "velvet"}), Code::unknown_material, "material", {}},
+      {library.find("corderoy"), Code::unknown_name, "name", {"corduroy"}},
+      {library.find(""), Code::unknown_name, "name", {}},
+      {library.find(huge), Code::unknown_name, "name", {}},
+      {library.find("den\xffim"), Code::unknown_name, "name", {"denim"}},
+      {library.find("denim:"), Code::malformed_value, "name", {}},
+      {library.find(denim_file()), Code::unknown_name, "name", {}},  // a path is no name
+      {library.find("corderoy:denim"), Code::unknown_name, "name", {"corduroy"}},
+  };
   for (const auto& each : cases) {
     ASSERT_FALSE(each.result);
     const Error& error = each.result.error();
-    EXPECT_EQ(error.code, each.code) << error.sentence;
-    EXPECT_EQ(error.place.name, each.place) << error.sentence;
-    EXPECT_NE(error.mend.find(each.mend), std::string::npos) << error.mend;
+    EXPECT_EQ(error.code, each.code) << error.sentence.substr(0, 300);
+    EXPECT_EQ(error.place.name, each.place) << error.sentence.substr(0, 300);
+    EXPECT_EQ(error.place.number, std::nullopt);
+    EXPECT_EQ(error.place.column, std::nullopt);
+    EXPECT_LE(error.nearest.size(), 3u);
+    EXPECT_LT(error.sentence.size(), 400u);
+    if (!each.first.empty()) {
+      ASSERT_FALSE(error.nearest.empty()) << error.sentence;
+      EXPECT_EQ(error.nearest.front(), each.first.front());
+      EXPECT_NE(error.mend.find("`" + each.first.front() + "`"), std::string::npos) << error.mend;
+    }
   }
-  const auto material = library.material("corderoy");
-  ASSERT_FALSE(material);
-  EXPECT_EQ(material.error().code, Code::unknown_name);
-  EXPECT_NE(material.error().mend.find("`corduroy`"), std::string::npos) << material.error().mend;
 }
 
-TEST(ByName, AnErrorInAFileHasItsLine) {
-  const auto wrong = Library().material(std::string(WALE_SOURCE_DIR) + "/library/fabric/denim.wale", "velvet");
+TEST(ByName, ErrorsInATextHaveTheirPlaceAndTheirParts) {
+  const std::string wrong_line = "material m { physical { force = 3 m } }";
+  const Result<Compiled> wrong = Library().compile("wale 1\n" + wrong_line + "\n", {.name = "my.wale"});
   ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().code, Code::unknown_material);
-  EXPECT_TRUE(wrong.error().place.name.ends_with("library/fabric/denim.wale"));
-  EXPECT_TRUE(wrong.error().place.number.has_value());
+  const Error& error = wrong.error();
+  EXPECT_EQ(severity_of(error.code), Severity::error);
+  EXPECT_EQ(error.place.name, "my.wale");
+  EXPECT_EQ(error.place.number, 2u);
+  EXPECT_EQ(error.place.column, wrong_line.find("3 m") + 1);
+  EXPECT_EQ(error.place.length, std::string("3 m").size());
+  EXPECT_EQ(error.place.text, wrong_line);
+  EXPECT_FALSE(error.expected.empty() && error.mend.empty());
+  EXPECT_TRUE(error.others.empty());
+
+  // Columns count characters, not bytes.
+  const std::string letter = "material m { physical { force = vector(1 N * ä, 0 N) } }";
+  const Result<Compiled> two =
+      Library().compile("wale 1\n" + letter + "\nmaterial n { physical { force = vector(/* ää */ 1 N * no, 0 N) } }\n");
+  ASSERT_FALSE(two);
+  EXPECT_EQ(two.error().code, Code::unexpected_character);
+  EXPECT_EQ(two.error().place.column, letter.find("ä") + 1);
+  ASSERT_EQ(two.error().others.size(), 1u);
+  const Error& other = two.error().others.front();
+  EXPECT_EQ(other.code, Code::unknown_name);
+  EXPECT_EQ(other.place.number, 3u);
+  EXPECT_EQ(other.place.column, 55u) << "two letters before it have two bytes each";
+  EXPECT_EQ(other.place.name, "text");
+}
+
+TEST(ByName, WarningsComeWithTheProgram) {
+  // `unused` is a name that nothing uses (W0209), in line 4.
+  const std::string text =
+      "wale 1\nmaterial m {\n  physical {\n    let unused = 3 mm\n    force = vector(0.5 N * sin(x / 1 mm), 0 N)\n  "
+      "}\n}\n";
+  const Result<Compiled> compiled = Library().compile(text);
+  ASSERT_TRUE(compiled) << in_words(compiled.error());
+  const auto unused = std::ranges::find(compiled->warnings, Code::unused_name, &Error::code);
+  ASSERT_NE(unused, compiled->warnings.end());
+  EXPECT_EQ(severity_of(unused->code), Severity::warning);
+  EXPECT_EQ(unused->place.name, "text");
+  EXPECT_EQ(unused->place.number, 4u);
+  EXPECT_EQ(unused->place.column, 9u);
+}
+
+TEST(ByName, WhatIsNoFileOfOursIsRefused) {
+  const Library library;
+  const TemporaryFolder folder;
+  const auto code = [](const Result<Compiled>& result) {
+    EXPECT_FALSE(result);
+    return result ? Code{} : result.error().code;
+  };
+  EXPECT_EQ(code(library.compile("")), Code::missing_version);
+  EXPECT_EQ(code(library.compile("wale 1\n\xff\xfe")), Code::invalid_encoding);
+  EXPECT_EQ(code(library.compile("wale 1\n" + std::string(5 << 20, ' '))), Code::too_long);
+  EXPECT_EQ(code(library.compile("wale 1\nmaterial m { physical { force = " + std::string(100'000, '('))),
+            Code::nested_too_deep);
+  EXPECT_EQ(code(library.compile_later("wale 1\nmaterial m { physical { force = " + std::string(100'000, '(')).get()),
+            Code::nested_too_deep);
+  EXPECT_EQ(code(library.open(folder / "missing.wale")), Code::unreadable_file);
+  EXPECT_EQ(code(library.open(folder / "")), Code::unreadable_file);
+  EXPECT_EQ(code(library.open(std::string())), Code::unreadable_file);
+  EXPECT_EQ(code(library.open("/dev/null")), Code::unreadable_file);
+  EXPECT_EQ(code(library.open(folder.write("picture.wale", "\x89PNG\r\n\x1a\n"))), Code::damaged_file);
+  EXPECT_EQ(code(library.open(bytes_of(std::string("\x89PNG\r\n\x1a\n")))), Code::damaged_file);
+  Bytes program = bytes_of(library.find("denim")->program);
+  EXPECT_EQ(code(library.open(program, {.device = "falcon"})), Code::other_device);
+  EXPECT_EQ(code(library.open(program, {.material = "velvet"})), Code::unknown_material);
+  program.resize(program.size() / 2);
+  EXPECT_FALSE(library.open(program));
+  EXPECT_FALSE(library.open(std::span<const std::byte>()));
+}
+
+TEST(ByName, TwoThreadsGetTheSameAsOne) {
+  const Library library;
+  const auto work = [&] {
+    for (int i = 0; i < 3; ++i) {
+      expect_denim(library.find("denim"));
+      EXPECT_TRUE(library.level("roughness", "0.4"));
+      EXPECT_FALSE(library.find("denin"));
+      EXPECT_TRUE(library.level_later("roughness", "fine").get());
+    }
+  };
+  std::thread other(work);
+  work();
+  other.join();
+}
+
+TEST(ByName, FuturesOutliveTheirLibrary) {
+  std::vector<std::future<Result<Compiled>>> all;
+  std::optional<Library> library(std::in_place);
+  for (int i = 0; i < 40; ++i) all.push_back(library->find_later("denim"));
+  library.reset();
+  long done = 0, dropped = 0;
+  for (auto& each : all) {
+    ASSERT_EQ(each.wait_for(std::chrono::seconds(0)), std::future_status::ready);
+    const Result<Compiled> result = each.get();
+    if (result) {
+      EXPECT_EQ(dropped, 0) << "the pieces are done in their order";
+      expect_denim(result);
+      ++done;
+    } else {
+      EXPECT_EQ(result.error().code, Code::wrong_moment);
+      ++dropped;
+    }
+  }
+  EXPECT_EQ(done + dropped, 40);
+  EXPECT_GT(dropped, 0) << "forty take longer than to ask for them";
+  { const Library never_asked; }
 }
 
 }  // namespace

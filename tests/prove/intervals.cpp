@@ -27,7 +27,7 @@ constexpr float least_normal = std::numeric_limits<float>::min();
   case Operation::name: return Meaning<Operation::name>::of(a, b, c);
 #define SPECIAL(number, name, fields, results, cost) \
   case Operation::name: break;
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   }
   // clang-format on
   return 0;
@@ -37,7 +37,7 @@ std::vector<Operation> plain_operations() {
   return {
   // clang-format off
 #define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) Operation::name,
-#include "schema/instruction.def"
+#include "wale/instruction.def"
       // clang-format on
   };
 }

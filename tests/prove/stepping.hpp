@@ -39,7 +39,7 @@ struct State {
 #define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative)                        \
     case Operation::name: r[i.destination] = Meaning<Operation::name>::of(r[i.a], r[i.b], r[i.c]); break;
 #define SPECIAL(number, name, fields, results, cost)
-#include "schema/instruction.def"
+#include "wale/instruction.def"
     case Operation::sample: three(sample_of(state.program.splines.at(i.c), r[i.a], r[i.b])); break;
     case Operation::recall: three(recall_of(state.program.grids.at(i.c), state.cells.data(), r[i.a], r[i.b])); break;
     case Operation::cell: r[i.destination] = state.cells.at(cell_at(state.program.grids.at(i.c), r[i.a], r[i.b])); break;

@@ -51,7 +51,7 @@ float entering(double number) {
   case Operation::name: return Meaning<Operation::name>::of(a, b, c);
 #define SPECIAL(number, name, ...) \
   case Operation::name: break;
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   }
   // clang-format on
   return 0;
@@ -283,7 +283,7 @@ Derived rule(Operation operation, FloatEvaluation* evaluation, Derived r, Derive
   case Operation::name: return derivative;
 #define SPECIAL(number_, name, ...) \
   case Operation::name: break;
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   }
   // clang-format on
   (void)r, (void)a, (void)b, (void)c, (void)da, (void)db, (void)dc;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "schema/device_profile.hpp"
+#include "wale/device_profile.hpp"
 #include "wale/simulated.hpp"
 
 namespace wale {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "schema/instruction.hpp"
 #include "schema/patch_program_format.hpp"
 #include "tests/schema/example_program.hpp"
 #include "tests/schema/wpp_bytes.hpp"
+#include "wale/instruction.hpp"
 
 namespace wale::documentation_test {
 namespace {
@@ -36,7 +36,7 @@ TEST(Documentation, ListsEveryInstruction) {
 #define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
       row(number, #name, fields, results, cost, "`" #meaning "`"),
 #define SPECIAL(number, name, fields, results, cost) row(number, #name, fields, results, cost, "see below"),
-#include "schema/instruction.def"
+#include "wale/instruction.def"
       // clang-format on
   };
   const std::vector<std::string> lines = lines_of_documentation();

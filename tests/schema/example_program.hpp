@@ -1,6 +1,6 @@
 #pragma once
 
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale::example {
 

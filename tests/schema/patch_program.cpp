@@ -1,4 +1,4 @@
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 #include <gtest/gtest.h>
 

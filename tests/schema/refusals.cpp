@@ -4,9 +4,9 @@
 
 #include <functional>
 
-#include "schema/patch_program.hpp"
 #include "tests/schema/example_program.hpp"
 #include "tests/schema/wpp_bytes.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale::refusals_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 /// A second reader and writer of `.wpp` files for tests. It follows schema/PATCH_PROGRAM.md and shares no code with
 /// schema/.

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "runtime/device/trusted_device.hpp"
-#include "schema/device_profile.hpp"
 #include "tests/usb/falcon_model.hpp"
+#include "wale/device_profile.hpp"
 
 namespace wale::test {
 

@@ -87,7 +87,7 @@ class Feeling : public testing::Test {
     return *std::move(choice);
   }
   Program built(const ChosenDevice& device) const {
-    return *library_.material(corduroy, "", device.declared->profile.name);
+    return library_.open(corduroy, {.device = device.declared->profile.name})->program;
   }
   std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device) const {
     auto result = open_device(connections_, device, {.priority = loop_priority - 1, .keeper = {WALE_KEEPER}});

@@ -14,12 +14,12 @@
 #include <random>
 #include <string>
 
-#include "schema/patch_program.hpp"
 #include "tests/usb/falcon_model.hpp"
 #include "tests/usb_mock/running_wale.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/library.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale::test::hostile {
 namespace {
@@ -128,7 +128,7 @@ void feel_all(unsigned seed, long count, const std::string& profile, const std::
   std::mt19937 random(seed);
   const TemporaryFolder source;
   const Library library;
-  const auto honest = library.material(source.write("strong.wale", std::string("wale 1\n") + strong), "", profile);
+  const auto honest = library.open(source.write("strong.wale", std::string("wale 1\n") + strong), {.device = profile});
   ASSERT_TRUE(honest) << in_words(honest.error());
   const test::Outcome honestly = run_wale("feel " + (source / "strong.wale") + " --seconds 1 --max-force '0.5 N'");
   ASSERT_EQ(honestly.status, 0) << honestly.err;
@@ -136,7 +136,7 @@ void feel_all(unsigned seed, long count, const std::string& profile, const std::
   long felt = 0, refused = 0;
   for (long i = 0; i < count; ++i) {
     const TemporaryFolder folder;
-    const std::string file = hostile_file(random, folder, honest->description(), numbers);
+    const std::string file = hostile_file(random, folder, honest->program.description(), numbers);
     const test::Outcome run = run_wale("feel " + file + " --seconds 0.15 --max-force '0.5 N'");
     ASSERT_LE(most_force(), allowed * (1 + 1e-9)) << i << ": " << file << "\n" << run.err << run.out;
     ASSERT_LE(run.status, 2) << i << ": " << file << "\n" << run.err;
@@ -181,9 +181,9 @@ TEST_F(Hostile, ABlockThatSaysAMillinewtonIsRefusedWithBothFigures) {
   const TemporaryFolder folder;
   const Library library;
   const auto honest =
-      library.material(folder.write("strong.wale", std::string("wale 1\n") + strong), "", "openffboard");
+      library.open(folder.write("strong.wale", std::string("wale 1\n") + strong), {.device = "openffboard"});
   ASSERT_TRUE(honest);
-  PatchProgram program = honest->description();
+  PatchProgram program = honest->program.description();
   program.device.force_newton = 1e-3;
   for (float& constant : program.constants) constant = std::min(constant, 1e-3f);
   const auto bytes = write_patch_program(program);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "compiler/image/image.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale::decoder {
 

@@ -1,12 +1,17 @@
 #pragma once
 
+#include <cstddef>
+#include <future>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "schema/declared_device.hpp"
-#include "schema/result.hpp"
+#include "wale/declared_device.hpp"
+#include "wale/devices.hpp"
 #include "wale/program.hpp"
+#include "wale/result.hpp"
 #include "wale/simulated.hpp"
 
 namespace wale {
@@ -20,35 +25,98 @@ struct SimulatedPerson {
 };
 
 struct LibraryOptions {
+  /// Folders that are searched for materials and imports besides the shipped library, as by `--library`; those of the
+  /// environment variable WALE_LIBRARY come after them.
+  std::vector<std::string> folders = {};
   /// Whether a stranger's picture may be decoded where the system offers no sandbox for its decoder. Otherwise a
   /// material that needs it is an error there (W0807).
   bool unsandboxed_pictures = false;
 };
 
-/// Materials and levels by name, compiled for a device.
+/// How a text becomes a program.
+struct CompileOptions {
+  /// The device that the program is for, by the name of its profile; empty: `default_device`, and of a patch program
+  /// the one that it is built for.
+  std::string device = {};
+  /// One of the materials of a text that has several; empty: the one that was named, or else the first.
+  std::string material = {};
+  /// Of a text in memory: the name that errors and warnings show. Its imports and pictures are looked for beside a file
+  /// of that name, which need not exist.
+  std::string name = "text";
+};
+
+/// A program, and what is worth knowing about its text.
+struct Compiled {
+  Program program;
+  std::vector<Error> warnings = {};  ///< in the order of their places; `severity_of` their codes is `warning`
+  /// If the name could have meant another material too, a sentence that says which one was taken; mostly empty.
+  std::string taken = {};
+};
+
+/// Materials and levels by name, compiled for a device. The answers are those of the command line.
 ///
-/// All materials and calibrations are in the binary: no files are needed at run time.
+/// The shipped materials and calibrations are in the binary: no file is needed for them. The owner's devices
+/// (~/.config/wale/devices.wale) are read once, by the constructor.
+///
+/// All calls but constructor and destructor are safe from any thread, also at the same time; none is for a real-time
+/// thread. They take from a millisecond to a second, and the calling thread needs a stack of 8 MB. Each call whose name
+/// ends in `_later` returns at once; a thread of the library's own, begun with the first such call, then does the work,
+/// one after the other in the order of the calls. What is returned is independent of the library.
+///
+/// Errors in a text have its place: `place.name` is the file, `place.number` the line, `place.column` the column,
+/// `place.text` the line's text; `expected`, `found` and `mend` are the diagnostic's. It is the first error; `others`
+/// has the further errors and warnings. Errors about an argument have the argument's name as `place.name` ("name",
+/// "percept", "level", "device", "material") and its value as `place.text`. For an unknown name `nearest` has up to
+/// three that may have been meant. All calls: `unknown_device` for a device that nothing declares.
 class Library {
  public:
   explicit Library(const LibraryOptions& options = {});
+  /// Waits for the work that is under way, at most. What was not begun then ends with `wrong_moment`.
   ~Library();
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
 
-  /// A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6"). Errors name the
-  /// argument: W0201 for an unknown percept or level, W0406 for a level outside 0 .. 1, W0601 for an unknown device;
-  /// and the errors of a percept that the device cannot render.
-  Result<Program> level(const std::string& percept, const std::string& level,
-                        const std::string& device = "sandpaper") const;
+  /// A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL, by
+  /// the rule of the command line: of the project in the process's current folder, of `LibraryOptions::folders`, or of
+  /// the shipped library. Never a file of that name. Errors: `unknown_name`; `ambiguous_material` if several materials
+  /// have that name; `malformed_value` for a text that is no name.
+  Result<Compiled> find(const std::string& name, const CompileOptions& options = {}) const;
 
-  /// A material by name ("corduroy"), or from a Wale file or patch program; `name` chooses one of the file's materials,
-  /// by default the first one. Names are found by the rule of the command line (`wale find` lists them). Errors: a file
-  /// or name that cannot be found (W0501, W0201, W0217), a program that does not load (W0606), or the first error in
-  /// the file, with its line.
-  Result<Program> material(const std::string& file_or_name, const std::string& name = {},
-                           const std::string& device = "sandpaper") const;
+  /// A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6"). Errors:
+  /// `unknown_name` for an unknown percept or level; `level_out_of_range` for a number outside 0 .. 1;
+  /// `malformed_value` for a level that is neither; and the errors of a percept that the device cannot render.
+  Result<Compiled> level(const std::string& percept, const std::string& level,
+                         const CompileOptions& options = {}) const;
 
+  /// Compiles the text of a Wale file. Errors: those in the text, such as `invalid_encoding` and `too_long` (4 MiB).
+  Result<Compiled> compile(std::string_view text, const CompileOptions& options = {}) const;
+
+  /// A Wale file (.wale) or a patch program (.wpp). Errors: `unreadable_file` for a file that is missing, a folder or
+  /// no regular file; `damaged_file` for one that holds something else; those in the text; those of `Program::load`;
+  /// `other_device` for a patch program that is built for another device than `options.device`.
+  Result<Compiled> open(const std::string& path, const CompileOptions& options = {}) const;
+  /// The same for the bytes of such a file; which of the two they are is seen by how they begin.
+  Result<Compiled> open(std::span<const std::byte> bytes, const CompileOptions& options = {}) const;
+
+  /// The same on the library's own thread. Arguments are copied. Error besides: `short_of_resources` if the system
+  /// gives no thread.
+  std::future<Result<Compiled>> find_later(std::string name, CompileOptions options = {}) const;
+  std::future<Result<Compiled>> level_later(std::string percept, std::string level, CompileOptions options = {}) const;
+  std::future<Result<Compiled>> compile_later(std::string text, CompileOptions options = {}) const;
+  std::future<Result<Compiled>> open_later(std::string path, CompileOptions options = {}) const;
+  std::future<Result<Compiled>> open_later(std::vector<std::byte> bytes, CompileOptions options = {}) const;
+
+  /// The devices that Wale ships, and those of the owner.
   std::vector<DeclaredDevice> devices() const;
-  /// Error: W0201 for an unknown name.
+  /// Error: `unknown_name`.
   Result<SimulatedPerson> person(const std::string& name = "normal") const;
+
+  /// The declarations that scale a real device on this computer: those of its owner's file and the shipped ones. Error:
+  /// the first one in that file.
+  Result<TrustedDevices> trusted_devices() const;
+  /// As `wale::open_device`, with these declarations. A simulated device is in the hand of a simulated person who rubs
+  /// to and fro, unless the options say otherwise. Errors also: those of `trusted_devices`.
+  Result<std::unique_ptr<Device>> open_device(std::string_view spelling = "auto", OpenOptions options = {}) const;
 
   /// The Sandpaper joystick, simulated, in the hand of a simulated person who rubs to and fro.
   std::unique_ptr<SimulatedJoystick> simulated_joystick() const;

@@ -15,7 +15,7 @@
 #include "runtime/device/plugged_device.hpp"
 #include "runtime/device/trusted_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

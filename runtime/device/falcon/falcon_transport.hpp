@@ -13,7 +13,7 @@
 #include "runtime/device/usb/usb_context.hpp"
 #include "runtime/device/usb/usb_transfers.hpp"
 #include "runtime/keeper/keeper.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 struct libusb_device_handle;
 struct libusb_transfer;

@@ -14,7 +14,7 @@
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/report_descriptor.hpp"
 #include "runtime/device/list_usb_devices.hpp"
-#include "schema/device_wiring.hpp"
+#include "wale/device_wiring.hpp"
 
 namespace wale {
 

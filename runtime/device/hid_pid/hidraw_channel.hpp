@@ -9,7 +9,7 @@
 #include "runtime/device/hid_pid/pid_transport.hpp"
 #include "runtime/device/hid_pid/report_channel.hpp"
 #include "runtime/device/usb/owned_descriptor.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

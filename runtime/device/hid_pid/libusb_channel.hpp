@@ -9,7 +9,7 @@
 #include "runtime/device/hid_pid/report_channel.hpp"
 #include "runtime/device/usb/owned_descriptor.hpp"
 #include "runtime/device/usb/usb_context.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 struct libusb_device_handle;
 struct libusb_transfer;

@@ -13,7 +13,7 @@
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/pid_packets.hpp"
 #include "runtime/device/outcome.hpp"
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale::hid {
 

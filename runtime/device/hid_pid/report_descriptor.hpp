@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale::hid {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale::pointer {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 #include "wale/trace.hpp"
 
 namespace wale {

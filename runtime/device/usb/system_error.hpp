@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

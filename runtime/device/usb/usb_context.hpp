@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 struct libusb_context;
 struct libusb_device;

@@ -3,7 +3,7 @@
 #include <glm/vec2.hpp>
 #include <limits>
 
-#include "schema/device_profile.hpp"
+#include "wale/device_profile.hpp"
 #include "wale/program.hpp"
 
 namespace wale {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/patch_program.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale {
 

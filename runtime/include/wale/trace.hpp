@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/result.hpp"
+#include "wale/result.hpp"
 
 namespace wale {
 

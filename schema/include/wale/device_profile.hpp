@@ -7,6 +7,9 @@
 
 namespace wale {
 
+/// The device for which a program is built unless another is named.
+inline constexpr const char* default_device = "sandpaper";
+
 /// The source of the hand's position on a vibrating pad.
 enum class PositionSource : std::uint8_t {
   none = 0,     ///< the pad has no position, so a material feels the same everywhere

@@ -11,7 +11,7 @@ namespace wale {
 enum class Operation : std::uint8_t {
 #define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) name = number,
 #define SPECIAL(number, name, fields, results, cost) name = number,
-#include "schema/instruction.def"
+#include "wale/instruction.def"
 };
 
 /// One row of `instruction.def`.
@@ -31,7 +31,7 @@ inline constexpr auto operation_table = [] {
   table[number] = {#name, fields, results, cost};
 #define SPECIAL(number, name, fields, results, cost) \
   table[number] = {#name, fields, results, cost};
-#include "schema/instruction.def"
+#include "wale/instruction.def"
   // clang-format on
   for (OperationFacts& each : table)
     for (const char field : each.fields) each.operands += field == 'r';

@@ -1,4 +1,4 @@
-#include "compiler/modules/owners_devices_file.hpp"
+#include "schema/owners_devices_file.hpp"
 
 namespace wale {
 

@@ -9,10 +9,10 @@
 #include <variant>
 #include <vector>
 
-#include "schema/device_profile.hpp"
-#include "schema/instruction.hpp"
-#include "schema/result.hpp"
-#include "schema/shared_heights.hpp"
+#include "wale/device_profile.hpp"
+#include "wale/instruction.hpp"
+#include "wale/result.hpp"
+#include "wale/shared_heights.hpp"
 
 namespace wale {
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "schema/code.hpp"
+#include "wale/code.hpp"
 
 namespace wale {
 
@@ -17,16 +17,22 @@ struct Place {
   std::optional<std::size_t> number = {};  ///< of its row (from 1), byte or instruction (both from 0)
   std::string text = {};                   ///< the text at that place; may be empty
   std::string source = {};                 ///< the line that it was compiled from, "corduroy.wale:9"; may be empty
+  std::optional<std::size_t> column = {};  ///< of a place in a Wale file, from 1, in characters; `number` is its row
+  std::size_t length = 0;                  ///< bytes of the file from there on; 0 if that is not known
 };
 
-/// An error, as a value. Programs decide by `code`; `sentence` is for people and is never searched. It makes sense
-/// without `place`, and does not repeat its name.
+/// An error or a warning (`severity_of(code)`), as a value. Programs decide by `code`; `sentence` is for people and is
+/// never searched. It makes sense without `place`, and does not repeat its name.
 struct Error {
   Code code = {};
-  std::string sentence = {};       ///< what is wrong: "expected a number, found a vector"
-  std::string mend = {};           ///< what to do about it; may be empty
-  Place place = {};                ///< where
-  std::vector<Place> led_to = {};  ///< its causes in their order: the instructions before a refused one
+  std::string sentence = {};              ///< what is wrong: "expected a number, found a vector"
+  std::string mend = {};                  ///< what to do about it; may be empty
+  Place place = {};                       ///< where
+  std::vector<Place> led_to = {};         ///< its causes in their order: the instructions before a refused one
+  std::string expected = {};              ///< in a Wale file: what would be right; may be empty
+  std::string found = {};                 ///< in a Wale file: what the text has; may be empty
+  std::vector<std::string> nearest = {};  ///< names that may have been meant by an unknown one, the nearest first
+  std::vector<Error> others = {};  ///< the other errors and warnings of the same text, in the order of their places
 };
 
 /// The error in one line for a person: "the disk is full; make room or record elsewhere".

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "schema/device_profile.hpp"
-#include "schema/device_wiring.hpp"
+#include "wale/device_profile.hpp"
+#include "wale/device_wiring.hpp"
 
 namespace wale {
 

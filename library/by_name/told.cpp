@@ -1,0 +1,72 @@
+#include "library/by_name/told.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "schema/spelling.hpp"
+#include "schema/visible_text.hpp"
+
+namespace wale {
+namespace {
+
+/// A name as a sentence shows it: it may be as long as its author likes, and no text at all.
+std::string quoted(const std::string& name) {
+  constexpr std::size_t longest = 200;
+  return "`" + visible_text(name.substr(0, longest)) + (name.size() > longest ? "…`" : "`");
+}
+
+}  // namespace
+
+Error told(const Diagnostic& diagnostic, const SourceSet& sources) {
+  const Span& span = diagnostic.span;
+  const LineColumn at = sources.place(span);
+  return {.code = diagnostic.code,
+          .sentence = diagnostic.message,
+          .mend = diagnostic.help,
+          .place = {.name = sources[span.source].name,
+                    .number = at.line,
+                    .text = std::string(sources.line(span)),
+                    .column = at.column,
+                    .length = span.end - span.begin},
+          .expected = diagnostic.expected,
+          .found = diagnostic.found};
+}
+
+std::vector<Error> warnings_in(Diagnostics& diagnostics, const SourceSet& sources) {
+  diagnostics.sort();
+  std::vector<Error> warnings;
+  for (const Diagnostic& each : diagnostics.all())
+    if (severity_of(each.code) == Severity::warning) warnings.push_back(told(each, sources));
+  return warnings;
+}
+
+Error first_error(Diagnostics& diagnostics, const SourceSet& sources) {
+  diagnostics.sort();
+  const auto& all = diagnostics.all();
+  const auto first =
+      std::ranges::find(all, Severity::error, [](const Diagnostic& each) { return severity_of(each.code); });
+  if (first == all.end()) return {Code::refused_program, "this cannot be compiled", ""};
+  Error error = told(*first, sources);
+  for (auto each = all.begin(); each != all.end(); ++each)
+    if (each != first) error.others.push_back(told(*each, sources));
+  return error;
+}
+
+Error about(Error error, const Place& argument) {
+  error.place = argument;
+  for (Error& each : error.others) each = about(std::move(each), argument);
+  return error;
+}
+
+Error unknown(Code code, const std::string& argument, const std::string& name, const std::vector<std::string>& known) {
+  auto nearest = nearest_spellings(name, known);
+  std::string mend;
+  for (const std::string& each : nearest) mend += (mend.empty() ? "the nearest: `" : ", `") + each + "`";
+  return {.code = code,
+          .sentence = "no " + argument + " is called " + quoted(name),
+          .mend = std::move(mend),
+          .place = {.name = argument, .text = name},
+          .nearest = std::move(nearest)};
+}
+
+}  // namespace wale

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostic.hpp"
+#include "wale/library.hpp"
+
+namespace wale {
+
+/// A diagnostic as a value for programs, with the place in its file.
+Error told(const Diagnostic& diagnostic, const SourceSet& sources);
+
+/// The warnings among `diagnostics`, in the order of their places.
+std::vector<Error> warnings_in(Diagnostics& diagnostics, const SourceSet& sources);
+
+/// The first error among `diagnostics`, with the others and the warnings.
+Error first_error(Diagnostics& diagnostics, const SourceSet& sources);
+
+/// The same about an argument instead of a place in a text.
+Error about(Error error, const Place& argument);
+
+/// "no percept is called `rougness`", with the nearest of `known`.
+Error unknown(Code code, const std::string& argument, const std::string& name, const std::vector<std::string>& known);
+
+}  // namespace wale

@@ -1,0 +1,53 @@
+#include "library/by_name/worker.hpp"
+
+#include <exception>
+#include <system_error>
+#include <utility>
+
+namespace wale {
+
+Worker::~Worker() {
+  std::deque<Piece> dropped;
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+    dropped.swap(waiting_);
+  }
+  news_.notify_all();
+  for (Piece& each : dropped)
+    each.result.set_value(Error{Code::wrong_moment, "the library was destroyed before this was begun", ""});
+  thread_.reset();
+}
+
+std::future<Result<Compiled>> Worker::begin(Work work) {
+  Piece piece{std::move(work), {}};
+  auto result = piece.result.get_future();
+  const std::lock_guard lock(mutex_);
+  try {
+    if (!thread_) thread_.emplace([this] { serve(); });
+  } catch (const std::system_error& refused) {
+    piece.result.set_value(Error{Code::short_of_resources, refused.what(), ""});
+    return result;
+  }
+  waiting_.push_back(std::move(piece));
+  news_.notify_one();
+  return result;
+}
+
+void Worker::serve() {
+  for (;;) {
+    std::unique_lock lock(mutex_);
+    news_.wait(lock, [&] { return ends_ || !waiting_.empty(); });
+    if (ends_) return;
+    Piece piece = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    try {
+      piece.result.set_value(piece.work());
+    } catch (...) {
+      piece.result.set_exception(std::current_exception());
+    }
+  }
+}
+
+}  // namespace wale

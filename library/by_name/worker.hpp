@@ -1,0 +1,44 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <optional>
+
+#include "compiler/command/deep_thread.hpp"
+#include "wale/library.hpp"
+
+namespace wale {
+
+/// A thread that does one piece of work after the other. It begins with the first piece.
+class Worker {
+ public:
+  using Work = std::function<Result<Compiled>()>;
+
+  Worker() = default;
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+  /// Waits for the piece that is under way. Those that were not begun end with `wrong_moment`.
+  ~Worker();
+
+  /// From any thread. What the work throws, its future throws. Error in the future: `short_of_resources` if the system
+  /// gives no thread.
+  std::future<Result<Compiled>> begin(Work work);
+
+ private:
+  struct Piece {
+    Work work;
+    std::promise<Result<Compiled>> result;
+  };
+  void serve();
+
+  std::mutex mutex_;
+  std::condition_variable news_;
+  std::deque<Piece> waiting_;
+  bool ends_ = false;
+  std::optional<command::DeepThread> thread_;  // the last member: it uses the others
+};
+
+}  // namespace wale

@@ -1,0 +1,133 @@
+#include "wale/devices.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "runtime/device/match_device.hpp"
+#include "runtime/device/open_device.hpp"
+#include "schema/owners_devices_file.hpp"
+#include "wale/simulated_pad.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::string_view pointer_driver_name = "pointer";
+
+Result<std::vector<TrustedDevice>> all_of(const TrustedDevices& trusted) {
+  if (trusted.all() != nullptr) return *trusted.all();
+  return trusted_devices();
+}
+
+bool has_owners_file() {
+  const std::string file = owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME"));
+  std::error_code ignored;
+  return !file.empty() && std::filesystem::exists(file, ignored);
+}
+
+DeviceInfo info_of(const PluggedIn& plugged, std::span<const TrustedDevice> trusted) {
+  DeviceInfo info{.spelling = plugged.port,
+                  .kind = plugged.driver->is_felt ? DeviceKind::real : DeviceKind::pointer,
+                  .name = plugged.name,
+                  .numbers = plugged.numbers,
+                  .can = plugged.can,
+                  .obstacle = plugged.obstacle,
+                  .held_by = plugged.held_by};
+  const MatchedDevice match = match_device(plugged, trusted);
+  if (match.device != nullptr) info.profile = match.device->profile(), info.is_generic = match.is_generic;
+  return info;
+}
+
+Result<> is_sound(const OpenOptions& options) {
+  if (!(options.max_force > 0))
+    return Error{Code::malformed_value, "expected a positive force", "", {.name = "max_force"}};
+  if (options.priority && (*options.priority < 1 || *options.priority > 99))
+    return Error{Code::malformed_value, "expected a priority from 1 to 99", "", {.name = "priority"}};
+  return {};
+}
+
+Result<std::unique_ptr<Device>> simulation(const DeviceProfile& profile, const OpenOptions& options) {
+  std::unique_ptr<Device> device;
+  if (profile.shaker) {
+    device = std::make_unique<SimulatedPad>(profile, options.motion);
+    return device;
+  }
+  if (!(profile.mass + options.hand.mass > 0))
+    return Error{Code::malformed_value,
+                 "`" + profile.name + "` has no mass of its own, so it cannot move without a hand",
+                 "give the hand a mass",
+                 {.name = "hand"}};
+  device = std::make_unique<SimulatedJoystick>(profile, options.hand, options.motion);
+  return device;
+}
+
+/// The profile to simulate where the choice does not say one.
+Result<DeviceProfile> profile_named(const std::string& name, std::span<const TrustedDevice> trusted) {
+  for (const TrustedDevice& each : trusted)
+    if (each.profile().name == name) return each.profile();
+  return Error{Code::unknown_device, "there is no device `" + name + "`", "", {.name = "built_for", .text = name}};
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> devices(const TrustedDevices& trusted) {
+  std::vector<DeviceInfo> all;
+  const auto known = all_of(trusted);
+  if (!known) return all;
+  const Connections connections = Connections::open();
+  for (const PluggedIn& each : plugged_in(connections, pointer_driver_name)) all.push_back(info_of(each, *known));
+  std::set<std::string> named;  // of two declarations of one name the first counts
+  for (const TrustedDevice& each : *known)
+    if (named.insert(each.profile().name).second)
+      all.push_back({.spelling = "simulated:" + each.profile().name,
+                     .kind = DeviceKind::simulated,
+                     .name = each.profile().name,
+                     .profile = each.profile()});
+  return all;
+}
+
+Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const OpenOptions& options) {
+  if (auto sound = is_sound(options); !sound) return std::move(sound.error());
+  const auto trusted = all_of(options.trusted.value_or(TrustedDevices()));
+  if (!trusted) return trusted.error();
+  const DeviceRequest request{
+      .spelling = std::string(spelling), .built_for = options.built_for, .transport = options.transport};
+  const bool is_simulated = spelling.starts_with("simulated");
+  std::optional<Connections> connections;
+  std::vector<PluggedIn> plugged;
+  if (!is_simulated) {
+    connections = Connections::open();
+    plugged = plugged_in(*connections, spelling);
+  }
+  auto choice = choose_device(request, {}, *trusted, plugged);
+  if (!choice) {
+    Error error = std::move(choice.error());
+    if (!error.place.name.empty()) error.place.name = error.place.name == "--transport" ? "transport" : "spelling";
+    if (error.code == Code::absent_device && !connections->usb)
+      error.sentence += ", and " + connections->usb.error().sentence;
+    return error;
+  }
+  if (!choice->plugged) {
+    const std::string name = options.built_for.empty() ? default_device : options.built_for;
+    const Result<DeviceProfile> profile =
+        choice->declared ? Result<DeviceProfile>(choice->declared->profile) : profile_named(name, *trusted);
+    if (!profile) return profile.error();
+    return simulation(*profile, options);
+  }
+  if (choice->plugged->driver->is_felt && !options.trusted && has_owners_file())
+    return Error{Code::untrusted_device,
+                 "the owner of this account declares devices, which the runtime alone cannot read",
+                 "open it by `Library::open_device`, or hand over `TrustedDevices{}` to disregard them",
+                 {.name = "trusted"}};
+  auto opened = open_device(*connections, *choice,
+                            DeviceOptions{.priority = options.priority.value_or(0),
+                                          .ask = options.ask,
+                                          .transport = options.transport,
+                                          .most_newton = options.max_force,
+                                          .keeper = {.program = options.keeper}});
+  if (!opened) return std::move(opened.error());
+  return std::unique_ptr<Device>(*std::move(opened));
+}
+
+}  // namespace wale

@@ -1,0 +1,84 @@
+// Listing and opening devices by the public header alone. Real ones are in tests/usb_mock.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "wale/devices.hpp"
+
+namespace wale::opening_devices_test {
+namespace {
+
+Code code_of(const Result<std::unique_ptr<Device>>& opened) {
+  EXPECT_FALSE(opened);
+  return opened ? Code{} : opened.error().code;
+}
+
+constexpr HandModel hand{.mass = 0.1, .damping = 3, .stiffness = 300};
+
+TEST(OpeningDevices, EachListedSimulationOpens) {
+  const std::vector<DeviceInfo> all = devices();
+  std::set<std::string> spellings;
+  long simulated = 0, pointers = 0;
+  for (const DeviceInfo& each : all) {
+    EXPECT_TRUE(spellings.insert(each.spelling).second) << each.spelling << " means two devices";
+    pointers += each.kind == DeviceKind::pointer;
+    if (each.kind != DeviceKind::simulated) continue;
+    ++simulated;
+    const auto opened = open_device(each.spelling, {.hand = hand});
+    ASSERT_TRUE(opened) << each.spelling << ": " << in_words(opened.error());
+    EXPECT_EQ((*opened)->profile().name, each.name);
+    ASSERT_TRUE(each.profile);
+    EXPECT_EQ((*opened)->profile().force_newton, each.profile->force_newton);
+  }
+  EXPECT_GE(simulated, 5);
+  EXPECT_EQ(pointers, 1);
+  EXPECT_TRUE(spellings.contains("simulated:sandpaper"));
+}
+
+TEST(OpeningDevices, TheSimulatedOneIsThatOfTheProgram) {
+  const auto usual = open_device("simulated", {.hand = hand});
+  ASSERT_TRUE(usual);
+  EXPECT_EQ((*usual)->profile().name, default_device);
+  const auto falcon = open_device("simulated", {.built_for = "falcon", .hand = hand});
+  ASSERT_TRUE(falcon);
+  EXPECT_EQ((*falcon)->profile().name, "falcon");
+}
+
+TEST(OpeningDevices, TheSimulatedHandMovesAsItShould) {
+  // A stiff hand on a slow circle of 10 mm is always nearly 10 mm from the middle.
+  const auto opened = open_device("simulated", {.hand = {.mass = 0.1, .damping = 40, .stiffness = 4000},
+                                                .motion = Circular{.radius = 0.01, .frequency = 0.2}});
+  ASSERT_TRUE(opened);
+  Device& device = **opened;
+  for (int i = 0; i < 1000; ++i) {
+    device.elapse(1);
+    const Reading reading = device.sample();
+    EXPECT_EQ(reading.contact, Contact::good);
+    EXPECT_NEAR(std::hypot(reading.counts.x, reading.counts.y) * device.profile().position_step(), 0.01, 0.001);
+    device.command({0, 0});
+  }
+}
+
+TEST(OpeningDevices, RefusesWhatMakesNoSense) {
+  EXPECT_EQ(code_of(open_device("")), Code::unknown_device);
+  EXPECT_EQ(code_of(open_device("\xff")), Code::unknown_device);
+  EXPECT_EQ(code_of(open_device("falcom")), Code::unknown_device);
+  EXPECT_EQ(code_of(open_device("simulated:")), Code::unknown_device);
+  EXPECT_EQ(code_of(open_device("simulated:falcom")), Code::unknown_device);
+  EXPECT_EQ(code_of(open_device("simulated", {.built_for = "falcom", .hand = hand})), Code::unknown_device);
+  EXPECT_EQ(code_of(open_device("simulated:falcon", {.built_for = "sandpaper", .hand = hand})), Code::other_device);
+  EXPECT_EQ(code_of(open_device("99-9.9")), Code::absent_device);
+  EXPECT_EQ(code_of(open_device("0001:0001")), Code::absent_device);
+  for (const double force : {0.0, -1.0, std::nan("")})
+    EXPECT_EQ(code_of(open_device("simulated", {.max_force = force, .hand = hand})), Code::malformed_value);
+  for (const int priority : {0, -1, 100})
+    EXPECT_EQ(code_of(open_device("simulated", {.priority = priority, .hand = hand})), Code::malformed_value);
+  EXPECT_EQ(code_of(open_device("simulated", {.hand = {.mass = -10}})), Code::malformed_value);
+  EXPECT_EQ(open_device("falcom").error().place.name, "spelling");
+}
+
+}  // namespace
+}  // namespace wale::opening_devices_test
