@@ -44,6 +44,7 @@ const std::map<std::string, Floor>& floors() {
       {"hill", {8, 152}},
       {"grains", {8, 152}},
       {"chirp", {8, 152}},
+      {"wavering", {8, 168}},
       {"spring", {8, 190}},
       {"saturated spring", {8, 176}},
       {"groove", {8, 192}},
