@@ -128,7 +128,7 @@ std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceRead
     // A force that is switched or swells while it is felt reads as its author meant; a constant factor has its own
     // warning.
     const auto changes = [&](TermId force) { return material.terms.dependence(force).changing(); };
-    const bool as_meant = !record.basis.summand && (material.scales_a_texture || !material.force ||
+    const bool as_meant = !record.basis.summand && (!material.scaled_textures.empty() || !material.force ||
                                                     changes((*material.force)[0]) || changes((*material.force)[1]));
     // That a program pushes nowhere has a warning of its own, with this cause.
     const bool never_pushes = std::ranges::any_of(diagnostics.all(), [&](const Diagnostic& each) {
