@@ -140,7 +140,8 @@ void describe_bounds(Description& description, const Program& program) {
 /// What is called the largest force is the largest of all searches: with these parameters on this patch, and of any.
 void settle_largest(Description& description, const Bank& bank, const ForceReading& read) {
   float& most = description.force.max_newton;
-  most = std::max({most, static_cast<float>(description.grade.largest_newton), static_cast<float>(read.other.rehearsed)});
+  most =
+      std::max({most, static_cast<float>(description.grade.largest_newton), static_cast<float>(read.other.rehearsed)});
   LargestForce& found = description.bound.found;
   const auto first = bank.registers().begin() + bank.program().description().first_parameter();
   const glm::vec2 half = 0.5f * glm::vec2(bank.size().width, bank.size().height), at = glm::abs(found.hand.position);
@@ -189,6 +190,7 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
   description.fates = fates_at(bank, found, declarations);
   if (texture == Texture::left_out) return;
   tell_settings(description.percepts, bank, found, declarations);
+  tell_ends(description.percepts, bank, found, declarations);
   if (description.limit_matters) {
     const auto speed = static_cast<float>(normal_hand(declarations).speed());
     for (std::size_t i = 0; i < program.parameters.size(); ++i) description.cuts.push_back(cut_ranges(bank, i, speed));

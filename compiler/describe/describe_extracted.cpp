@@ -89,6 +89,19 @@ std::string counting_as(const Relief& relief, const Declarations& declarations) 
   return found;
 }
 
+/// The period of a relief; that of its strongest part if no part has it, as of 4 mm and 5 mm together.
+double strongest_period(const Relief& relief) {
+  constexpr double alike = 0.02, plainly = 1.1;
+  const Relief::Part* strongest = nullptr;
+  for (const Relief::Part& each : relief.parts) {
+    if (std::abs(each.period - relief.period) <= alike * relief.period) return relief.period;
+    // Of two that are as strong, the finer is what makes it a texture.
+    const bool finer = strongest && each.period < strongest->period;
+    if (!strongest || each.share > (finer ? 1 / plainly : plainly) * strongest->share) strongest = &each;
+  }
+  return strongest && relief.regular() ? strongest->period : relief.period;
+}
+
 /// `count` (m) is the step of the device's encoder.
 DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double largest_newton, const PatchSize& size,
                             double count, const Declarations& declarations) {
@@ -101,7 +114,8 @@ DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double 
   // their confidence for the kinds that the rule names; of other surfaces the rules say nothing.
   const bool has_texture = texture.force.amplitude > 0 && texture.force.period > 0;
   Sizes sizes;
-  if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", as_well_as_read(texture.force.period)}};
+  texture.named_by = strongest_period(texture.force);
+  if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", as_well_as_read(texture.named_by)}};
   const auto found_class = [&](Classified classified) {
     return class_of(classified, sizes, texture.kind, declarations);
   };

@@ -119,7 +119,7 @@ nlohmann::ordered_json to_json(const OutsideRange& outside) {
           {"high_si", end(outside.high)}, {"assumed", outside.assumed},        {"words", in_words(outside)}};
 }
 
-nlohmann::ordered_json to_json(const DescribedPercept& percept) {
+nlohmann::ordered_json to_json(const DescribedPercept& percept, const std::vector<Parameter>& parameters) {
   using Json = nlohmann::ordered_json;
   Json entry;
   entry["asked"] = percept.asked ? Json(figure(*percept.asked)) : Json(nullptr);
@@ -156,6 +156,13 @@ nlohmann::ordered_json to_json(const DescribedPercept& percept) {
     Json& settings = entry["settings"] = Json::array();
     for (const DescribedPercept::Setting& each : percept.settings)
       settings.push_back({{"asked", figure(each.asked)}, {"level", figure(each.reads)}});
+  }
+  if (!percept.ends.empty()) {
+    Json& ends = entry["at_ends"] = Json::array();
+    for (const DescribedPercept::End& each : percept.ends)
+      ends.push_back({{"parameter", parameters[each.parameter].name},
+                      {"value_si", figure(each.value)},
+                      {"level", figure(each.reads)}});
   }
   entry["saturated"] = percept.saturated;
   entry["outside_validity"] = percept.outside_validity();
@@ -264,7 +271,7 @@ nlohmann::ordered_json to_json(const Description& description) {
   }
   json["documentation"] = description.layers.documentation;
   auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
-  for (const auto& percept : description.percepts) percepts[percept.name] = to_json(percept);
+  for (const auto& percept : description.percepts) percepts[percept.name] = to_json(percept, description.parameters);
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
   if (!description.no_texture.empty()) json["no_texture"] = description.no_texture;
   if (description.texture) json["texture"] = to_json(*description.texture);

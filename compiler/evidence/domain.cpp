@@ -23,7 +23,7 @@ struct ProfileName {
   const char* many;
 };
 constexpr std::array<ProfileName, 4> profile_names = {{{SurfaceProfile::grating, "a grating", "gratings"},
-                                                       {SurfaceProfile::noise, "a noise", "noises"},
+                                                       {SurfaceProfile::noise, "an irregular relief", "noises"},
                                                        {SurfaceProfile::photograph, "a photograph", "photographs"},
                                                        {SurfaceProfile::bump, "a bump", "bumps"}}};
 

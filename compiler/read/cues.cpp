@@ -65,7 +65,7 @@ std::optional<double> cue_of(CueKind kind, const ForceReading& found) {
 }  // namespace
 
 PeriodBand band_of(const Percept& percept, const Declarations& declarations) {
-  constexpr double border = 1 + reading;
+  constexpr double border = 1 + reading_of_period;
   PeriodBand band{percept.period.low / border, percept.period.high * border};
   declarations.percepts.each([&](const std::string&, const Percept& other) {
     if (other.extractor == percept.extractor && other.period.high == percept.period.low)
@@ -130,8 +130,13 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::friction_axis: return CueKind::friction;
     case CueKind::mass_across:
     case CueKind::mass_axis: return CueKind::mass;
-    case CueKind::vibration_frequency: return CueKind::vibration;
-    case CueKind::sway_frequency: return CueKind::sway;
+    case CueKind::vibration_frequency:
+    case CueKind::vibration_axis: return CueKind::vibration;
+    case CueKind::sway_frequency:
+    case CueKind::sway_axis: return CueKind::sway;
+    case CueKind::outward_push: return CueKind::amplitude;
+    case CueKind::other_push_x:
+    case CueKind::other_push_y: return CueKind::other_force;
     default: return std::nullopt;
   }
 }

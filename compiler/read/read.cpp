@@ -12,6 +12,7 @@
 #include "compiler/read/breakaway.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/room.hpp"
+#include "compiler/read/still_forces.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "runtime/machine/parallel.hpp"
 
@@ -112,6 +113,35 @@ void tell_trend(const Bank& bank, ForceReading& found, glm::dvec2 at_first) {
     found.stiffness = found.stiffness_across = 0, found.stiffness_axis = {0, 0};
 }
 
+/// Whether the middle of single features pushes the hand out or draws it in.
+double outward_push(const Bank& bank, const ForceReading& found) {
+  const Relief& relief = found.relief();
+  if (relief.amplitude < least_force || relief.period > 0) return 0;
+  constexpr int side = 48;
+  constexpr double plainly = 0.5;
+  const PatchSize patch = bank.size();
+  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
+  std::vector<glm::dvec2> places;
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column)
+      places.push_back(half * ((glm::dvec2(column, row) + 0.5) / (0.5 * side) - 1.0));
+  std::vector<glm::dvec2> forces = forces_at(bank, places);
+  glm::dvec2 middle{0};
+  double power = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    forces[i] -= found.still.trend.at(places[i]);
+    middle += glm::dot(forces[i], forces[i]) * places[i], power += glm::dot(forces[i], forces[i]);
+  }
+  if (!(power > 0)) return 0;
+  middle /= power;
+  double outward = 0, all = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double along = glm::dot(forces[i], places[i] - middle);
+    outward += along, all += std::abs(along);
+  }
+  return std::abs(outward) < plainly * all ? 0 : std::copysign(relief.amplitude, outward);
+}
+
 /// What resists a moving hand in a part of the patch only is no law of motion, which strokes through the middle show.
 void tell_force_on_moving(const Bank& bank, ForceReading& found) {
   const OpposingForce& opposing = found.opposing;
@@ -200,6 +230,7 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   tell_obstacles(bank, found);
   if (found.wall) found.wall_push = deepest(bank, *found.wall).newton;
   tell_trend(bank, found, at_first);
+  found.outward = outward_push(bank, found);
   // What damps the hand in a wall is the wall's.
   if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping)
     found.opposing = opposing_force(bank, &*found.wall);

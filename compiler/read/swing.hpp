@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "wale/program.hpp"
@@ -10,6 +11,8 @@ namespace wale {
 struct Swing {
   double amplitude = 0;  ///< N: the 99th percentile of its size, as the amplitude of a relief is defined
   double frequency = 0;  ///< Hz: of its strongest component; 0 if the force does not swing
+  /// rad in [0, pi): along which it swings; nothing if it swings about as much across
+  std::optional<double> axis{};
 };
 
 /// Below this frequency (Hz) a swing is a sway, which the hand follows; above it is a vibration.
