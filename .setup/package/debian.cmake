@@ -3,7 +3,6 @@
 set(CPACK_PACKAGE_NAME wale)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "The Wale developers <wale@localhost>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "language for how things feel, and its runtime")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -13,8 +12,6 @@ set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE "")
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_COMPONENTS_ALL)
 
@@ -43,26 +40,38 @@ set(this "(= ${PROJECT_VERSION})")
 configure_file(changelog changelog COPYONLY)
 execute_process(COMMAND gzip -9nkf changelog WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR} COMMAND_ERROR_IS_FATAL ANY)
 
+# What who links a library then depends on, and the trigger by which the system finds it. (CPack would call ldconfig.)
+function(write_library_control component name package)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/control/${component})
+  file(WRITE ${folder}/shlibs "${name} ${wale_abi} ${package} (>= ${PROJECT_VERSION})\n")
+  file(WRITE ${folder}/triggers "activate-noawait ldconfig\n")
+endfunction()
+write_library_control(runtime libwale-runtime libwale-runtime1)
+write_library_control(compiler libwale libwale1)
+set(control ${CMAKE_CURRENT_BINARY_DIR}/control)
+
 # A package of its own, and not a part of the library's: packages of two versions of a library can be installed together.
 debian_package(keeper wale-keeper misc "lets a force-feedback joystick go when its program cannot"
-  "This package has the program wale-keeper, which Wale's runtime starts for each joystick,
-and the udev rule by which a user who is logged in may use the declared joysticks.")
+  "This package has the program wale-keeper, which Wale's runtime starts for each
+joystick, and the udev rule by which a user who is logged in may use the
+declared joysticks.")
 debian_package(runtime libwale-runtime1 libs "runtime of the haptics language Wale"
-  "This package has the library that runs patch programs: stage, guards, devices, records."
+  "This package has the library that runs patch programs: stage, guards, devices
+and recordings."
   DEPENDS "wale-keeper (>= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${control}/runtime/shlibs ${control}/runtime/triggers)
 set(all_development "libwale-runtime1 ${this}, libglm-dev")
-set(packaged_libraries "headers, CMake package and static libraries")
 if(WALE_COMPILER)
   debian_package(compiler libwale1 libs "materials of the haptics language Wale by name"
-    "This package has the library that finds and compiles materials and levels of percepts.
-Materials with pictures also need the decoder of the package wale."
+    "This package has the library that finds and compiles materials and levels of
+percepts. Materials with pictures also need the decoder of the package wale."
     DEPENDS "libwale-runtime1 ${this}" RECOMMENDS wale)
+  set(CPACK_DEBIAN_COMPILER_PACKAGE_CONTROL_EXTRA ${control}/compiler/shlibs ${control}/compiler/triggers)
   string(APPEND all_development ", libwale1 ${this}")
   debian_package(command wale utils "language for how things feel"
-    "This package has the command line, which checks, describes, compares, draws and feels
-materials, and the shipped library of materials."
+    "This package has the command line, which checks, describes, compares, draws
+and feels materials, and the shipped library of materials."
     DEPENDS "wale-keeper (>= ${PROJECT_VERSION})" SUGGESTS libwale-dev)
-  set(CPACK_DEBIAN_COMMAND_PACKAGE_GENERATE_SHLIBS OFF)
   if(EXISTS ${PROJECT_SOURCE_DIR}/library/python/wale)
     debian_package(python python3-wale python "haptics language Wale from Python"
       "This package has the Python module wale."
@@ -71,8 +80,8 @@ materials, and the shipped library of materials."
   endif()
 endif()
 debian_package(development libwale-dev libdevel "headers and libraries of the haptics language Wale"
-  "This package has what programs are built with: headers, static libraries, the CMake package
-Wale, and wale.pc and wale-runtime.pc for pkg-config."
+  "This package has what programs are built with: headers, static libraries, the
+CMake package Wale, and wale.pc and wale-runtime.pc for pkg-config."
   DEPENDS "${all_development}" SUGGESTS "libusb-1.0-0-dev, libfmt-dev, libkissfft-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 # The libraries refer to each other before they are installed.
