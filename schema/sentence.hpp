@@ -1,41 +1,54 @@
 #pragma once
 
-#include <sstream>
+#include <concepts>
+#include <initializer_list>
 #include <string>
-#include <type_traits>
+#include <string_view>
 
-#include "schema/as_people_write.hpp"
 #include "wale/result.hpp"
 
 namespace wale {
 
-/// A part of a sentence: quantities as people write them; counts of bytes, registers or instructions with their digits
-/// together, since a programmer searches for them; anything else as it is.
-template <typename Part>
-decltype(auto) in_sentence(const Part& part) {
-  if constexpr (std::is_arithmetic_v<Part> && !std::is_same_v<Part, bool> && !std::is_same_v<Part, char>) {
-    std::ostringstream number;
-    number << part;
-    return as_people_write(number.str(), static_cast<double>(part),
-                           std::is_integral_v<Part> ? Digits::together : Digits::grouped);
-  } else {
-    return (part);
-  }
-}
+/// A part of a sentence: text, or a number. Quantities are shown as people write them; counts of bytes, registers or
+/// instructions with their digits together, since a programmer searches for them. It refers to its text.
+class SentencePart {
+ public:
+  SentencePart(std::string_view text) : text_(text) {}
+  SentencePart(const std::string& text) : text_(text) {}
+  SentencePart(const char* text) : text_(text) {}
+  SentencePart(const char& letter) : text_(&letter, 1) {}
+  SentencePart(std::floating_point auto number) : kind_(Kind::quantity), quantity_(static_cast<double>(number)) {}
+  SentencePart(std::signed_integral auto number) : kind_(Kind::integer), integer_(number) {}
+  SentencePart(std::unsigned_integral auto number) : kind_(Kind::count), count_(number) {}
 
-/// Joins all `parts`, each as a stream prints it.
+  void append_to(std::string& sentence) const;
+
+ private:
+  enum class Kind { text, quantity, integer, count };
+  Kind kind_ = Kind::text;
+  union {
+    std::string_view text_;
+    double quantity_;
+    long long integer_;
+    unsigned long long count_;
+  };
+};
+
+/// Joins the parts.
+std::string sentence_of(std::initializer_list<SentencePart> parts);
+
 template <typename... Parts>
 std::string sentence(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << in_sentence(parts));
-  return text.str();
+  return sentence_of({SentencePart(parts)...});
 }
 
-/// Ends reading or verifying with an error whose sentence is made of `parts`. It is thrown and caught within one public
-/// function, which returns it: callers never see the exception.
+/// Ends reading or verifying with an error whose sentence is made of the parts. It is thrown and caught within one
+/// public function, which returns it: callers never see the exception.
+[[noreturn]] void fail_with(Code code, std::initializer_list<SentencePart> parts);
+
 template <typename... Parts>
 [[noreturn]] void fail(Code code, const Parts&... parts) {
-  throw Error{.code = code, .sentence = sentence(parts...)};
+  fail_with(code, {SentencePart(parts)...});
 }
 
 /// As `fail` with `damaged_file`.

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "compiler/command/manual.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 
@@ -48,9 +49,10 @@ std::string mismatch_text(const CLI::App& verb, const std::string& last_word) {
 
 std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string& first, const std::string& second) {
   std::vector<std::string> verbs;
-  for (const CLI::App* known : app.get_subcommands({})) verbs.push_back(known->get_name());
-  if (first == "-h" || first == "--help" || first == "--version" || std::ranges::find(verbs, first) != verbs.end())
-    return std::nullopt;
+  for (const CLI::App* known : listed_verbs(app)) verbs.push_back(known->get_name());
+  for (const CLI::App* known : app.get_subcommands({}))  // also one that no help lists
+    if (known->get_name() == first) return std::nullopt;
+  if (first == "-h" || first == "--help" || first == "--version") return std::nullopt;
   if (first.starts_with('-')) return unknown_option(app, first);
   if (first == "help") {
     const bool is_verb = !second.empty() && std::ranges::find(verbs, second) != verbs.end();

@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "compiler/image/companion.hpp"
 #include "compiler/image/decoder/sandbox.hpp"
+#include "schema/companion.hpp"
 
 namespace wale {
 namespace {
@@ -221,7 +221,7 @@ Error reason(const Received& received, const std::optional<int>& status) {
 
 }  // namespace
 
-std::vector<std::string> decoder_programs() { return companion_paths("wale-decoder", WALE_DECODER); }
+std::vector<std::string> decoder_programs() { return companion_paths("wale-decoder"); }
 
 Result<HeightImage> decode_picture(std::span<const std::byte> bytes, const DecoderArguments& arguments,
                                    const std::vector<std::string>& programs) {

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "compiler/image/companion.hpp"
+#include "schema/companion.hpp"
 
 namespace wale {
 namespace {
 
 Result<const ImageLibrary*> opened_image_library() {
   // A name without a folder is found where the system looks for libraries.
-  std::vector<std::string> paths = companion_paths("libwale_images.so", WALE_IMAGE_LIBRARY);
+  std::vector<std::string> paths = companion_paths("libwale_images.so");
   paths.push_back("libwale_images.so");
   for (const std::string& path : paths) {
     if (void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {

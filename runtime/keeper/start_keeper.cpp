@@ -11,16 +11,12 @@
 
 #include <array>
 #include <cerrno>
-#include <filesystem>
 #include <system_error>
 #include <vector>
 
 namespace wale {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr char keeper_name[] = "wale-keeper";
 constexpr char what_it_is_for[] = "nothing may push a joystick without the program that lets it go";
 
 Error no_keeper(std::string sentence, std::string place) {
@@ -68,19 +64,15 @@ class DeafAttributes {
 
 }  // namespace
 
-Result<std::string> find_keeper(const std::string& named) {
+Result<std::string> find_keeper(const std::string& named, const std::vector<std::string>& places) {
   if (!named.empty()) {
     if (access(named.c_str(), X_OK) == 0) return named;
     return no_keeper("the keeper is no program that can be run", named);
   }
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  if (error) return no_keeper("the keeper cannot be looked for: " + error.message(), "/proc/self/exe");
-  const fs::path folder = self.parent_path();
-  for (const fs::path& place : {folder / keeper_name, folder.parent_path() / "libexec" / "wale" / keeper_name}) {
-    if (access(place.c_str(), X_OK) == 0) return place.string();
-  }
-  return no_keeper(std::string("there is no ") + keeper_name + " beside " + self.filename().string(), folder.string());
+  for (const std::string& place : places)
+    if (access(place.c_str(), X_OK) == 0) return place;
+  return no_keeper("there is no wale-keeper where this program or its library would have it",
+                   places.empty() ? "/proc/self/exe" : places.front());
 }
 
 // A child of this process would raise SIGCHLD when it ends, and an application's handler or `waitpid(-1)` would meet a

@@ -290,9 +290,13 @@ TEST(FindingAKeeper, SaysWhereItWasLookedFor) {
   ASSERT_FALSE(named);
   EXPECT_EQ(named.error().code, Code::no_keeper);
   EXPECT_EQ(named.error().sentence, "the keeper is no program that can be run");
-  const auto beside = find_keeper("");
-  ASSERT_FALSE(beside) << "this test has none beside it";
-  EXPECT_EQ(beside.error().sentence, "there is no wale-keeper beside test_keeper");
+  const auto nowhere = find_keeper("", {"/nowhere/wale-keeper", "/elsewhere/wale-keeper"});
+  ASSERT_FALSE(nowhere);
+  EXPECT_EQ(nowhere.error().code, Code::no_keeper);
+  EXPECT_EQ(nowhere.error().place.name, "/nowhere/wale-keeper");
+  const auto ours = find_keeper("");
+  ASSERT_TRUE(ours) << "../libexec/wale from a program, here as where Wale is installed";
+  EXPECT_EQ(*ours, WALE_KEEPER);
   const auto no_program = Keeper::start({}, -1, {.program = "/dev/null"});
   ASSERT_FALSE(no_program);
   EXPECT_EQ(no_program.error().code, Code::no_keeper);

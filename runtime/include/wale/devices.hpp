@@ -70,8 +70,8 @@ struct OpenOptions {
   std::optional<int> priority = {};
   /// Asks the person to do something before a real device can be used, as to move it for homing. From any thread.
   std::function<void(const std::string&)> ask = {};
-  /// The program `wale-keeper`, which lets a real device go when this process cannot. Empty: it is found beside the
-  /// executable, or in ../libexec/wale from there.
+  /// The program `wale-keeper`, which lets a real device go when this process cannot. Empty: it is found where Wale is
+  /// installed (libexec/wale), seen from this library or from the executable, or beside the executable.
   std::string keeper = {};
   HandModel hand = {};  ///< that holds a simulated device; of mass 0 nothing holds it
   Motion motion = {};   ///< of the person with that hand

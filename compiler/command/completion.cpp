@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "compiler/command/manual.hpp"
+
+namespace wale::command {
+namespace {
+
+/// What a word of the command line may be, and so what is proposed for it.
+enum class Sought { nothing, file, material, folder, percept, device, code };
+
+Sought sought_by(const CLI::App& verb, const CLI::Option& option) {
+  constexpr std::array<std::string_view, 3> of_files_alone = {"check", "format", "replay"};
+  if (option.get_positional()) {
+    const std::string name = option.get_name(true);
+    if (name == "PERCEPT") return Sought::percept;
+    if (name == "CODE") return Sought::code;
+    if (name != "FILE") return Sought::nothing;
+    return std::ranges::find(of_files_alone, verb.get_name()) == of_files_alone.end() ? Sought::material : Sought::file;
+  }
+  const std::string type = option.get_type_name();
+  if (option.check_lname("against")) return Sought::material;
+  if (option.check_lname("device") || option.check_lname("built-for")) return Sought::device;
+  return type == "FILE" ? Sought::file : type == "DIR" ? Sought::folder : Sought::nothing;
+}
+
+std::vector<std::string> options_of_verb(const CLI::App& verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+Sought sought_by_arguments(const CLI::App& verb) {
+  for (const CLI::Option* option : verb.get_options())
+    if (option->get_positional()) return sought_by(verb, *option);
+  return Sought::nothing;
+}
+
+const char* in_bash(Sought sought) {
+  switch (sought) {
+    case Sought::file: return "_wale_files";
+    case Sought::material: return "_wale_files; _wale_words \"$(_wale_materials)\"";
+    case Sought::folder: return "compopt -o filenames 2>/dev/null; COMPREPLY=($(compgen -d -- \"$cur\"))";
+    case Sought::percept: return "_wale_words \"$percepts\"";
+    case Sought::device: return "_wale_words \"$devices\"";
+    case Sought::code: return "_wale_words \"$codes\"";
+    case Sought::nothing: return ":";
+  }
+  return ":";
+}
+
+const char* in_zsh(Sought sought) {
+  switch (sought) {
+    case Sought::file: return "_files";
+    case Sought::material: return "_wale_material";
+    case Sought::folder: return "_files -/";
+    case Sought::percept: return "($wale_percepts)";
+    case Sought::device: return "($wale_devices)";
+    case Sought::code: return "($wale_codes)";
+    case Sought::nothing: return " ";
+  }
+  return " ";
+}
+
+/// A description within '…' and […] of a zsh specification.
+std::string zsh_text(std::string_view text) {
+  std::string out;
+  for (const char c : text.substr(0, text.find(" ("))) {
+    if (c == '\'')
+      out += "'\\''";
+    else if (c == '[' || c == ']' || c == ':' || c == '\\')
+      out += '\\', out += c;
+    else
+      out += c;
+  }
+  return out;
+}
+
+/// `'(-o --output)'{-o,--output}'[text]:FILE:_files'`
+std::string zsh_option(const CLI::App& verb, const CLI::Option& option) {
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  const bool again = option.get_items_expected_max() > 1;
+  const std::string value =
+      option.get_items_expected_max() > 0
+          ? fmt::format(":{}:{}", zsh_text(option.get_type_name()), in_zsh(sought_by(verb, option)))
+          : "";
+  const std::string spelt = names.size() == 1 ? names.front() : fmt::format("'{{{}}}'", fmt::join(names, ","));
+  const std::string excluded = again ? "*" : fmt::format("({})", fmt::join(names, " "));
+  return fmt::format("        '{}{}[{}]{}' \\\n", excluded, spelt, zsh_text(option.get_description()), value);
+}
+
+}  // namespace
+
+std::string bash_completion(const CLI::App& all, const CompletedNames& names) {
+  std::vector<std::string> verbs;
+  std::string cases;
+  for (const CLI::App* verb : listed_verbs(all)) {
+    verbs.push_back(verb->get_name());
+    std::string values;
+    for (const CLI::Option* option : verb->get_options()) {
+      if (option->get_positional() || option->get_items_expected_max() == 0) continue;
+      std::vector<std::string> spelt;
+      for (const std::string& name : option->get_snames()) spelt.push_back("-" + name);
+      for (const std::string& name : option->get_lnames()) spelt.push_back("--" + name);
+      values += fmt::format("        {}) {}; return ;;\n", fmt::join(spelt, "|"), in_bash(sought_by(*verb, *option)));
+    }
+    cases += fmt::format(
+        "    {})\n      options=\"{}\"\n      case $prev in\n{}      esac\n      [[ $cur == -* ]] || {{ {}; return; }} "
+        ";;\n",
+        verb->get_name(), fmt::join(options_of_verb(*verb), " "), values, in_bash(sought_by_arguments(*verb)));
+  }
+  std::string text = R"(# bash completion of wale. Generated by the program itself.
+_wale_words() { COMPREPLY+=($(compgen -W "$1" -- "$cur")); }
+_wale_files() { compopt -o filenames 2>/dev/null; COMPREPLY+=($(compgen -f -- "$cur")); }
+_wale_materials() { "${COMP_WORDS[0]}" find 2>/dev/null | cut -d ' ' -f 1; }
+_wale() {
+  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} options=
+  local IFS=$' \t\n'
+)";
+  text += fmt::format("  local percepts=\"{}\"\n  local devices=\"{}\"\n  local codes=\"{}\"\n",
+                      fmt::join(names.percepts, " "), fmt::join(names.devices, " "), fmt::join(names.codes, " "));
+  text += fmt::format(
+      "  COMPREPLY=()\n  if ((COMP_CWORD == 1)); then\n    _wale_words \"{} --help --version\"\n    return\n  fi\n",
+      fmt::join(verbs, " "));
+  return text + "  case ${COMP_WORDS[1]} in\n" + cases +
+         "  esac\n  _wale_words \"$options\"\n}\ncomplete -F _wale wale\n";
+}
+
+std::string zsh_completion(const CLI::App& all, const CompletedNames& names) {
+  std::string verbs, cases;
+  for (const CLI::App* verb : listed_verbs(all)) {
+    verbs += fmt::format("    '{}:{}'\n", verb->get_name(), zsh_text(verb->get_description()));
+    cases += fmt::format("    {})\n      _arguments -s \\\n", verb->get_name());
+    for (const CLI::Option* option : verb->get_options())
+      if (!option->get_positional()) cases += zsh_option(*verb, *option);
+    const Sought sought = sought_by_arguments(*verb);
+    cases += sought == Sought::nothing ? "        ;;\n" : fmt::format("        '*:name:{}' ;;\n", in_zsh(sought));
+  }
+  std::string text = "#compdef wale\n# zsh completion of wale. Generated by the program itself.\n";
+  text += fmt::format("local wale_percepts=\"{}\"\nlocal wale_devices=\"{}\"\nlocal wale_codes=\"{}\"\n",
+                      fmt::join(names.percepts, " "), fmt::join(names.devices, " "), fmt::join(names.codes, " "));
+  return text + R"zsh(
+(( $+functions[_wale_material] )) || _wale_material() {
+  local -a materials
+  materials=(${(f)"$(wale find 2>/dev/null | cut -d ' ' -f 1)"})
+  _alternative 'materials:material:compadd -a materials' 'files:file:_files'
+}
+_wale() {
+  local -a verbs
+  verbs=(
+)zsh" + verbs +
+         R"zsh(  )
+  if (( CURRENT == 2 )); then
+    _describe verb verbs
+    return
+  fi
+  local verb=$words[2]
+  shift words
+  (( CURRENT-- ))
+  case $verb in
+)zsh" + cases +
+         "  esac\n}\n_wale \"$@\"\n";
+}
+
+}  // namespace wale::command
