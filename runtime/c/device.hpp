@@ -1,0 +1,31 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "runtime/c/call.hpp"
+#include "wale/device.h"
+#include "wale/devices.hpp"
+
+namespace wale::c {
+
+/// An opened device, which its handle and its stage share.
+struct SharedDevice {
+  std::unique_ptr<Device> device;
+  std::atomic<bool> has_stage = false;
+};
+
+/// What `options` asks for. Errors: `malformed_value`, and those of texts.
+Result<OpenOptions> read_options(const WaleDeviceOptions* options);
+
+/// The figures of a profile; the text is the profile's.
+WaleProfile figures_of(const DeviceProfile& profile);
+
+/// Gives a handle to the caller.
+void hand_out_device(std::unique_ptr<Device> device, WaleDevice** to);
+
+}  // namespace wale::c
+
+struct WaleDevice {
+  std::shared_ptr<wale::c::SharedDevice> shared;
+};
