@@ -62,6 +62,13 @@ else()
   message(STATUS "abidiff is missing (Debian: abigail-tools): the C interface is not compared with older ones")
 endif()
 
+# The example in C, compiled as strictly.
+add_executable(roughness_by_name_in_c ${PROJECT_SOURCE_DIR}/examples/roughness_by_name/main.c)
+set_target_properties(roughness_by_name_in_c PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF)
+target_link_libraries(roughness_by_name_in_c PRIVATE strict_c)
+add_test(NAME C.RoughnessByName COMMAND roughness_by_name_in_c)
+set_tests_properties(C.RoughnessByName PROPERTIES PASS_REGULAR_EXPRESSION "^coarse roughness: 2\\.3[0-9]+ N at the handle, felt as level 0\\.70\n$")
+
 # Each header alone, in both languages.
 set(alone_in_c)
 foreach(header IN LISTS headers_of_c)
