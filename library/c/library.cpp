@@ -13,6 +13,7 @@
 
 struct WaleLibrary {
   wale::Library library;
+  std::vector<wale::DeclaredDevice> devices = library.devices();
 };
 
 struct WaleFuture {
@@ -214,6 +215,25 @@ WaleCode wale_future_take(WaleFuture* future, WaleProgram** program, WaleError**
 }
 
 void wale_future_free(WaleFuture* future) { free_handle(future); }
+
+WaleCode wale_library_devices(WaleLibrary* library, WaleDevices** devices, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto clear = clear_result("devices", devices); !clear) return clear;
+    if (auto given = is_given("library", library); !given) return given;
+    const auto trusted = library->library.trusted_devices();
+    if (!trusted) return trusted.error();
+    hand_out_devices(wale::devices(*trusted), devices);
+    return {};
+  });
+}
+
+WaleCode wale_library_profile(WaleLibrary* library, WaleText name, WaleProfile* profile, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto given = is_given("library", library); !given) return given;
+    if (auto sized = is_sized("profile", profile); !sized) return sized;
+    return give_profile(library->devices, name, profile);
+  });
+}
 
 WaleCode wale_library_open_device(WaleLibrary* library, WaleText spelling, const WaleDeviceOptions* options,
                                   WaleDevice** device, WaleError** error) {

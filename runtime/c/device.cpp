@@ -10,6 +10,7 @@
 struct WaleDevices {
   std::vector<wale::DeviceInfo> all;
   std::vector<std::unique_ptr<WaleError>> obstacles;  // null where there is none
+  std::vector<std::string> holders;
 };
 
 namespace wale::c {
@@ -114,6 +115,30 @@ WaleProfile figures_of(const DeviceProfile& profile) {
           .has_position = profile.has_position()};
 }
 
+Result<> give_profile(const std::vector<DeclaredDevice>& declared, WaleText name, WaleProfile* to) {
+  const auto wanted = read_text("name", name);
+  if (!wanted) return wanted.error();
+  for (const DeclaredDevice& each : declared)
+    if (each.profile.name == *wanted) {
+      write_sized(to, figures_of(each.profile));
+      return {};
+    }
+  Error unknown = about_argument("name", "no device is called `" + *wanted + "`", Code::unknown_device);
+  unknown.place.text = *wanted;
+  return unknown;
+}
+
+void hand_out_devices(std::vector<DeviceInfo> devices, WaleDevices** to) {
+  auto list = std::make_unique<WaleDevices>();
+  list->all = std::move(devices);
+  for (const DeviceInfo& each : list->all) {
+    list->obstacles.push_back(each.obstacle ? std::make_unique<WaleError>(*each.obstacle) : nullptr);
+    std::string& holders = list->holders.emplace_back();
+    for (const std::string& holder : each.held_by) holders += (holders.empty() ? "" : ", ") + holder;
+  }
+  hand_out(std::move(list), to);
+}
+
 void hand_out_device(std::unique_ptr<Device> device, WaleDevice** to) {
   auto shared = std::make_shared<SharedDevice>();
   shared->device = std::move(device);
@@ -127,11 +152,7 @@ using namespace wale::c;
 WaleCode wale_devices(WaleDevices** devices, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (auto clear = clear_result("devices", devices); !clear) return clear;
-    auto found = std::make_unique<WaleDevices>();
-    found->all = wale::devices();
-    for (const wale::DeviceInfo& each : found->all)
-      found->obstacles.push_back(each.obstacle ? std::make_unique<WaleError>(*each.obstacle) : nullptr);
-    hand_out(std::move(found), devices);
+    hand_out_devices(wale::devices(), devices);
     return {};
   });
 }
@@ -151,6 +172,7 @@ WaleCode wale_devices_info(const WaleDevices* devices, size_t index, WaleDeviceI
                        .numbers = text_of(known.numbers),
                        .profile = known.profile ? text_of(known.profile->name) : WaleText{},
                        .can = text_of(known.can),
+                       .held_by = text_of(devices->holders[index]),
                        .obstacle = devices->obstacles[index].get(),
                        .kind = static_cast<int32_t>(known.kind),
                        .is_generic = known.is_generic});
@@ -161,18 +183,8 @@ WaleCode wale_devices_info(const WaleDevices* devices, size_t index, WaleDeviceI
 WaleCode wale_profile(WaleText name, WaleProfile* profile, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (auto sized = is_sized("profile", profile); !sized) return sized;
-    const auto wanted = read_text("name", name);
-    if (!wanted) return wanted.error();
     const auto& shipped = wale::shipped_devices();
-    if (!shipped) return shipped.error();
-    for (const wale::DeclaredDevice& each : *shipped)
-      if (each.profile.name == *wanted) {
-        write_sized(profile, figures_of(each.profile));
-        return {};
-      }
-    wale::Error unknown = about_argument("name", "no device is called `" + *wanted + "`", wale::Code::unknown_device);
-    unknown.place.text = *wanted;
-    return unknown;
+    return shipped ? give_profile(*shipped, name, profile) : shipped.error();
   });
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "runtime/c/call.hpp"
+#include "wale/declared_device.hpp"
 #include "wale/device.h"
 #include "wale/devices.hpp"
 
@@ -20,6 +21,13 @@ Result<OpenOptions> read_options(const WaleDeviceOptions* options);
 
 /// The figures of a profile; the text is the profile's.
 WaleProfile figures_of(const DeviceProfile& profile);
+
+/// Writes the figures of the declared device of that name, where its text stays. `to` has a size. Error:
+/// `unknown_device`.
+Result<> give_profile(const std::vector<DeclaredDevice>& declared, WaleText name, WaleProfile* to);
+
+/// Gives a list to the caller.
+void hand_out_devices(std::vector<DeviceInfo> devices, WaleDevices** to);
 
 /// Gives a handle to the caller.
 void hand_out_device(std::unique_ptr<Device> device, WaleDevice** to);

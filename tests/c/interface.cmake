@@ -35,8 +35,7 @@ target_sources(wale_c PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/types_of_c.c)
 set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/types_of_c.c PROPERTIES COMPILE_OPTIONS -g)
 target_include_directories(wale_c PRIVATE ${c_headers})
 
-file(GLOB in_c CONFIGURE_DEPENDS c/*.c)
-add_executable(test_in_c ${in_c})
+add_executable(test_in_c c/in_c.c c/stage_parts.c c/running_parts.c)
 add_executable(test_in_cpp c/in_cpp.cpp)
 foreach(program test_in_c test_in_cpp)
   set_target_properties(${program} PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF CXX_STANDARD 17)
@@ -44,6 +43,14 @@ foreach(program test_in_c test_in_cpp)
 endforeach()
 add_test(NAME C.InC COMMAND test_in_c)
 add_test(NAME C.InCpp COMMAND test_in_cpp)
+
+# It replaces malloc, which sanitizers do too.
+if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  add_executable(test_without_memory c/without_memory.c)
+  set_target_properties(test_without_memory PROPERTIES C_STANDARD 11 C_EXTENSIONS OFF)
+  target_link_libraries(test_without_memory PRIVATE strict_c)
+  add_test(NAME C.WithoutMemory COMMAND test_without_memory)
+endif()
 
 # Programs that were compiled with older headers.
 file(GLOB kept CONFIGURE_DEPENDS LIST_DIRECTORIES true ${CMAKE_CURRENT_SOURCE_DIR}/c/kept/[0-9]*)

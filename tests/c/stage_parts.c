@@ -31,6 +31,17 @@ static void devices(void) {
   CHECK_CODE(WALE_CODE_unknown_device, wale_profile(WALE_TEXT("sandpeper"), &profile, &error));
   CHECK_MALFORMED(wale_profile(WALE_TEXT("sandpaper"), NULL, &error));
 
+  CHECK_GOOD(wale_library_profile(library, WALE_TEXT("gamepad"), &profile, &error));
+  CHECK(is_text(profile.name, "gamepad") && profile.vibrates);
+  CHECK_CODE(WALE_CODE_unknown_device, wale_library_profile(library, WALE_TEXT("sandpeper"), &profile, &error));
+  CHECK_MALFORMED(wale_library_profile(NULL, WALE_TEXT("gamepad"), &profile, &error));
+  CHECK_MALFORMED(wale_library_profile(library, WALE_TEXT("gamepad"), NULL, &error));
+  CHECK_GOOD(wale_library_devices(library, &all, &error));
+  CHECK(wale_devices_count(all) > 5);
+  wale_devices_free(all);
+  CHECK_MALFORMED(wale_library_devices(NULL, &all, &error));
+  CHECK_MALFORMED(wale_library_devices(library, NULL, &error));
+
   WaleDevice* device = simulated();
   CHECK_GOOD(wale_device_profile(device, &profile, &error));
   CHECK(is_text(profile.name, "sandpaper"));

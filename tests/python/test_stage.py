@@ -15,8 +15,10 @@ def code_of(call) -> int:
     return raised.value.code
 
 
-def test_devices() -> None:
+def test_devices(library: wale.Library) -> None:
     listed = wale.devices()
+    assert [each.spelling for each in library.devices()] == [each.spelling for each in listed]
+    assert library.profile("gamepad") == wale.profile("gamepad")
     assert {each.kind for each in listed} >= {wale.DeviceKind.pointer, wale.DeviceKind.simulated}
     assert any(each.spelling == "simulated:sandpaper" for each in listed)
     profile = wale.profile("sandpaper")

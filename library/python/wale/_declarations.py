@@ -77,6 +77,7 @@ typedef struct WaleDeviceInfo {
   WaleText numbers;
   WaleText profile;
   WaleText can;
+  WaleText held_by;
   const WaleError* obstacle;
   int32_t kind;
   int32_t is_generic;
@@ -184,6 +185,8 @@ int32_t wale_future_poll(const WaleFuture* future);
 int32_t wale_future_wait(const WaleFuture* future, double seconds);
 WaleCode wale_future_take(WaleFuture* future, WaleProgram** program, WaleError** error);
 void wale_future_free(WaleFuture* future);
+WaleCode wale_library_devices(WaleLibrary* library, WaleDevices** devices, WaleError** error);
+WaleCode wale_library_profile(WaleLibrary* library, WaleText name, WaleProfile* profile, WaleError** error);
 WaleCode wale_library_open_device(WaleLibrary* library, WaleText spelling, const WaleDeviceOptions* options, WaleDevice** device, WaleError** error);
 typedef struct WaleSetting {
   WaleText name;

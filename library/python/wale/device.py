@@ -49,7 +49,7 @@ class Profile:
         return self.workspace_diameter / self.position_counts if self.position_counts > 0 else 0.0
 
 
-def _profile_of(of: Any) -> Profile:
+def profile_of(of: Any) -> Profile:
     names = Profile.__dataclass_fields__
     figures = {name: getattr(of, name) for name in names if name not in ("name", "vibrates", "has_position")}
     return Profile(name=read(of.name), vibrates=bool(of.vibrates), has_position=bool(of.has_position), **figures)
@@ -59,7 +59,7 @@ def profile(name: str) -> Profile:
     """The figures of a shipped device by the name of its profile."""
     arguments, of = Arguments(), sized("WaleProfile")
     call(lib.wale_profile, arguments.text(name), of)
-    return _profile_of(of)
+    return profile_of(of)
 
 
 @dataclass(frozen=True)
@@ -75,22 +75,32 @@ class DeviceInfo:
     """The name of the declaration with its figures; empty: none is about it."""
     is_generic: bool
     can: str
+    """What a real one can do, in a line; may be empty."""
+    held_by: str
+    """Other programs that have it open."""
     obstacle: Error | None
     """Why it cannot be used now."""
 
 
-def devices() -> Sequence[DeviceInfo]:
-    """All that is plugged in, also what cannot be used, then the pointer, then one simulation for each shipped device."""
-    listed = ffi.gc(made(lib.wale_devices, "WaleDevices"), lib.wale_devices_free)
+def devices_of(pointer: Any) -> Sequence[DeviceInfo]:
+    listed = ffi.gc(pointer, lib.wale_devices_free)
 
     def one(index: int) -> DeviceInfo:
         of = sized("WaleDeviceInfo")
         call(lib.wale_devices_info, listed, index, of)
         obstacle = described(of.obstacle) if of.obstacle else None
         return DeviceInfo(read(of.spelling), DeviceKind(of.kind), read(of.name), read(of.numbers), read(of.profile),
-                          bool(of.is_generic), read(of.can), obstacle)
+                          bool(of.is_generic), read(of.can), read(of.held_by), obstacle)
 
     return [one(i) for i in range(lib.wale_devices_count(listed))]
+
+
+def devices() -> Sequence[DeviceInfo]:
+    """All that is plugged in, also what cannot be used, then the pointer, then one simulation for each shipped device.
+
+    `Library.devices` knows the owner's declarations too.
+    """
+    return devices_of(made(lib.wale_devices, "WaleDevices"))
 
 
 @dataclass(frozen=True)
@@ -151,7 +161,7 @@ class Device(Handle):
     def profile(self) -> Profile:
         of = sized("WaleProfile")
         call(lib.wale_device_profile, self._pointer, of)
-        return _profile_of(of)
+        return profile_of(of)
 
 
 def device_options(arguments: Arguments, *, built_for: str, transport: str, keeper: str | os.PathLike[str],

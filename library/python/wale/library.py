@@ -1,11 +1,11 @@
 """Materials and levels by name."""
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
-from wale._abi import Arguments, Handle, ffi, lib, made
-from wale.device import Device, Hand, Motion, device_options
+from wale._abi import Arguments, Handle, call, ffi, lib, made, sized
+from wale.device import Device, DeviceInfo, Hand, Motion, Profile, device_options, devices_of, profile_of
 from wale.program import Program
 
 
@@ -85,6 +85,16 @@ class Library(Handle):
     def open_later(self, path: str | os.PathLike[str], *, device: str = "", material: str = "") -> Future:
         return Future(
             self._make(lib.wale_library_open_later, [os.fspath(path)], "WaleFuture", device=device, material=material))
+
+    def devices(self) -> Sequence[DeviceInfo]:
+        """As `wale.devices`, with the declarations of the owner of this computer."""
+        return devices_of(made(lib.wale_library_devices, "WaleDevices", self._pointer))
+
+    def profile(self, name: str) -> Profile:
+        """As `wale.profile`, also of a device that the owner declares."""
+        arguments, of = Arguments(), sized("WaleProfile")
+        call(lib.wale_library_profile, self._pointer, arguments.text(name), of)
+        return profile_of(of)
 
     def open_device(self, spelling: str = "auto", *, built_for: str = "", transport: str = "",
                     keeper: str | os.PathLike[str] = "", max_force: float = 0.0, priority: int = 0,

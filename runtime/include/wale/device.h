@@ -50,6 +50,7 @@ typedef struct WaleDeviceInfo {
   WaleText numbers;           /* vendor and product on USB, "1209:ffb0"; may be empty */
   WaleText profile;           /* the name of the declaration with its figures; empty: none is about it */
   WaleText can;               /* what a real one can do, in a line; may be empty */
+  WaleText held_by;           /* other programs that have it open, with commas between them; mostly empty */
   const WaleError* obstacle;  /* why it cannot be used now; NULL if no reason is known */
   int32_t kind;               /* WALE_DEVICE_… */
   int32_t is_generic;         /* 1: the figures are assumed, since no declaration names it */
@@ -86,7 +87,7 @@ typedef struct WaleDeviceOptions {
 } WaleDeviceOptions;
 
 /* All that is plugged in, also what cannot be used, then the pointer, then one simulation for each shipped device. Takes some
-   milliseconds for each real device. Error: short_of_resources. */
+   milliseconds for each real device. wale_library_devices knows the owner's declarations too. Error: short_of_resources. */
 WALE_API WaleCode wale_devices(WaleDevices** devices, WaleError** error);
 WALE_API void wale_devices_free(WaleDevices* devices);
 /* 0 for NULL. */
