@@ -13,6 +13,9 @@ struct OtherForce {
   double remembered = 0;  ///< on a hand that has been elsewhere before; no friction is so large
   double moving = 0;      ///< on a hand at 0.25 m/s somewhere in the patch, where nothing else resists
   double rehearsed = 0;   ///< the largest force found on all these hands
+  /// N: what the force may come to after the seconds that were looked at, if that is more than all that may come before
+  /// (both proved).
+  double later = 0;
 
   /// The largest that no other cue reads.
   double largest() const;
