@@ -154,7 +154,7 @@ AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& f
     double squares = 0;
     for (const glm::dvec2& each : all) squares += glm::dot(each - off.force, each - off.force);
     off.uncertain = surely_at_first * std::sqrt(squares) / places;
-    if (glm::length(off.force) < off.uncertain) off.force = {0, 0};
+    if (off.uncertain >= least_force && glm::length(off.force) < off.uncertain) off.force = {0, 0};
   }
   if (remembers_anything(program)) return off;
   constexpr double creeping = 1e-3;  // m/s
