@@ -12,6 +12,8 @@
 #include "compiler/measure/measure.hpp"
 #include "compiler/prove/force_bound.hpp"
 #include "compiler/prove/prove.hpp"
+#include "compiler/read/motion.hpp"
+#include "compiler/read/other_force.hpp"
 #include "compiler/read/relief.hpp"
 #include "compiler/read/wall.hpp"
 #include "wale/program.hpp"
@@ -109,6 +111,8 @@ struct Description {
   };
   std::vector<Directed> directed;
   Swing sway;                        ///< slower than 10 Hz, which no percept tells; of amplitude 0 if there is none
+  Swing noise;                       ///< what changes with time without a rate; of amplitude 0 if nothing does
+  OpposingForce motion;              ///< what resists a moving hand
   double small_feature = 0;          ///< N: the largest force of what fills less than a hundredth of the patch
   glm::dvec2 constant_push{0};       ///< N: everywhere alike
   OtherForce other;                  ///< what no cue explains

@@ -148,11 +148,16 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
     }
   }
   if (found.sway.amplitude >= least_force) description.sway = found.sway;
+  if (found.vibration.noise && found.vibration.amplitude >= least_force) description.noise = found.vibration;
+  description.motion = found.opposing;
   description.small_feature = cues[CueKind::small_feature].value_or(0);
   if (glm::length(found.constant) >= least_force) description.constant_push = found.constant;
   const auto counting = [](double force) { return force >= least_force ? force : 0; };
-  description.other = {counting(found.other.button), counting(found.other.slowly), counting(found.other.remembered),
-                       counting(found.other.moving)};
+  description.other = {.button = counting(found.other.button),
+                       .slowly = counting(found.other.slowly),
+                       .remembered = counting(found.other.remembered),
+                       .moving = counting(found.other.moving),
+                       .later = counting(found.other.later)};
   description.aside = counting(found.opposing.aside);
   const double unread = std::abs(cues[CueKind::other_force].value_or(0));
   if (unread > std::max(description.other.largest(), description.aside)) description.unread = unread;

@@ -5,6 +5,7 @@
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/describe/describe_motion.hpp"
 #include "compiler/describe/fates_json.hpp"
 #include "compiler/text/json_text.hpp"
 
@@ -52,6 +53,8 @@ nlohmann::ordered_json to_json(const Grade& grade) {
   json["conservative"] = grade.energy.conservative;
   json["watt"] = figure(grade.energy.watt());
   json["reasons"] = grade.energy.reasons;
+  if (grade.later_newton > 0)
+    json["looked_at_seconds"] = still_seconds, json["later_newton"] = figure(grade.later_newton);
   return json;
 }
 
@@ -220,6 +223,8 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   if (description.sway.amplitude > 0)
     json["sway"] = {{"amplitude_newton", figure(description.sway.amplitude)},
                     {"frequency_hz", figure(description.sway.frequency)}};
+  if (description.noise.amplitude > 0) json["noise_in_time_newton"] = figure(description.noise.amplitude);
+  add_motion(json, description.motion);
   const auto other = [&](const char* name, double force) {
     if (force > 0) json["other_force_newton"][name] = figure(force);
   };
@@ -227,6 +232,7 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   other("slowly", description.other.slowly);
   other("remembered", description.other.remembered);
   other("moving", description.other.moving);
+  other("later", description.other.later);
   other("aside", description.aside);
   other("unread", description.unread);
   other("small_feature", description.small_feature);

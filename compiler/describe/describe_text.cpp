@@ -8,6 +8,7 @@
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/describe/describe_grade.hpp"
+#include "compiler/describe/describe_motion.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {
@@ -305,6 +306,10 @@ std::string other_forces(const Description& description) {
   if (description.sway.amplitude > 0)
     text += readable("  a sway of {:.3g} N at {:.3g} Hz, which no percept tells\n", description.sway.amplitude,
                      description.sway.frequency);
+  if (description.noise.amplitude > 0)
+    text += readable("  up to {:.3g} N that changes with time without a rate, which no percept tells\n",
+                     description.noise.amplitude);
+  text += motion_lines(description.motion);
   if (description.small_feature > 0)
     text += readable("  up to {:.3g} N in less than a hundredth of the patch, which no percept tells\n",
                      description.small_feature);
@@ -316,6 +321,7 @@ std::string other_forces(const Description& description) {
     text += readable("  up to {:.3g} N by where the hand has been, which no percept tells\n", other.remembered);
   if (other.moving > 0)
     text += readable("  up to {:.3g} N on a hand at 250 mm/s, which no percept tells\n", other.moving);
+  if (other.later > 0) text += readable("  {}\n", later_words(other.later));
   if (description.aside > 0)
     text += readable("  {:.3g} N aside on a hand at 200 mm/s, which no percept tells\n", description.aside);
   if (description.unread > 0) text += readable("  up to {:.3g} N that no percept tells\n", description.unread);

@@ -18,6 +18,7 @@ constexpr std::size_t hands_pressing = 64, hands_moving = 1024;
 constexpr double slow_window = 4;         // s: long enough that a sway has no mean in it
 constexpr double slow_step = 0.5;         // s
 constexpr double left_of_a_swing = 0.03;  // of its amplitude, in a mean over that window
+constexpr double left_of_noise = 0.3;     // likewise of a noise, whose means differ by chance
 constexpr double tour = 3, pause = 0.3;   // s
 constexpr std::size_t tours = 4;
 constexpr double reach = 0.8;      // of half of the patch
@@ -176,7 +177,9 @@ OtherForce other_force(const Bank& bank, const std::vector<std::vector<Force>>& 
     found.slowly = std::max(found.slowly, glm::length(change));
     found.slow_push += change / static_cast<double>(felt.size());
   }
-  if (found.slowly < left_of_a_swing * std::max(sway.amplitude, vibration.amplitude)) found.slowly = 0;
+  if (found.slowly <
+      (vibration.noise ? left_of_noise : left_of_a_swing) * std::max(sway.amplitude, vibration.amplitude))
+    found.slowly = 0;
   for (const std::vector<Force>& forces : felt)
     for (const Force& force : forces) found.rehearsed = std::max(found.rehearsed, double{glm::length(force)});
   found.remembered = by_memory(bank, found.rehearsed);

@@ -16,6 +16,9 @@ struct OtherForce {
   double rehearsed = 0;   ///< the largest force found on all these hands
   /// What the button adds on the mean over the patch, and what comes with time: towards where they push.
   glm::dvec2 button_push{0}, slow_push{0};
+  /// N: what the force may come to after the seconds that were looked at, if that is more than all that may come before
+  /// (both proved).
+  double later = 0;
 
   /// The largest that no other cue reads.
   double largest() const;

@@ -98,8 +98,16 @@ ForceReading times_as_strong(ForceReading found, double times) {
                        &found.other.rehearsed,
                        &found.wall_push,
                        &found.at_first,
-                       &found.outward})
+                       &found.outward,
+                       &found.other.later,
+                       &opposing.forward.x,
+                       &opposing.forward.y,
+                       &opposing.backward.x,
+                       &opposing.backward.y,
+                       &opposing.least_by_place,
+                       &opposing.most_by_place})
     *each *= times;
+  for (DragAt& each : opposing.by_speed) each.newton *= times;
   for (glm::dvec2* each : {&found.constant, &found.other.button_push, &found.other.slow_push}) *each *= times;
   const auto scale = [&](WallFace& wall) {
     for (double* each : {&wall.stiffness, &wall.damping, &wall.release, &wall.preload}) *each *= times;

@@ -218,11 +218,15 @@ TEST(DescribingForces, WhatGoesByTimeAloneHasNoMemoryAndOneLargestForce) {
       "state trail : length = 0 mm in -50 mm .. 50 mm\ntrail' = (x - trail) / 1 s\nforce = vector(-20 N/m * trail, 0 "
       "N)");
   EXPECT_EQ(rubbed.no_texture, "its force depends on its memory, so it has no single texture");
-  // A soft bristle gives most where the hand has come from afar.
+  // It gives most where the hand has come from afar.
+  EXPECT_GT(rubbed.other.remembered, 0.1);
+  EXPECT_GE(rubbed.force.max_newton, rubbed.other.remembered - 1e-4);
+  EXPECT_GE(rubbed.bound.found.newton, rubbed.force.max_newton - 1e-4);
+  // A soft bristle is friction, which no other cue tells again.
   const Description soft = described("force = sticky(0.5 N, 6 N/m)");
-  EXPECT_GT(soft.other.remembered, 0.1);
-  EXPECT_GE(soft.force.max_newton, soft.other.remembered - 1e-4);
-  EXPECT_GE(soft.bound.found.newton, soft.force.max_newton - 1e-4);
+  ASSERT_TRUE(percept(soft, "stickiness"));
+  EXPECT_NEAR(percept(soft, "stickiness")->amplitude, 0.5, 0.015);
+  EXPECT_EQ(soft.other.remembered, 0);
 }
 
 TEST(DescribingForces, ASquareWaveOfOneNewtonReadsOneNewtonAtAnyRate) {

@@ -63,7 +63,7 @@ const std::map<std::string, Floor>& floors() {
       {"beat", {8, 184}},
       {"heartbeat", {8, 184}},
       {"tiring spring", {8, 192}},
-      {"hysteresis", {7, 179}},
+      {"hysteresis", {8, 180}},
       {"texture on trend", {7, 168}},
       {"long wave on spring", {8, 184}},
       {"texture and wall", {8, 184}},
