@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compiler/describe/describe.hpp"
-#include "compiler/preview/axis.hpp"
+#include "compiler/drawing/axis.hpp"
 #include "compiler/preview/preview.hpp"
 #include "compiler/read/read.hpp"
 
@@ -38,8 +38,7 @@ std::string evidence_of(const DescribedPercept& percept) {
     text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.intervals.means.low,
                         percept.intervals.means.high);
   if (percept.saturated) text += ", limited by the device";
-  for (const OutsideRange& each : percept.outside)
-    text += ", " + outside_in_words(each);
+  for (const OutsideRange& each : percept.outside) text += ", " + outside_in_words(each);
   return text;
 }
 
