@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compiler/describe/describe.hpp"
-#include "compiler/preview/axis.hpp"
+#include "compiler/drawing/axis.hpp"
 #include "compiler/preview/preview.hpp"
 #include "compiler/read/read.hpp"
 

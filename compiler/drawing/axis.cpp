@@ -1,4 +1,4 @@
-#include "compiler/preview/axis.hpp"
+#include "compiler/drawing/axis.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "compiler/image/image_library.hpp"
+#include "compiler/drawing/image_library.hpp"
 
 #include <dlfcn.h>
 

@@ -1,6 +1,6 @@
-#include "compiler/image/drawing.hpp"
+#include "compiler/drawing/drawing.hpp"
 
-#include "compiler/image/image_library.hpp"
+#include "compiler/drawing/image_library.hpp"
 
 namespace wale {
 

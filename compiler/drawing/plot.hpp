@@ -3,11 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "compiler/preview/axis.hpp"
-#include "compiler/preview/canvas.hpp"
-#include "compiler/preview/exhibit.hpp"
+#include "compiler/drawing/axis.hpp"
+#include "compiler/drawing/canvas.hpp"
 
 namespace wale {
+
+/// A quantity along a line: `at` in m or m/s, ascending.
+struct Profile {
+  std::vector<double> at, values;
+};
 
 /// A curve of a plot, in SI units, and its name if there are several.
 struct Curve {

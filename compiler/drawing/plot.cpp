@@ -1,9 +1,9 @@
-#include "compiler/preview/plot.hpp"
+#include "compiler/drawing/plot.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "compiler/preview/style.hpp"
+#include "compiler/drawing/style.hpp"
 
 namespace wale {
 namespace {

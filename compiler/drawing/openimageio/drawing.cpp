@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "compiler/drawing/openimageio/functions.hpp"
 #include "compiler/image/openimageio.hpp"
-#include "compiler/image/openimageio/functions.hpp"
 
 namespace wale::openimageio {
 
@@ -35,16 +35,6 @@ Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std:
   }
   const auto* first = reinterpret_cast<const std::byte*>(file.data());
   return std::vector<std::byte>(first, first + file.size());
-}
-
-std::vector<std::uint8_t> shrunk(std::span<const float> rgb, int width, int height, int columns, int rows) {
-  const OIIO::ROI size(0, columns, 0, rows, 0, 1, 0, 3);
-  // Nothing here writes to the wrapped buffer; ImageBuf cannot wrap constants.
-  const OIIO::ImageBuf fine(OIIO::ImageSpec(width, height, 3, OIIO::TypeFloat), const_cast<float*>(rgb.data()));
-  const OIIO::ImageBuf page = OIIO::ImageBufAlgo::resize(fine, "box", 1.0f, size, 1);
-  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * 3);
-  page.get_pixels(size, OIIO::TypeUInt8, pixels.data());
-  return pixels;
 }
 
 std::vector<float> surroundings(std::span<const float> values, int side, double reach) {

@@ -13,11 +13,6 @@ namespace wale {
 struct Drawing {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
-  /// False if no font is installed (Debian: fonts-dejavu-core): the picture is then complete but for its text.
-  bool has_text = true;
-  /// The side, in pixels of the picture before it is shrunk, of the squares in which the surface is drawn: 1 unless the
-  /// program costs so much that each pixel of its own would take minutes.
-  int coarseness = 1;
 
   friend bool operator==(const Drawing&, const Drawing&) = default;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/preview/canvas.hpp"
+#include "compiler/drawing/canvas.hpp"
 
 /// The colours and letters of a preview. Neighbouring colours differ in lightness too, so that a grey print is
 /// readable.
