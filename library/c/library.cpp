@@ -57,7 +57,7 @@ Result<CompileOptions> read_compile_options(const WaleCompileOptions* options) {
 Result<> hand_out_program(Result<Compiled> compiled, WaleProgram** to) {
   if (!compiled) return std::move(compiled).error();
   auto program = std::make_unique<WaleProgram>(WaleProgram{std::move(compiled->program)});
-  for (Error& each : compiled->warnings) program->warnings.push_back(std::make_unique<WaleError>(std::move(each)));
+  for (Error& each : compiled->warnings) program->warnings.push_back(handle_of(std::move(each)));
   program->taken = std::move(compiled->taken);
   hand_out(std::move(program), to);
   return {};

@@ -7,11 +7,6 @@
 
 #include "schema/utf8.hpp"
 
-WaleError::WaleError(wale::Error wrong)
-    : error(std::move(wrong)), in_words(wale::in_words(error)), explained(wale::explained(error)) {
-  for (wale::Error& each : error.others) others.push_back(std::make_unique<WaleError>(std::move(each)));
-}
-
 namespace wale::c {
 namespace {
 
@@ -19,18 +14,27 @@ constexpr Code without_memory = Code::short_of_resources;
 
 /// Made beforehand, since there is no memory for it when it is needed. Not noted as a handle, so nobody frees it.
 WaleError& no_memory() {
-  static auto* const error = new WaleError(Error{.code = without_memory, .sentence = "there is no memory left"});
+  static auto* const error = handle_of({.code = without_memory, .sentence = "there is no memory left"}).release();
   return *error;
 }
 [[maybe_unused]] const WaleError& made_early = no_memory();
 
 }  // namespace
 
+std::unique_ptr<WaleError> handle_of(Error error) {
+  auto handle = std::make_unique<WaleError>();
+  handle->in_words = in_words(error);
+  handle->explained = explained(error);
+  for (Error& each : error.others) handle->others.push_back(handle_of(std::move(each)));
+  handle->error = std::move(error);
+  return handle;
+}
+
 WaleCode give_error(Error error, WaleError** to) noexcept {
   const auto code = static_cast<WaleCode>(error.code);
   if (to == nullptr) return code;
   try {
-    hand_out(std::make_unique<WaleError>(std::move(error)), to);
+    hand_out(handle_of(std::move(error)), to);
   } catch (...) {
     *to = &no_memory();
     return static_cast<WaleCode>(without_memory);

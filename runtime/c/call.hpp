@@ -8,14 +8,15 @@
 #include "wale/result.hpp"
 
 struct WaleError {
-  explicit WaleError(wale::Error error);
-
   wale::Error error;
   std::string in_words, explained;
   std::vector<std::unique_ptr<WaleError>> others;
 };
 
 namespace wale::c {
+
+/// An error as a handle, with the others of its text.
+std::unique_ptr<WaleError> handle_of(Error error);
 
 /// Gives an error to the caller, if `to` is a place for it, and returns its code.
 WaleCode give_error(Error error, WaleError** to) noexcept;

@@ -132,7 +132,7 @@ void hand_out_devices(std::vector<DeviceInfo> devices, WaleDevices** to) {
   auto list = std::make_unique<WaleDevices>();
   list->all = std::move(devices);
   for (const DeviceInfo& each : list->all) {
-    list->obstacles.push_back(each.obstacle ? std::make_unique<WaleError>(*each.obstacle) : nullptr);
+    list->obstacles.push_back(each.obstacle ? handle_of(*each.obstacle) : nullptr);
     std::string& holders = list->holders.emplace_back();
     for (const std::string& holder : each.held_by) holders += (holders.empty() ? "" : ", ") + holder;
   }

@@ -39,7 +39,7 @@ WaleGuards guards_of(const GuardCounts& counts) noexcept {
 void hand_out_run(RunResult result, const DeviceProfile& profile, WaleRun** to) {
   if (to == nullptr) return;
   auto run = std::make_unique<WaleRun>(WaleRun{std::move(result), profile.position_step()});
-  if (run->result.record_problem) run->problem = std::make_unique<WaleError>(*run->result.record_problem);
+  if (run->result.record_problem) run->problem = handle_of(*run->result.record_problem);
   hand_out(std::move(run), to);
 }
 
@@ -115,7 +115,7 @@ WaleCode wale_felt_measure(const WaleRun* run, const WalePatch* patch, const Wal
     made->felt = wale::measure(run->result.record, measured);
     made->levels = wale::levels_back(*bank, made->felt, given->least_crossings != 0 ? given->least_crossings : 50);
     for (const wale::LevelBack& each : made->levels)
-      made->problems.push_back(each.back ? nullptr : std::make_unique<WaleError>(each.back.error()));
+      made->problems.push_back(each.back ? nullptr : handle_of(each.back.error()));
     hand_out(std::move(made), felt);
     return {};
   });

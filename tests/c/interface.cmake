@@ -42,6 +42,17 @@ foreach(program test_in_c test_in_cpp)
   target_link_libraries(${program} PRIVATE strict_c)
 endforeach()
 add_test(NAME C.InC COMMAND test_in_c)
+set(shipped_c wale_c)
+if(TARGET wale_shared)  # the libraries to install
+  set(shipped_c wale_shared)
+  add_executable(test_in_c_as_shipped c/in_c.c c/stage_parts.c c/running_parts.c)
+  set_target_properties(test_in_c_as_shipped PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF)
+  target_include_directories(test_in_c_as_shipped PRIVATE ${c_headers} ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(test_in_c_as_shipped PRIVATE _DEFAULT_SOURCE)
+  target_link_libraries(test_in_c_as_shipped PRIVATE $<TARGET_LINKER_FILE:wale_shared> $<TARGET_LINKER_FILE:wale-runtime_shared> Threads::Threads m)
+  add_dependencies(test_in_c_as_shipped wale_shared)
+  add_test(NAME C.InCAsShipped COMMAND test_in_c_as_shipped)
+endif()
 add_test(NAME C.InCpp COMMAND test_in_cpp)
 
 # It replaces malloc, which sanitizers do too.

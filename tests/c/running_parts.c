@@ -50,7 +50,7 @@ static void running(void) {
   CHECK(wale_stage_is_running(stage));
   CHECK_CODE(WALE_CODE_wrong_moment, wale_stage_start(stage, &error));
   now.size = sizeof now;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 15000; ++i) {
     usleep(2000);
     CHECK(wale_stage_now(stage, &now) == 0);
     if (now.ticks_run > 20) break;
@@ -76,7 +76,7 @@ static void* run_long(void* stage) {
 }
 
 static void until_it_runs(WaleStage* stage) {
-  for (int i = 0; i < 5000 && !wale_stage_is_running(stage); ++i) usleep(1000);
+  for (int i = 0; i < 30000 && !wale_stage_is_running(stage); ++i) usleep(1000);
   CHECK(wale_stage_is_running(stage));
 }
 
@@ -120,7 +120,7 @@ static void loops(void) {
   CHECK_MALFORMED(wale_loop_begin(stage, NULL, &error));
   WaleReading reading = {.size = sizeof reading};
   double largest = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 100000 && (i < 2000 || largest < 1); ++i) {
     reading.counts_x = (int32_t)(profile.position_counts / 8 * sin(i * 2 * 3.14159265 / profile.rate));
     const WaleVector force = wale_loop_step(loop, &reading, 1);
     wale_loop_exerted(loop, force);

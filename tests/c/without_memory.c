@@ -1,5 +1,7 @@
 /* Real-time calls allocate nothing; other calls survive when there is no memory left, and leave nothing behind. */
+#include <math.h>
 #include <stdlib.h>
+#include <unistd.h>
 #include <wale.h>
 
 #include "tests/c/check.h"
@@ -115,16 +117,22 @@ static void real_time_calls_allocate_nothing(void) {
   WaleReading reading = {.size = sizeof reading};
   WaleNow now = {.size = sizeof now};
   float largest = 0;
+  for (int i = 0; i < 100000 && largest == 0; ++i) { /* until the patch is felt */
+    reading.counts_x = i % 300 - 150;
+    largest = fabsf(wale_loop_step(loop, &reading, 1).x);
+    usleep(100);
+  }
+  CHECK(largest > 0 && wale_stage_now(own, &now) == 0);
+  const int64_t ticks = now.ticks_run;
   const long before = allocations;
   for (int i = 0; i < 3000; ++i) {
     reading.counts_x = i % 300 - 150;
     const WaleVector force = wale_loop_step(loop, &reading, 1);
     wale_loop_exerted(loop, force);
     wale_stage_now(own, &now);
-    if (force.x > largest) largest = force.x;
   }
   CHECK(allocations == before);
-  CHECK(now.ticks_run == 3000 && largest > 0);
+  CHECK(now.ticks_run == ticks + 3000);
   wale_loop_free(loop);
   wale_stage_free(own);
 }

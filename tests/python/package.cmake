@@ -29,4 +29,4 @@ else()
   message(STATUS "mypy is missing (Debian: mypy): the types of the Python package are not checked")
 endif()
 set_tests_properties(${python_tests} PROPERTIES TIMEOUT 300 ENVIRONMENT
-  "WALE_SHARED_LIBRARY=$<TARGET_FILE:wale_c>;PYTHONPATH=${package};MYPYPATH=${package};PYTHONDONTWRITEBYTECODE=1;XDG_CONFIG_HOME=/nonexistent")
+  "WALE_SHARED_LIBRARY=$<TARGET_FILE:${shipped_c}>;PYTHONPATH=${package};MYPYPATH=${package};PYTHONDONTWRITEBYTECODE=1;XDG_CONFIG_HOME=/nonexistent")
