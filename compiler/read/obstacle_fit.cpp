@@ -1,5 +1,6 @@
 #include "compiler/read/obstacle_fit.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -18,24 +19,17 @@ constexpr double least_gain = 1e-4;     // of what is left, by a step worth goin
 constexpr int tries = 5;
 constexpr std::size_t rough_places = 300;  // of a jump, that are tried
 
-/// Cholesky's solution of a symmetric system with unit diagonal; empty if it is not definite.
-std::vector<double> solved(std::vector<double> matrix, std::vector<double> right) {
-  const std::size_t n = right.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k <= i; ++k) {
-      double sum = matrix[i * n + k];
-      for (std::size_t j = 0; j < k; ++j) sum -= matrix[i * n + j] * matrix[k * n + j];
-      if (i == k && !(sum > 1e-12)) return {};
-      matrix[i * n + k] = i == k ? std::sqrt(sum) : sum / matrix[k * n + k];
-    }
-    for (std::size_t j = 0; j < i; ++j) right[i] -= matrix[i * n + j] * right[j];
-    right[i] /= matrix[i * n + i];
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t j = i + 1; j < n; ++j) right[i] -= matrix[j * n + i] * right[j];
-    right[i] /= matrix[i * n + i];
-  }
-  return right;
+/// The solution of a symmetric system with unit diagonal, of which the lower half is given row by row; empty if it is
+/// hardly definite.
+std::vector<double> solved(const std::vector<double>& matrix, const std::vector<double>& right) {
+  constexpr double least_pivot = 1e-6;
+  const auto n = static_cast<Eigen::Index>(right.size());
+  const Eigen::LLT<Eigen::MatrixXd> factors(
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(matrix.data(), n, n));
+  if (factors.info() != Eigen::Success || !(factors.matrixLLT().diagonal().minCoeff() > least_pivot)) return {};
+  std::vector<double> solution(right.size());
+  Eigen::Map<Eigen::VectorXd>(solution.data(), n) = factors.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), n));
+  return solution;
 }
 
 glm::dvec2 turned(glm::dvec2 way, double by) {
@@ -257,7 +251,7 @@ double ObstacleFit::improve(std::span<const glm::dvec2> places, std::span<const 
     for (int turn = 0; turn < tries && !better; ++turn) {
       std::vector<double> damped = matrix;
       for (std::size_t i = 0; i < n; ++i) damped[i * n + i] = 1 + damping;
-      std::vector<double> moved = solved(std::move(damped), right);
+      std::vector<double> moved = solved(damped, right);
       damping *= 30;
       if (moved.empty()) continue;
       for (std::size_t i = 0; i < n; ++i) moved[i] /= size[i];

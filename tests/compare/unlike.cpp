@@ -49,6 +49,19 @@ TEST(CompareUnlike, AWallsDampingAndAWallBesideATextureAreCompared) {
             Verdict::apart);
 }
 
+TEST(CompareUnlike, SmallFeaturesAndHowAWallBeginsAndEndsAreCompared) {
+  EXPECT_EQ(verdict_between("force = vector(0 N, 0 N)",
+                            "force = vector(2 N * (if abs(x) < 0.5 mm then sin(2 * pi * x / 1 mm) else 0), 0 N)"),
+            Verdict::apart);
+  const auto wall = [](const char* law) {
+    return "force = vector(if x > 20 mm then " + std::string(law) + " else 0 N, 0 N)";
+  };
+  const std::string plain = wall("-300 N/m * (x - 20 mm)");
+  EXPECT_EQ(verdict_between(plain, wall("-3 N - 300 N/m * (x - 20 mm)")), Verdict::apart);
+  EXPECT_EQ(verdict_between(plain, wall("-min(300 N/m * (x - 20 mm), 3 N)")), Verdict::apart);
+  EXPECT_EQ(verdict_between(plain, plain), Verdict::alike);
+}
+
 // People's thresholds for these are not published.
 TEST(CompareUnlike, ADifferenceOfDirectionOrGrainIsUnknown) {
   const std::pair<const char*, const char*> pairs[] = {
