@@ -107,6 +107,7 @@ DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double 
                             double count, const Declarations& declarations) {
   DescribedTexture texture{.force = found.relief(), .kind = kind_of(cues, found, largest_newton, size, declarations)};
   if (!cues[CueKind::amplitude]) texture.force = {};
+  texture.force.maximum = std::min(texture.force.maximum, largest_newton);
   texture.counts_as = counting_as(found.relief(), declarations);
   if (texture.force.regular() && !texture.force.waves.empty())
     texture.encoder_pattern = encoder_pattern(texture.force.waves.front(), count);

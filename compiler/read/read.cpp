@@ -212,7 +212,8 @@ void limit_relief(StaticForce& still, double most) {
   const double largest = std::min(still.largest, std::numbers::sqrt2 * most);
   if (relief.amplitude <= plainly_more * largest) return;
   const double share = largest / relief.amplitude;
-  for (double* each : {&relief.amplitude, &relief.maximum, &relief.rms, &relief.mean}) *each *= share;
+  // What fills less than a hundredth of the patch is in none of these, and keeps its maximum.
+  for (double* each : {&relief.amplitude, &relief.rms, &relief.mean}) *each *= share;
 }
 
 }  // namespace
