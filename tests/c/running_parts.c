@@ -256,7 +256,7 @@ static void batches(void) {
 }
 
 static void recordings(void) {
-  char file[] = "/tmp/wale_in_c_XXXXXX";
+  char file[] = "wale_in_c_XXXXXX";
   const int made = mkstemp(file);
   CHECK(made >= 0);
   close(made);
