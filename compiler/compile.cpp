@@ -23,6 +23,7 @@
 #include "compiler/solve/formula_mistakes.hpp"
 #include "compiler/solve/plausible.hpp"
 #include "compiler/solve/solve.hpp"
+#include "compiler/solve/still_field.hpp"
 #include "compiler/text/readable.hpp"
 #include "compiler/text/sampled_rate.hpp"
 #include "schema/spelling.hpp"
@@ -34,12 +35,21 @@ namespace {
 constexpr double least_declared_watt = 0.01;  // W; the resolution of the proposed `active`
 
 /// Warns of a program that gives more energy than its material declares.
-void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material, const GradingHand& hand,
-                               Diagnostics& diagnostics) {
+void warn_of_undeclared_energy(const Bank& bank, const CheckedMaterial& checked, const SolvedMaterial& material,
+                               const GradingHand& hand, Diagnostics& diagnostics) {
   const Energy energy = energy_of(bank, hand);
   if (!energy.active() || (material.active_watt > 0 && energy.watt() <= material.active_watt)) return;
   const double watt = std::max(energy.watt(), least_declared_watt);
   const std::string mend = typeable("active {:.2g} W", std::ceil(watt * 100) / 100);
+  // A device's limit cuts x and y separately, and so turns a slanted force.
+  if (energy.reasons.size() == 1 && energy.curl_watt > 0 && has_no_curl(checked, material.device))
+    return diagnostics.report(
+        {.code = Code::undeclared_energy,
+         .span = material.force_span,
+         .message = readable("`{}` gives energy to a hand that moves in circles, up to {:.2g} W at an ordinary pace: "
+                             "`{}` limits its force along x and y separately, which turns it",
+                             material.name, energy.watt(), material.device.name),
+         .help = typeable("let the force keep its direction: `force = … limit {:.4g} N`", material.device.most())});
   diagnostics.report({.code = Code::undeclared_energy,
                       .span = material.force_span,
                       .message = readable("`{}` gives energy to the hand, up to {:.2g} W at an ordinary pace: {}",
@@ -47,6 +57,19 @@ void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material,
                       .help = material.active_watt > 0
                                   ? readable("it declares {:.2g} W; write `{}`", material.active_watt, mend)
                                   : fmt::format("write `{}` in its physical block", mend)});
+}
+
+/// Warns of a force that drives the hand away, as of a spring without its minus.
+void warn_of_driving_away(const CheckedMaterial& material, const SolvedMaterial& solved, Diagnostics& diagnostics) {
+  const auto span = driving_away(material, solved.device);
+  if (!span) return;
+  diagnostics.report(
+      {.code = Code::pushes_away,
+       .span = *span,
+       .message = "the further a hand goes from where it rests, the harder this force pushes it on, up "
+                  "to the edge of the patch",
+       .help = "perhaps a minus is missing, as in `force = -20 N/m * hand`; a plus, as in `force = +20 N/m * "
+               "hand`, says that it is meant"});
 }
 
 /// Warns of a material that declares more active power than the device allows, so that it feels weaker.
@@ -148,10 +171,10 @@ void warn_of_jumps(const SolvedMaterial& solved, const CheckedMaterial& material
   diagnostics.report(
       {.code = Code::jumping_height,
        .span = found->span,
-       .message =
-           fmt::format("this height jumps by {:.0f} % of its range at ({:.1f}, {:.1f}) mm, where the force would "
-                       "be infinite; `{}` leaves the jump out",
-                       100 * found->jump.share, 1e3 * found->jump.x, 1e3 * found->jump.y, found->function),
+       .message = fmt::format(
+           "this height jumps by {:.0f} % of its range at ({:.1f}, {:.1f}) mm, where the force would "
+           "be infinite; `{}` leaves the jump out",
+           100 * std::min(found->jump.share, 1.0), 1e3 * found->jump.x, 1e3 * found->jump.y, found->function),
        .help = "let it rise over a distance, as `smoothstep(x / 1 mm)` does, or begin and end at the same height"});
 }
 
@@ -315,6 +338,11 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   diagnostics.renew_budget();
   diagnostics.allow_text(sources[source].text.size());
   const std::size_t said = diagnostics.all().size();
+  for (const Span& each : material->scaled_textures)
+    diagnostics.report({.code = Code::scaled_texture,
+                        .span = each,
+                        .message = "the amplitude is solved from the percept, and then changed by a factor",
+                        .help = "leave the factor out and ask for more or less of the percept"});
   FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics);
   const SolvedMaterial& solved = finished.solved;
   if (!finished.program || solved.device.shaker) return std::move(finished.program);  // the latter has no force
@@ -344,9 +372,10 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
       if (!fine) warn_of_jumps(solved, *material, diagnostics);
       warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
       warn_of_no_force(bank, *material, solved, measured, diagnostics);
+      warn_of_driving_away(*material, solved, diagnostics);
     }
     if (!fine) warn_of_fast_rates(bank, solved, diagnostics);
-    if (!partly) warn_of_undeclared_energy(bank, solved, hand, diagnostics);
+    if (!partly) warn_of_undeclared_energy(bank, *material, solved, hand, diagnostics);
   }
   warn_of_a_device_that_gives_less(solved, diagnostics);
   if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), doubted(), diagnostics)) {

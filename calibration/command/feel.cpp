@@ -266,7 +266,8 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
     say(readable("the last {:.4g} s are measured", measured_seconds));
   RunManner manner = felt.manner();
   manner.versions = versions;
-  const FeltReport report = felt_report(bank, result, bank.program().description().device, std::move(manner));
+  FeltReport report = felt_report(bank, result, bank.program().description().device, std::move(manner));
+  tell_read_percepts(report, bank, common_modules()->declarations);
   felt.device.reset();  // the pointer restores the terminal
   print_out(options.json ? felt_json(report) : felt_text(report));
   if (!tabled) return refuse(tabled.error());

@@ -118,6 +118,30 @@ std::string pressing_into(const WallFace& wall) {
                      with_decimals(1e3 * place.y, 0));
 }
 
+/// "roughness 0.36 and viscosity 0.20": percepts with their levels.
+std::string read_text(const std::vector<std::pair<std::string, double>>& read) {
+  std::string text;
+  for (std::size_t i = 0; i < read.size(); ++i)
+    text += fmt::format("{}{} {:.2f}",
+                        i == 0                 ? ""
+                        : i + 1 == read.size() ? " and "
+                                               : ", ",
+                        read[i].first, read[i].second);
+  return text;
+}
+
+/// The largest force of all ticks, if the figures of the actuator leave it out; otherwise empty.
+std::string largest_text(const FeltReport& report) {
+  constexpr double hardly_more = 1.001;
+  const bool rubbed = report.felt.ticks_rubbing > 0;
+  const double told = rubbed ? report.felt.force_rubbing.maximum : report.felt.force.maximum;
+  if (report.felt.vibration || report.largest <= hardly_more * told) return {};
+  return readable("  largest      {:.3f} N, at {:.3g} s: {}\n", report.largest, report.largest_at,
+                  report.largest_at < report.settling
+                      ? readable("in the first {:.2g} s, which the figures leave out", report.settling)
+                      : "where the hand did not rub");
+}
+
 /// What a map makes of the force, or why it makes nothing of it, for each percept.
 std::string levels_text(const FeltReport& report) {
   const Felt& felt = report.felt;
@@ -139,7 +163,9 @@ std::string levels_text(const FeltReport& report) {
   }
   if (report.levels.empty())
     text += felt.vibration ? "  percepts     none that a map reads: it does not vibrate\n"
-                           : "  percepts     none that a map reads\n";
+            : report.read.empty()
+                ? "  percepts     none that a map reads\n"
+                : fmt::format("  percepts     none is asked for; `wale describe` reads {}\n", read_text(report.read));
   if (!report.needed_seconds) return text;
   if (*report.needed_seconds <= longest_proposed_run)
     return text +
@@ -194,6 +220,10 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
   report.scheduling = run.scheduling;
   report.predicted_amplitude = std::min(predicted_amplitude(bank), static_cast<float>(device.most()));
   const double settling = std::min(settling_seconds, report.seconds / 2);
+  report.settling = settling;
+  for (const TickRecord& tick : run.record.ticks)
+    if (const double size = glm::length(tick.force); size > report.largest)
+      report.largest = size, report.largest_at = tick.time;
   report.felt = measure(run.record, {.position_step = device.position_step(),
                                      .predicted_amplitude = report.predicted_amplitude,
                                      .settling = settling,
@@ -243,6 +273,7 @@ std::string felt_text(const FeltReport& report) {
     text +=
         readable("  actuator     {}{}\n", force_text(felt.ticks_rubbing > 0 ? felt.force_rubbing : felt.force),
                  felt.ticks_rubbing > 0 ? " (at the handle, while rubbing)" : " (at the handle; the hand did not rub)");
+  text += largest_text(report);
   if (report.predicted_amplitude > 0)
     text +=
         readable("  aims at      amplitude {:.3f} {}\n", report.predicted_amplitude, felt.vibration ? "m/s^2" : "N");
@@ -289,6 +320,7 @@ std::string felt_json(const FeltReport& report) {
   } else {
     json["actuator"] = force_json(felt.force);
     json["actuator_rubbing"] = force_json(felt.force_rubbing);
+    json["largest"] = {{"newton", report.largest}, {"at_s", report.largest_at}};
     json["predicted_amplitude_newton"] = report.predicted_amplitude;
   }
   if (felt.interaction) json["interaction"] = force_json(*felt.interaction);
@@ -312,6 +344,7 @@ std::string felt_json(const FeltReport& report) {
       entry = {{"refused", in_words(report.levels[i].back.error())}};
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
   }
+  for (const auto& [name, level] : report.read) percepts[name] = {{"described", level}};
   if (report.needed_seconds && std::isfinite(*report.needed_seconds)) json["needed_seconds"] = *report.needed_seconds;
   for (const auto& [name, count] : named(report.guards)) json["guards"][std::string(name)] = count;
   json["guards"]["restored"] = report.guards.restored;

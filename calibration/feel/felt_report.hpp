@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "compiler/declarations/declarations.hpp"
 #include "runtime/device/hot_plugged_device.hpp"
 #include "wale/felt.hpp"
 #include "wale/stage.hpp"
@@ -37,6 +39,10 @@ struct FeltReport {
   std::vector<double> asked;       ///< the level asked for; negative if none was
   std::vector<float> aimed;        ///< the carrier's size that the program aims at, as far as the device gives it
   std::vector<std::string> units;  ///< the carrier's unit
+  /// Where the program has no percepts of its own: those that `describe` reads of its force, and their levels.
+  std::vector<std::pair<std::string, double>> read;
+  double largest = 0, largest_at = 0;  ///< N: the actuator's largest force of all ticks, and when, s
+  double settling = 0;                 ///< s at the beginning that the measured figures leave out
   /// s: about how long such a run must be for the hand to cross the texture often enough, if it did not; infinite if it
   /// crossed nothing.
   std::optional<double> needed_seconds;
@@ -50,6 +56,10 @@ inline constexpr double longest_proposed_run = 60;
 
 /// Measures a run, without its first part, in which forces slew in and the hand comes up to speed.
 FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfile& device, RunManner manner);
+
+/// Adds what `describe` reads of the program: its percepts, if the program has none of its own, and why a level of it
+/// is unknown, as of a texture outside of what its map was measured with.
+void tell_read_percepts(FeltReport& report, const Bank& bank, const Declarations& declarations);
 
 std::string felt_text(const FeltReport& report);
 std::string felt_json(const FeltReport& report);

@@ -69,16 +69,26 @@ class MaterialChecker {
     if (force) {
       material_.force = {force->x, force->y};
       material_.force_span = own.layers().empty() ? node_.name.span : own.layers().front().span;
+      for (const auto& layer : own.layers()) {
+        const std::string_view text = surroundings_.sources.text(layer.span);
+        const bool of_library = std::ranges::any_of(checker_.record().carriers, [&](const Carrier& each) {
+          return each.span.source == layer.span.source && each.span.begin > layer.span.begin &&
+                 each.span.end <= layer.span.end;
+        });
+        material_.forces.push_back({{layer.force.x, layer.force.y},
+                                    layer.span,
+                                    text.starts_with('+') || (text.starts_with('-') && of_library)});
+      }
     }
     // After an error, a name may only seem unused: the erroneous expression may use it.
     if (whole_ && surroundings_.diagnostics.error_count() == errors_before_) own.warn_of_unused_names(node_.span);
     if (!material_.relief) find_relief(own);
-    if (force) warn_of_scaled_textures();
+    if (force) find_scaled_textures();
   }
 
-  /// Warns of `2 * lateral(h)`: the percept is solved for `lateral(h)`, so the handle would give twice as much. A
+  /// Finds `2 * lateral(h)`: the percept is solved for `lateral(h)`, so the handle would give twice as much. A
   /// factor that changes from tick to tick is fine: it modulates the texture in time.
-  void warn_of_scaled_textures() {
+  void find_scaled_textures() {
     const Terms& terms = material_.terms;
     for (const auto& carrier : checker_.record().carriers) {
       if (!carrier.open) continue;
@@ -89,12 +99,7 @@ class MaterialChecker {
         const bool quotient = term.kind == TermKind::operation && term.operation == Operation::divide;
         if (!(product && term.b == carrier.force_x) && !(quotient && term.a == carrier.force_x)) continue;
         if (terms.dependence(product ? term.a : term.b).in_tick()) continue;
-        material_.scales_a_texture = true;
-        surroundings_.diagnostics.report(
-            {.code = Code::scaled_texture,
-             .span = term.span,
-             .message = "the amplitude is solved from the percept, and then changed by a factor",
-             .help = "leave the factor out and ask for more or less of the percept"});
+        material_.scaled_textures.push_back(term.span);
       }
     }
   }

@@ -72,7 +72,7 @@ int preview(const PreviewOptions& options) {
   const auto drawing =
       draw_preview(bank, preview_text(bank, *declarations), *declarations, {*section, options.seconds});
   if (!drawing) return refuse(drawing.error());
-  if (!drawing->has_text)
+  if (!drawing->page->has_text())
     print_error("wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
   const PatchProgram& described = program.description();
   if (const std::size_t coarseness = coarseness_of(described); coarseness > 1)
@@ -82,7 +82,7 @@ int preview(const PreviewOptions& options) {
         "wale: this program is so large that its surface is drawn in squares of {0} x {0} pixels, each of one "
         "sample\n",
         drawing->coarseness);
-  const auto bytes = encode_drawing(*drawing, options.out);
+  const auto bytes = encode_page(*drawing->page, options.out);
   if (!bytes) return refuse(bytes.error());
   const auto written =
       write_file(options.out, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, *options.choice.inputs);
@@ -96,7 +96,7 @@ Run declare_preview(CLI::App& verb) {
   offer_settings(verb, options->settings);
   offer_output(
       verb, options->out,
-      "the picture to write, as in corduroy.png; also .jpg, .tif and the other formats that OpenImageIO writes")
+      "the picture to write, as in corduroy.png; also .svg, .jpg, .tif and the other formats that OpenImageIO writes")
       ->required();
   must_say(verb.add_option("--along", options->along,
                            "the direction of the section: x, y, or an angle to the left of x in degrees, as in 30 "

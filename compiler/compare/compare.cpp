@@ -25,14 +25,18 @@ double exerts(const CueFacts& facts, const Declarations& declarations) {
 
 bool is_direction(CueKind kind) {
   return kind == CueKind::orientation || kind == CueKind::push_axis || kind == CueKind::stiffness_axis ||
-         kind == CueKind::viscosity_axis || kind == CueKind::friction_axis || kind == CueKind::mass_axis;
+         kind == CueKind::vibration_axis || kind == CueKind::sway_axis || kind == CueKind::viscosity_axis ||
+         kind == CueKind::friction_axis || kind == CueKind::mass_axis;
+}
+
+bool is_across(CueKind kind) {
+  return kind == CueKind::stiffness_across || kind == CueKind::viscosity_across || kind == CueKind::friction_across ||
+         kind == CueKind::mass_across;
 }
 
 /// A cue's value in a material. Across its axis, what is alike in all directions has its one size.
 std::optional<double> value_of(CueKind kind, const Cues& cues) {
-  const auto whole = whole_of(kind);
-  const bool across = whole && cue_table()[static_cast<std::size_t>(kind)].exerts;
-  return across && !cues[kind] ? cues[*whole] : cues[kind];
+  return is_across(kind) && !cues[kind] ? cues[*whole_of(kind)] : cues[kind];
 }
 
 Verdict verdict_of(const std::optional<double>& plainest, bool unknown) {

@@ -63,11 +63,11 @@ std::vector<std::string> dependences(const PatchProgram& program) {
 }
 
 /// Why the program has no texture of its own, in a line; empty if it has one.
-std::string why_no_texture(const PatchProgram& program, const Measured& force) {
+std::string why_no_texture(const PatchProgram& program, const Measured& force, bool later) {
   if (std::ranges::find(program.percepts, Extractor::lateral_force, &PerceptRecord::extractor) !=
       program.percepts.end())
     return {};
-  if (force.max_newton == 0) return "it does not push";
+  if (force.max_newton == 0 && !later) return "it does not push";
   const auto found = dependences(program);
   if (found.empty())
     return depends_on_place(program) ? "its force depends on the position and has no relief"
@@ -93,7 +93,9 @@ std::string bands_in_words(const Declarations& declarations) {
 /// Why nothing that people name was read, in a line.
 std::string why_no_percept(const Description& description, const PatchProgram& program,
                            const Declarations& declarations) {
-  if (description.force.max_newton == 0) return "it does not push";
+  const bool later = description.grade.later_newton > 0;
+  if (description.force.max_newton == 0)
+    return later ? readable("it does not push in the first {:.3g} s", still_seconds) : "it does not push";
   if (description.texture && description.texture->force.amplitude > 0)
     return description.texture->force.period > 0
                ? readable("its texture has a period of {:.3g} mm ({})", 1e3 * description.texture->force.period,
@@ -104,7 +106,7 @@ std::string why_no_percept(const Description& description, const PatchProgram& p
       depends_on_place(program))
     return readable("`{}` cuts its force, and a force that is cut has no size that a map covers",
                     description.device.name);
-  const std::string why = why_no_texture(program, description.force);
+  const std::string why = why_no_texture(program, description.force, description.grade.later_newton > 0);
   return why.empty() ? "no map covers what it does" : why;
 }
 
@@ -140,7 +142,9 @@ void describe_bounds(Description& description, const Program& program) {
 /// What is called the largest force is the largest of all searches: with these parameters on this patch, and of any.
 void settle_largest(Description& description, const Bank& bank, const ForceReading& read) {
   float& most = description.force.max_newton;
-  most = std::max({most, static_cast<float>(description.grade.largest_newton), static_cast<float>(read.other.rehearsed)});
+  // What lasts long enough to be a percentile was found, too.
+  most = std::max({most, static_cast<float>(description.grade.largest_newton), static_cast<float>(read.other.rehearsed),
+                   description.force.p99_newton});
   LargestForce& found = description.bound.found;
   const auto first = bank.registers().begin() + bank.program().description().first_parameter();
   const glm::vec2 half = 0.5f * glm::vec2(bank.size().width, bank.size().height), at = glm::abs(found.hand.position);
@@ -184,11 +188,12 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
   else
     work(0, 1);
   settle_largest(description, bank, found);
-  description.no_texture = why_no_texture(program, description.force);
+  description.no_texture = why_no_texture(program, description.force, description.grade.later_newton > 0);
   description.percepts = recorded_percepts(bank, found, declarations);
   description.fates = fates_at(bank, found, declarations);
   if (texture == Texture::left_out) return;
   tell_settings(description.percepts, bank, found, declarations);
+  tell_ends(description.percepts, bank, found, declarations);
   if (description.limit_matters) {
     const auto speed = static_cast<float>(normal_hand(declarations).speed());
     for (std::size_t i = 0; i < program.parameters.size(); ++i) description.cuts.push_back(cut_ranges(bank, i, speed));

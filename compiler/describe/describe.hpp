@@ -12,6 +12,8 @@
 #include "compiler/measure/measure.hpp"
 #include "compiler/prove/force_bound.hpp"
 #include "compiler/prove/prove.hpp"
+#include "compiler/read/motion.hpp"
+#include "compiler/read/other_force.hpp"
 #include "compiler/read/relief.hpp"
 #include "compiler/read/wall.hpp"
 #include "wale/program.hpp"
@@ -33,6 +35,9 @@ struct DescribedPercept {
   double amplitude = 0;             ///< the carrier's size that is read from the finished program, in `unit`
   std::string unit;                 ///< of the carrier's size, SI: "N", "N s/m"
   bool readable = true;             ///< otherwise it is the size aimed at, as far as the device gives it
+  bool effective = false;           ///< of a texture that the author gave no such size: the force has it as a whole
+  bool changed = false;             ///< a factor changes its force after it was solved
+  bool unknown = false;             ///< `outside` says why no map tells the level of what it pushes
   double level = 0, magnitude = 0;  ///< of that size, by the map
   LawUncertainty uncertainty;       ///< of the map
   LevelIntervals intervals;         ///< of the level, by that uncertainty
@@ -42,9 +47,16 @@ struct DescribedPercept {
   bool alone = true;                ///< no other force pushes; otherwise a run cannot read the level back
   /// What it reads where its level is at the least, in the middle and at the most: of a level that is a parameter.
   struct Setting {
-    double asked = 0, reads = 0;
+    double asked = 0, reads = 0;  ///< `reads` is not a number where it is unknown
   };
   std::vector<Setting> settings;
+  /// Where another parameter ends, and people would notice that the level there is another than the one asked for.
+  struct End {
+    std::size_t parameter = 0;
+    float value = 0;
+    double reads = 0;  ///< not a number where it is unknown
+  };
+  std::vector<End> ends;
   std::string parameter;  ///< the name of that parameter
 
   /// The worst of slope, anchor, handle and domain.
@@ -67,6 +79,8 @@ struct DescribedTexture {
   std::string counts_as;
   /// What the hand meets of the strongest wave, if that is too fine for the device's encoder.
   std::optional<ReliefWave> encoder_pattern;
+  /// m: by which it is named: that of its strongest wave, where it repeats after a multiple that itself is no wave.
+  double named_by = 0;
   std::string texture_class, size_class;  ///< "flat texture", "moguls"; empty without a texture or a rule
   std::string felt_as;                    ///< of the size class: "separate features"; empty for a texture like others
   /// how sure people are that it is a texture: "high", "low", or the stimulus that they rated
@@ -96,8 +110,10 @@ struct Description {
     Principal size;
   };
   std::vector<Directed> directed;
-  Swing sway;                ///< slower than 10 Hz, which no percept tells; of amplitude 0 if there is none
-  double small_feature = 0;  ///< N: the largest force of what fills less than a hundredth of the patch
+  Swing sway;                        ///< slower than 10 Hz, which no percept tells; of amplitude 0 if there is none
+  Swing noise;                       ///< what changes with time without a rate; of amplitude 0 if nothing does
+  OpposingForce motion;              ///< what resists a moving hand
+  double small_feature = 0;          ///< N: the largest force of what fills less than a hundredth of the patch
   glm::dvec2 constant_push{0};       ///< N: everywhere alike
   OtherForce other;                  ///< what no cue explains
   double aside = 0;                  ///< N: on a hand at 0.2 m/s, square to its way

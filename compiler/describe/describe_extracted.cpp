@@ -89,11 +89,25 @@ std::string counting_as(const Relief& relief, const Declarations& declarations) 
   return found;
 }
 
+/// The period of a relief; that of its strongest part if no part has it, as of 4 mm and 5 mm together.
+double strongest_period(const Relief& relief) {
+  constexpr double alike = 0.02, plainly = 1.1;
+  const Relief::Part* strongest = nullptr;
+  for (const Relief::Part& each : relief.parts) {
+    if (std::abs(each.period - relief.period) <= alike * relief.period) return relief.period;
+    // Of two that are as strong, the finer is what makes it a texture.
+    const bool finer = strongest && each.period < strongest->period;
+    if (!strongest || each.share > (finer ? 1 / plainly : plainly) * strongest->share) strongest = &each;
+  }
+  return strongest && relief.regular() ? strongest->period : relief.period;
+}
+
 /// `count` (m) is the step of the device's encoder.
 DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double largest_newton, const PatchSize& size,
                             double count, const Declarations& declarations) {
   DescribedTexture texture{.force = found.relief(), .kind = kind_of(cues, found, largest_newton, size, declarations)};
   if (!cues[CueKind::amplitude]) texture.force = {};
+  texture.force.maximum = std::min(texture.force.maximum, largest_newton);
   texture.counts_as = counting_as(found.relief(), declarations);
   if (texture.force.regular() && !texture.force.waves.empty())
     texture.encoder_pattern = encoder_pattern(texture.force.waves.front(), count);
@@ -101,7 +115,8 @@ DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double 
   // their confidence for the kinds that the rule names; of other surfaces the rules say nothing.
   const bool has_texture = texture.force.amplitude > 0 && texture.force.period > 0;
   Sizes sizes;
-  if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", as_well_as_read(texture.force.period)}};
+  texture.named_by = strongest_period(texture.force);
+  if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", as_well_as_read(texture.named_by)}};
   const auto found_class = [&](Classified classified) {
     return class_of(classified, sizes, texture.kind, declarations);
   };
@@ -134,11 +149,16 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
     }
   }
   if (found.sway.amplitude >= least_force) description.sway = found.sway;
+  if (found.vibration.noise && found.vibration.amplitude >= least_force) description.noise = found.vibration;
+  description.motion = found.opposing;
   description.small_feature = cues[CueKind::small_feature].value_or(0);
   if (glm::length(found.constant) >= least_force) description.constant_push = found.constant;
   const auto counting = [](double force) { return force >= least_force ? force : 0; };
-  description.other = {counting(found.other.button), counting(found.other.slowly), counting(found.other.remembered),
-                       counting(found.other.moving)};
+  description.other = {.button = counting(found.other.button),
+                       .slowly = counting(found.other.slowly),
+                       .remembered = counting(found.other.remembered),
+                       .moving = counting(found.other.moving),
+                       .later = counting(found.other.later)};
   description.aside = counting(found.opposing.aside);
   const double unread = std::abs(cues[CueKind::other_force].value_or(0));
   if (unread > std::max(description.other.largest(), description.aside)) description.unread = unread;

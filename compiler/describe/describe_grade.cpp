@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/read/swing.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {
@@ -22,6 +23,7 @@ std::string place_words(const WorstPlace& place) {
 }
 
 std::string damping_words(const Grade& grade) {
+  if (grade.required_damping == 0 && grade.later_newton > 0) return "needs no damping at first";
   if (grade.required_damping == 0) return "needs no damping";
   if (std::isinf(grade.required_damping)) return "no damping makes the sampled loop passive";
   return readable("needs a damping of {:.3g} N s/m or more", grade.required_damping);
@@ -79,10 +81,16 @@ std::string resolution_line(const Grade& grade) {
 
 }  // namespace
 
+std::string later_words(double newton) {
+  return readable("the first {:.3g} s were looked at; later it may push up to {:.3f} N (proved)", still_seconds,
+                  newton);
+}
+
 std::string grade_text(const Grade& grade, const DeviceProfile& device) {
   std::string text = line(standing_word(grade.standing), standing_line(grade, device));
   if (grade.standing == Standing::not_analysed) return text;
   for (const auto& reason : grade.energy.reasons) text += line("", reason);
+  if (grade.later_newton > 0) text += line("", later_words(grade.later_newton));
   if (grade.standing == Standing::active && grade.energy.watt() > 0)
     text += line("", readable("gives a hand up to {:.2g} W", grade.energy.watt()));
   if (grade.required_damping > 0) text += line("", readable("largest at {}", place_words(grade.worst)));

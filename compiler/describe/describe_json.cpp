@@ -5,6 +5,7 @@
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/describe/describe_motion.hpp"
 #include "compiler/describe/fates_json.hpp"
 #include "compiler/text/json_text.hpp"
 
@@ -52,6 +53,8 @@ nlohmann::ordered_json to_json(const Grade& grade) {
   json["conservative"] = grade.energy.conservative;
   json["watt"] = figure(grade.energy.watt());
   json["reasons"] = grade.energy.reasons;
+  if (grade.later_newton > 0)
+    json["looked_at_seconds"] = still_seconds, json["later_newton"] = figure(grade.later_newton);
   return json;
 }
 
@@ -119,7 +122,7 @@ nlohmann::ordered_json to_json(const OutsideRange& outside) {
           {"high_si", end(outside.high)}, {"assumed", outside.assumed},        {"words", in_words(outside)}};
 }
 
-nlohmann::ordered_json to_json(const DescribedPercept& percept) {
+nlohmann::ordered_json to_json(const DescribedPercept& percept, const std::vector<Parameter>& parameters) {
   using Json = nlohmann::ordered_json;
   Json entry;
   entry["asked"] = percept.asked ? Json(figure(*percept.asked)) : Json(nullptr);
@@ -156,6 +159,13 @@ nlohmann::ordered_json to_json(const DescribedPercept& percept) {
     Json& settings = entry["settings"] = Json::array();
     for (const DescribedPercept::Setting& each : percept.settings)
       settings.push_back({{"asked", figure(each.asked)}, {"level", figure(each.reads)}});
+  }
+  if (!percept.ends.empty()) {
+    Json& ends = entry["at_ends"] = Json::array();
+    for (const DescribedPercept::End& each : percept.ends)
+      ends.push_back({{"parameter", parameters[each.parameter].name},
+                      {"value_si", figure(each.value)},
+                      {"level", figure(each.reads)}});
   }
   entry["saturated"] = percept.saturated;
   entry["outside_validity"] = percept.outside_validity();
@@ -213,6 +223,8 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   if (description.sway.amplitude > 0)
     json["sway"] = {{"amplitude_newton", figure(description.sway.amplitude)},
                     {"frequency_hz", figure(description.sway.frequency)}};
+  if (description.noise.amplitude > 0) json["noise_in_time_newton"] = figure(description.noise.amplitude);
+  add_motion(json, description.motion);
   const auto other = [&](const char* name, double force) {
     if (force > 0) json["other_force_newton"][name] = figure(force);
   };
@@ -220,6 +232,7 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   other("slowly", description.other.slowly);
   other("remembered", description.other.remembered);
   other("moving", description.other.moving);
+  other("later", description.other.later);
   other("aside", description.aside);
   other("unread", description.unread);
   other("small_feature", description.small_feature);
@@ -264,7 +277,7 @@ nlohmann::ordered_json to_json(const Description& description) {
   }
   json["documentation"] = description.layers.documentation;
   auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
-  for (const auto& percept : description.percepts) percepts[percept.name] = to_json(percept);
+  for (const auto& percept : description.percepts) percepts[percept.name] = to_json(percept, description.parameters);
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
   if (!description.no_texture.empty()) json["no_texture"] = description.no_texture;
   if (description.texture) json["texture"] = to_json(*description.texture);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compiler/evidence/domain.hpp"
+#include "compiler/measure/coarseness.hpp"
 #include "compiler/read/proportional.hpp"
 #include "runtime/machine/parallel.hpp"
 
@@ -32,8 +33,8 @@ DescribedPercept recorded_percept(const Bank& bank, std::size_t index, const For
   percept.aimed = told.aimed;
   percept.blended = record.blended, percept.solved = record.parameter || record.blended;
   percept.realisation = record.realisation;
-  percept.alone = record.alone;
-  percept.readable = told.readable;
+  percept.alone = record.alone, percept.changed = percept.solved && !record.basis.summand;
+  percept.readable = told.readable, percept.unknown = told.unknown;
   percept.amplitude = told.size, percept.level = told.level, percept.magnitude = told.magnitude;
   const bool limited = record.unit == (program.vibrates() ? "m/s^2" : "N");
   percept.saturated = limited && told.aimed > given * record.basis.share;
@@ -55,6 +56,7 @@ void tell_evidence(DescribedPercept& percept, const PerceptRecord& record, const
   percept.slope = record.slope, percept.anchor = record.anchor, percept.handle = record.handle;
   percept.map = record.map, percept.device = record.device, percept.source = record.source;
   percept.uncertainty = record.uncertainty;
+  percept.effective = record.extractor == Extractor::lateral_force && !percept.solved;
   percept.intervals =
       level_intervals(record.uncertainty, percept.level, record.one > 0 ? percept.amplitude / record.one : 0);
   percept.near_threshold = percept.level < record.near_threshold;
@@ -81,12 +83,61 @@ std::vector<DescribedPercept> recorded_percepts(const Bank& bank, const ForceRea
   for (std::size_t i = 0; i < bank.program().description().percepts.size(); ++i) {
     DescribedPercept percept = recorded_percept(bank, i, found, given, declarations);
     // A parameter may make a viscosity or a spring push along instead of against the hand, and no map covers that.
-    if (!std::isfinite(percept.level)) continue;
+    if (!std::isfinite(percept.level) && !percept.unknown) continue;
     // What nobody asked for and nothing reads is not there.
     if (!percept.asked && percept.amplitude == 0) continue;
     percepts.push_back(std::move(percept));
   }
   return percepts;
+}
+
+void tell_ends(std::vector<DescribedPercept>& percepts, const Bank& bank, const ForceReading& found,
+               const Declarations& declarations) {
+  const PatchProgram& program = bank.program().description();
+  if (coarseness_of(program) > 1) return;  // a reading takes long
+  struct Task {
+    std::size_t parameter = 0;
+    float value = 0;
+    std::vector<std::optional<double>> reads;  ///< for each percept, where it is another level
+  };
+  std::vector<Task> tasks;
+  const auto is_level = [&](std::size_t i) {
+    return std::ranges::any_of(program.percepts, [&](const PerceptRecord& each) { return each.parameter == i; });
+  };
+  const bool asks =
+      std::ranges::any_of(percepts, [](const DescribedPercept& each) { return each.asked && each.readable; });
+  std::vector<float> values;
+  for (std::size_t i = 0; i < program.parameters.size(); ++i)
+    values.push_back(bank.registers()[program.first_parameter() + i]);
+  for (std::size_t i = 0; asks && i < program.parameters.size(); ++i)
+    for (const float end : {program.parameters[i].low, program.parameters[i].high})
+      if (!is_level(i) && end != values[i]) tasks.push_back({i, end, {}});
+  in_parallel(tasks.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Task& task = tasks[i];
+      task.reads.resize(percepts.size());
+      std::vector<float> there_values = values;
+      there_values[task.parameter] = task.value;
+      const Bank there(bank.program(), there_values, bank.size());
+      const auto times = times_as_strong(bank, there);
+      const ForceReading reading =
+          times ? times_as_strong(found, *times) : read(there, declarations, parts_for(program));
+      for (std::size_t j = 0; j < percepts.size(); ++j) {
+        const DescribedPercept& percept = percepts[j];
+        const auto record = std::ranges::find(program.percepts, percept.name, &PerceptRecord::name);
+        if (record == program.percepts.end() || !percept.asked || percept.blended) continue;
+        const auto index = static_cast<std::size_t>(record - program.percepts.begin());
+        const PerceptReading told = percept_reading(there, index, reading, declarations);
+        // What is another level only because this one is already is no news.
+        const bool otherwise = told.unknown || differs(*record, told.aimed, *percept.asked, told.size, told.level);
+        const bool news = told.unknown ? !percept.unknown : !(std::abs(told.level - percept.level) < 0.005);
+        if (told.readable && otherwise && news) task.reads[j] = told.level;
+      }
+    }
+  });
+  for (const Task& task : tasks)
+    for (std::size_t j = 0; j < percepts.size(); ++j)
+      if (task.reads[j]) percepts[j].ends.push_back({task.parameter, task.value, *task.reads[j]});
 }
 
 void tell_settings(std::vector<DescribedPercept>& percepts, const Bank& bank, const ForceReading& found,

@@ -8,6 +8,7 @@
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/describe/describe_grade.hpp"
+#include "compiler/describe/describe_motion.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {
@@ -64,11 +65,13 @@ std::string people_line(const DescribedPercept& percept) {
 
 std::vector<std::string> reading_lines(const DescribedPercept& percept, const Description& description) {
   std::vector<std::string> lines;
+  if (percept.unknown) return {"unknown"};
   if (percept.amplitude == 0) {
     lines.push_back(readable("{:.2f}: nothing in the finished program carries it", percept.level));
     return lines;
   }
-  lines.push_back(readable("{:.2f} from {} {:.4g} {} (magnitude {:.3g})", percept.level, percept.carrier,
+  lines.push_back(readable("{:.2f} from {}{} {}{:.4g} {} (magnitude {:.3g})", percept.level,
+                           percept.effective ? "an effective " : "", percept.carrier, percept.effective ? "of " : "",
                            percept.amplitude, percept.unit, percept.magnitude));
   lines.push_back(people_line(percept));
   if (!percept.readable && !description.shaking)
@@ -81,8 +84,9 @@ std::vector<std::string> reading_lines(const DescribedPercept& percept, const De
     lines.push_back(readable("{}`{}` renders it as {}", description.shaking ? "" : "the author wrote no physics: ",
                              description.device.name, percept.realisation));
   if (!percept.alone && !percept.extracted)
-    lines.push_back(readable("other {} too, so a run cannot read it back",
-                             description.shaking ? "percepts shake it" : "forces push"));
+    lines.push_back(readable("{}, so a run cannot read it back", percept.changed       ? "a factor changes its force"
+                                                                 : description.shaking ? "other percepts shake it too"
+                                                                                       : "other forces push too"));
   return lines;
 }
 
@@ -116,6 +120,21 @@ std::string range_text(const Parameter& parameter, float low, float high) {
                   parameter.unit.empty() ? "" : " ", parameter.unit);
 }
 
+/// "0.42", "unknown": a level that is read.
+std::string read_level(double level) { return std::isfinite(level) ? with_decimals(level, 2) : "unknown"; }
+
+/// "; at 0 roughness reads 0.00": where a parameter ends, the levels that people would notice to be others.
+std::string ends_text(const std::vector<DescribedPercept>& percepts, const Parameter& parameter, std::size_t number) {
+  std::string text;
+  for (const DescribedPercept& percept : percepts)
+    for (const DescribedPercept::End& end : percept.ends)
+      if (end.parameter == number)
+        text += readable("{}at {}{}{} {} reads {}", text.empty() && parameter.description.empty() ? "" : "; ",
+                         shown(end.value, parameter.unit_in_si), parameter.unit.empty() ? "" : " ", parameter.unit,
+                         percept.name, read_level(end.reads));
+  return text;
+}
+
 /// "; reads as asked at 0, 0.5 and 1", of a level that was solved.
 std::string settings_text(const std::vector<DescribedPercept>& percepts, const std::string& parameter) {
   const auto percept = std::ranges::find(percepts, parameter, &DescribedPercept::parameter);
@@ -126,7 +145,7 @@ std::string settings_text(const std::vector<DescribedPercept>& percepts, const s
   std::vector<std::string> asked, reads;
   for (const DescribedPercept::Setting& each : percept->settings) {
     asked.push_back(with_digits(each.asked, 2));
-    reads.push_back(with_decimals(each.reads, 2));
+    reads.push_back(read_level(each.reads));
   }
   return as_asked ? readable("; reads as asked at {}, {} and {}", asked[0], asked[1], asked[2])
                   : readable("; at {}, {} and {} it reads {}, {} and {}", asked[0], asked[1], asked[2], reads[0],
@@ -147,15 +166,16 @@ void write_parameters(std::string& text, const Description& description) {
   std::size_t width = 12;
   for (const auto& parameter : parameters) width = std::max(width, parameter.name.size());
   for (const auto& parameter : parameters) {
+    const auto number = static_cast<std::size_t>(&parameter - parameters.data());
     const bool usual = parameter.soft_low != parameter.low || parameter.soft_high != parameter.high;
     text += fmt::format("  {:<{}} {:<12} {:<20} {}\n", parameter.name, width,
                         readable("{} {}", shown(parameter.value, parameter.unit_in_si), parameter.unit),
                         range_text(parameter, parameter.low, parameter.high),
-                        parameter.description + settings_text(description.percepts, parameter.name));
+                        parameter.description + settings_text(description.percepts, parameter.name) +
+                            ends_text(description.percepts, parameter, number));
     if (usual)
       text += fmt::format("  {:<{}} {:<12} usually {}\n", "", width, "",
                           range_text(parameter, parameter.soft_low, parameter.soft_high));
-    const auto number = static_cast<std::size_t>(&parameter - parameters.data());
     if (number < description.cuts.size())
       for (const CutRange& cut : description.cuts[number])
         text += fmt::format("  {:<{}} {:<12} {}\n", "", width, "", cut_text(cut, parameter, description.device));
@@ -206,8 +226,21 @@ void write_texture(std::string& text, const Description& description) {
                      force.oriented() ? readable(", changes along the direction {} from x",
                                                  in_degrees(readable("{}", degrees(force.orientation))))
                                       : "");
-    if (force.waves.size() > 1)
-      for (const ReliefWave& wave : force.waves)
+    // A texture in a part of the patch is found as several waves of one period.
+    std::vector<ReliefWave> waves;
+    for (const ReliefWave& wave : force.waves) {
+      const auto same = std::ranges::find_if(waves, [&](const ReliefWave& each) {
+        constexpr double near = 0.02;
+        return std::abs(wave.period - each.period) < near * each.period &&
+               std::abs(std::remainder(wave.orientation - each.orientation, std::numbers::pi)) < near;
+      });
+      if (same == waves.end())
+        waves.push_back(wave);
+      else
+        same->share += wave.share;
+    }
+    if (waves.size() > 1)
+      for (const ReliefWave& wave : waves)
         text += readable("  {:.0f} % of it has a period of {:.2g} mm along {}\n", 100 * wave.share, 1e3 * wave.period,
                          in_degrees(readable("{}", degrees(wave.orientation))));
     if (const auto& met = texture.encoder_pattern)
@@ -216,7 +249,7 @@ void write_texture(std::string& text, const Description& description) {
           std::isfinite(met->period) ? readable("a pattern of {:.3g} mm", 1e3 * met->period) : "the same everywhere");
     if (!texture.texture_class.empty()) text += readable("  people would call it {}\n", texture.texture_class);
     if (!texture.felt_as.empty())
-      text += readable("  period {:.3g} mm: felt as {}\n", 1e3 * force.period, texture.felt_as);
+      text += readable("  period {:.3g} mm: felt as {}\n", 1e3 * texture.named_by, texture.felt_as);
   } else {
     const std::string& why = texture.kind.empty() ? description.no_texture : texture.kind;
     text += readable("  none{}{}\n", why.empty() ? "" : ": ", why);
@@ -238,12 +271,13 @@ std::string bound_lines(const Description& description) {
         "{:.2f} times that\n",
         bound.found.newton, bound.ratio());
   if (!description.limit_matters) return line;
+  constexpr double told_newtons = 1e6;  // a larger number tells nothing more
   const double most = description.device.force_newton, asked = description.asked.largest();
   if (asked > most)
     line += readable(
         "  limited by the compiler: the formulas may ask for {} along x or y, and `{}` gives {:.4g} N.\n"
         "  Limiting x and y separately turns the force; `force = … limit {:.4g} N` keeps its direction\n",
-        std::isfinite(asked) ? with_digits(asked, 3) + " N" : "any force", description.device.name, most, most);
+        asked < told_newtons ? with_digits(asked, 3) + " N" : "any force", description.device.name, most, most);
   if (description.asked.maybe_nan)
     line += "  limited by the compiler: where its formulas give no number, the force is 0\n";
   return line;
@@ -272,6 +306,10 @@ std::string other_forces(const Description& description) {
   if (description.sway.amplitude > 0)
     text += readable("  a sway of {:.3g} N at {:.3g} Hz, which no percept tells\n", description.sway.amplitude,
                      description.sway.frequency);
+  if (description.noise.amplitude > 0)
+    text += readable("  up to {:.3g} N that changes with time without a rate, which no percept tells\n",
+                     description.noise.amplitude);
+  text += motion_lines(description.motion);
   if (description.small_feature > 0)
     text += readable("  up to {:.3g} N in less than a hundredth of the patch, which no percept tells\n",
                      description.small_feature);
@@ -283,6 +321,7 @@ std::string other_forces(const Description& description) {
     text += readable("  up to {:.3g} N by where the hand has been, which no percept tells\n", other.remembered);
   if (other.moving > 0)
     text += readable("  up to {:.3g} N on a hand at 250 mm/s, which no percept tells\n", other.moving);
+  if (other.later > 0) text += readable("  {}\n", later_words(other.later));
   if (description.aside > 0)
     text += readable("  {:.3g} N aside on a hand at 200 mm/s, which no percept tells\n", description.aside);
   if (description.unread > 0) text += readable("  up to {:.3g} N that no percept tells\n", description.unread);

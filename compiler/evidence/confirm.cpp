@@ -121,19 +121,22 @@ std::optional<std::vector<FateRecord>> confirm(const Bank& bank, const ForceRead
     const auto correction = correct_fate(*fate, bank, i, *percept.asked, found, declarations);
     if (!correction) continue;
     changed = true;
+    fate->given = std::clamp(fate->given, 0.0f, 1.0f);  // as a program may hold it
     if (doubted && correction->told.size == 0) continue;
     const std::vector<OutsideRange> outside = outside_ranges(record, correction->told);
     for (const OutsideRange& each : outside) report_outside(record, each, asked->place(), diagnostics);
     // A force that is switched or swells while it is felt reads as its author meant; a constant factor has its own
     // warning.
     const auto changes = [&](TermId force) { return material.terms.dependence(force).changing(); };
-    const bool as_meant = !record.basis.summand && (material.scales_a_texture || !material.force ||
+    const bool as_meant = !record.basis.summand && (!material.scaled_textures.empty() || !material.force ||
                                                     changes((*material.force)[0]) || changes((*material.force)[1]));
     // That a program pushes nowhere has a warning of its own, with this cause.
     const bool never_pushes = std::ranges::any_of(diagnostics.all(), [&](const Diagnostic& each) {
       return each.code == Code::never_pushes && each.span == solved.force_span;
     });
-    if (outside.empty() && !as_meant && !never_pushes)
+    const PerceptReading& told = correction->told;
+    const bool noticed = differs(record, told.aimed, *percept.asked, told.size, told.level);
+    if (outside.empty() && noticed && !as_meant && !never_pushes)
       report_difference(record, correction->told, *percept.asked, correction->why, asked->place(), diagnostics);
   }
   return changed ? std::optional(std::move(fates)) : std::nullopt;

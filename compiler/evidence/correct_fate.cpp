@@ -20,8 +20,9 @@ std::optional<FateCorrection> correct_fate(FateRecord& fate, const Bank& bank, s
   if (correction.why.empty()) return std::nullopt;
   if (fate.fate == Fate::saturated && outside_ranges(record, correction.told).empty()) return std::nullopt;
   if (fate.fate == Fate::kept) fate.fate = Fate::approximated;
-  if (fate.fate != Fate::saturated)
-    fate.given = static_cast<float>(std::clamp(as_kept(correction.told.level), 0.0, 1.0));
+  // Of what is unknown there is no level, so only the reason says it.
+  if (fate.fate != Fate::saturated && !correction.told.unknown)
+    fate.given = static_cast<float>(std::max(as_kept(correction.told.level), 0.0));
   fate.reason = fate.reason.empty() ? correction.why : fmt::format("{}; {}", correction.why, fate.reason);
   return correction;
 }

@@ -18,7 +18,8 @@ struct FateCorrection {
 };
 
 /// Corrects the fate of percept number `index`, which is asked for at the level `asked`, by what the program reads at
-/// the bank's parameters: *kept* becomes *approximated*, with the level read, and the reason comes first. A percept
+/// the bank's parameters: *kept* becomes *approximated*, with the level read, which may be above 1, and the reason
+/// comes first. A percept
 /// that is *saturated* reads less as everyone knows, so only what is outside of what was measured is added. Nothing,
 /// and the fate stays as it is, if the program reads what is asked for.
 std::optional<FateCorrection> correct_fate(FateRecord& fate, const Bank& bank, std::size_t index, double asked,

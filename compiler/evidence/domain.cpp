@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "compiler/read/tolerances.hpp"
@@ -23,7 +24,7 @@ struct ProfileName {
   const char* many;
 };
 constexpr std::array<ProfileName, 4> profile_names = {{{SurfaceProfile::grating, "a grating", "gratings"},
-                                                       {SurfaceProfile::noise, "a noise", "noises"},
+                                                       {SurfaceProfile::noise, "an irregular relief", "noises"},
                                                        {SurfaceProfile::photograph, "a photograph", "photographs"},
                                                        {SurfaceProfile::bump, "a bump", "bumps"}}};
 
@@ -43,13 +44,26 @@ SurfaceProfile profile_of(const PatchProgram& program, const Relief& relief) {
   return relief.regular() ? SurfaceProfile::grating : SurfaceProfile::noise;
 }
 
+/// Whether a cue tells a drag that no one friction and viscosity tell.
+bool of_drag(CueKind kind) {
+  constexpr CueKind all[] = {CueKind::slow_drag, CueKind::drag,      CueKind::fast_drag,
+                             CueKind::one_way_x, CueKind::one_way_y, CueKind::uneven_drag};
+  return std::ranges::find(all, kind) != std::end(all);
+}
+
+bool of_motion(Extractor extractor) {
+  return extractor == Extractor::opposing_force || extractor == Extractor::damping;
+}
+
 /// What else there is beside a percept's carrier: the other cues that push, and other parts of its relief.
 std::vector<std::string> beside(const PerceptRecord& record, double size, const Cues& cues, const Relief& relief) {
   std::vector<std::string> others;
   for (const CueFacts& facts : cue_table())
     if (facts.exerts && facts.extractor != record.extractor && cues[facts.kind] && !whole_of(facts.kind)) {
       const bool push = facts.kind == CueKind::push_x || facts.kind == CueKind::push_y;
-      const std::string name = push ? "a constant push" : facts.name;
+      // A friction or a viscosity that differs is itself.
+      if (of_drag(facts.kind) && of_motion(record.extractor)) continue;
+      const std::string name = push ? "a constant push" : of_drag(facts.kind) ? "a drag" : facts.name;
       if (std::ranges::find(others, name) == others.end()) others.push_back(name);
     }
   if (record.extractor != Extractor::lateral_force) {

@@ -78,7 +78,8 @@ std::vector<OutsideRange> outside_of(const PerceptRecord& record, double size, c
                                      const ForceReading& found, const Declarations& declarations) {
   std::vector<OutsideRange> outside;
   const auto judge = [&](const OutsideRange& range) {
-    if (range.value < range.low * (1 - reading) || range.value > range.high * (1 + reading)) outside.push_back(range);
+    const double error = range.quantity == "period" ? reading_of_period : reading;
+    if (range.value < range.low * (1 - error) || range.value > range.high * (1 + error)) outside.push_back(range);
   };
   if (size > 0)
     judge({.quantity = record.carrier.substr(record.carrier.find(' ') + 1),
@@ -148,6 +149,10 @@ PerceptReading percept_reading(const Bank& bank, std::size_t index, const ForceR
     told.level = prediction.level, told.magnitude = prediction.magnitude;
   }
   told.outside = outside_of(record, told.size, bank, found, declarations);
+  // A relief of other periods than those of the map is there to be felt, and nobody knows as what.
+  told.unknown = told.readable && told.size == 0 && told.aimed > 0 && record.extractor == Extractor::lateral_force &&
+                 found.relief().amplitude >= least_force && !outside_ranges(record, told).empty();
+  if (told.unknown) told.level = told.magnitude = std::numeric_limits<double>::quiet_NaN();
   return told;
 }
 
@@ -198,9 +203,9 @@ std::string why_approximated(const PerceptRecord& record, const PerceptReading& 
                              const ForceReading& found, const Declarations& declarations) {
   if (!told.readable) return {};
   if (const auto outside = outside_ranges(record, told); !outside.empty()) return outside_in_words(outside.front());
-  return differs(record, told.aimed, asked, told.size, told.level)
-             ? cause_of_difference(record, told, found, declarations)
-             : "";
+  if (differs(record, told.aimed, asked, told.size, told.level))
+    return cause_of_difference(record, told, found, declarations);
+  return told.size == 0 && asked > 0 ? "too little of it to be felt, so none is read" : "";
 }
 
 ReadParts parts_for(Extractor extractor) {

@@ -30,6 +30,7 @@ struct PerceptReading {
   bool readable = true;             ///< otherwise `size` is the size aimed at, as far as the device gives it
   double size = 0;                  ///< read from the program's force, in the record's unit
   double level = 0, magnitude = 0;  ///< of `size`; not-a-number where no map covers it
+  bool unknown = false;  ///< its force is there, but not as any map's stimulus: `outside` says in which quantity
   std::vector<OutsideRange> outside;
 };
 

@@ -224,8 +224,12 @@ Value check_expression_as(ExpressionReading& reading, const SyntaxTree& tree, Ex
       type == Value::Type::vector && measurable ? fmt::format("give both parts, as in `vector({}, {})`", written, zero)
       : value.type == Value::Type::vector ? fmt::format("take its `length({})`, or work with `x` and `y`", written)
                                           : make_calculable(value.type);
+  auto height = type == Value::Type::vector && value.type == Value::Type::number
+                    ? height_mend(reading, tree, expr, scope, dimension)
+                    : std::nullopt;
   return reading.calls.report(Code::wrong_type, value.span,
-                              fmt::format("expected {}, found {}", type_words(type), type_words(value.type)), "", mend);
+                              fmt::format("expected {}, found {}", type_words(type), type_words(value.type)), "",
+                              height ? *std::move(height) : Advice(mend));
 }
 
 Value ExpressionChecker::check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type,

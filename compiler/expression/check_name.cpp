@@ -237,7 +237,8 @@ Value free_value(ExpressionReading& reading, const Word& word, Scope& scope) {
   return report(Code::unknown_name, fmt::format("nothing here is called `{}`", word.text),
                 below ? *std::move(below)
                       : spelling_mend(reading, word, &scope, Sought::value,
-                                      fmt::format("declare it above, as in `let {} = …`", word.text)));
+                                      fmt::format("declare it above, as in `let {} = …`",
+                                                  word.text.substr(0, word.text.find('.')))));
 }
 
 }  // namespace wale

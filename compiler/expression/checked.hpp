@@ -100,6 +100,13 @@ struct CheckedOperand {
 };
 
 /// A material whose every expression has a meaning and a dimension. Vectors are pairs of terms, quantities in SI.
+/// A `force` statement of a material.
+struct WrittenForce {
+  std::array<TermId, 2> force{};
+  Span span;
+  bool signed_by_author = false;  ///< it begins with a plus, or is a minus before a library's force
+};
+
 struct CheckedMaterial {
   std::string name;
   Span span;
@@ -124,7 +131,8 @@ struct CheckedMaterial {
   std::optional<std::array<TermId, 3>> colour;  ///< red, green and blue in 0 .. 1, if the author gives a colour
   std::vector<CheckedMark> marks;
   Span force_span;
-  bool scales_a_texture = false;               ///< a constant factor changes an open texture, which has been reported
+  std::vector<WrittenForce> forces;            ///< those of its own whose sum, with those of a blend, is `force`
+  std::vector<Span> scaled_textures;           ///< where a constant factor changes an open texture
   std::optional<std::array<double, 2>> patch;  ///< width and height in m, if the material has a `patch`
   Span patch_span;
   double active_watt = 0;  ///< power that the author allows it to give, W; 0 without `active`

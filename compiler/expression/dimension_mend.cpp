@@ -89,7 +89,9 @@ Advice factor_mend(const ExpressionReading& reading, const std::vector<ProductNa
       const unsigned line = sources.place(binding->declared).line;
       return Advice(fmt::format("{}{}if `{}` (line {}) is meant as {}, give it in {}", count, count.empty() ? "" : ": ",
                                 factor.name, line, with_article(*name), customary_unit(own, needed)))
-          .see(binding->declared, with_article(names.words(binding->value.dimension)));
+          .see(binding->declared, binding->value.dimension.plain()
+                                      ? names.words(binding->value.dimension)
+                                      : with_article(names.words(binding->value.dimension)));
     }
   }
   const auto inverse = names.name(Dimension{} / ratio);
@@ -214,6 +216,13 @@ std::optional<Advice> foreign_mend(const Word& word, const Declarations& declara
   return Advice(readable("write it in `{}`: 1 {} is {:.6g} {}", found->ours, word.text, found->size, found->ours));
 }
 
+/// Whether this keyword is before the name that is declared there.
+bool is_declared_as(const SourceSet& sources, const Span& declared, std::string_view keyword) {
+  std::string_view before = std::string_view(sources[declared.source].text).substr(0, declared.begin);
+  while (!before.empty() && before.back() == ' ') before.remove_suffix(1);
+  return before.ends_with(keyword);
+}
+
 }  // namespace
 
 std::vector<Fix> append_unit(const SyntaxTree& tree, ExprId expr, const std::string& unit, const SourceSet& sources) {
@@ -243,19 +252,45 @@ Advice unit_mend(const Word& word, const Declarations& declarations, const Surro
                       "declare it, as in `unit thou = 25.4 um`, or use one of schema/units.wale", false);
 }
 
+std::optional<Advice> height_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
+                                  const Scope& scope, const Dimension& expected) {
+  if (expected != reading.names->dimension("force")) return std::nullopt;
+  std::vector<ProductName> factors;
+  collect_names(tree, expr, false, factors);
+  for (const ProductName& factor : factors) {
+    const auto* binding = scope.find(factor.name);
+    if (binding && is_declared_as(reading.surroundings.sources, binding->declared, "height"))
+      return Advice(
+          fmt::format("a height is no force; to push the hand down its slopes write `lateral({}, amplitude: "
+                      "1 N)`",
+                      factor.name));
+  }
+  return std::nullopt;
+}
+
 Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
                       const Dimension& expected, const Dimension& found) {
   const Surroundings& surroundings = reading.surroundings;
-  const std::string unit = customary_unit(surroundings.declarations, expected);
+  if (auto height = height_mend(reading, tree, expr, scope, expected)) return *std::move(height);
+  std::string unit = customary_unit(surroundings.declarations, expected);
   const std::string text(surroundings.sources.text(tree.span(expr)));
   const auto* literal = std::get_if<NumberLiteral>(&tree.expr(bare(tree, expr)));
   const bool is_literal = literal != nullptr, is_call = std::holds_alternative<Call>(tree.expr(expr));
   if (found.plain()) {
     if (is_literal && literal->suffix.count > 0)  // `50 %`, `30 deg`
       return fmt::format("write {}, in {}", with_article(reading.dimension_names().words(expected)), unit);
+    // What a hand holds has some hundred grams.
+    constexpr double heaviest = 5;
+    if (is_literal && unit == "kg" && literal->value >= heaviest) unit = "g";
     if (is_literal)
       return Advice(fmt::format("a plain number needs its unit: write `{} {}`", text, unit))
           .fix(append_unit(tree, expr, unit, surroundings.sources));
+    const auto* const use = std::get_if<NameUse>(&tree.expr(bare(tree, expr)));
+    const auto* const binding = use ? scope.find(text) : nullptr;
+    if (binding && is_declared_as(surroundings.sources, binding->declared, "param"))
+      return Advice(
+                 fmt::format("declare it with a unit, as in `param {} = 3 {} in 1 {} .. 5 {}`", text, unit, unit, unit))
+          .see(binding->declared, "a plain number");
     return is_call ? fmt::format("give it a unit, as in `{} * 1 {}`", text, unit)
                    : fmt::format("give it a unit, as in `({}) * 1 {}`", text, unit);
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "compiler/expression/reading.hpp"
 
 namespace wale {
@@ -11,6 +13,10 @@ namespace wale {
 /// The same with other advice.
 [[gnu::cold]] void report_dimension(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
                                     const Dimension& found, const Dimension& expected, Advice advice);
+
+/// Advice for a product with a height in it, where a force is expected; nothing for any other expression.
+[[gnu::cold]] std::optional<Advice> height_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
+                                                const Scope& scope, const Dimension& expected);
 
 /// Advice on how to turn an expression of dimension `found` into one of dimension `expected`.
 [[gnu::cold]] Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,

@@ -79,6 +79,8 @@ constexpr Instead functions[] = {
     {"percent", "write `50 %`"},
     {"deg", "a number in degrees has its unit: `45 deg`"},
     {"rad", "angles without a unit are in radians"},
+    {"force", "a force of two parts is `vector(1 N, 0 N)`; one with a name is a statement, `force name = …`"},
+    {"height", "a height is a statement: `height name = …`"},
     {"rgb", "write `show colour(0.8, 0.5, 0.2)`"},
 };
 
@@ -128,6 +130,19 @@ std::optional<std::string_view> instead_of_function(std::string_view name) {
 }
 
 std::optional<std::string_view> instead_of_value(std::string_view name) {
+  // Alone these are no words of other languages, but slips of a key.
+  if (name == "X") return "write `x`, in a small letter";
+  if (name == "Y") return "write `y`, in a small letter";
+  const std::size_t dot = name.find('.');
+  const std::string_view part = dot == std::string_view::npos ? "" : name.substr(dot + 1);
+  if (part == "x" || part == "y" || part == "X" || part == "Y") {
+    const std::string whole = small_letters_of(name.substr(0, dot));
+    for (const std::string_view hand : {"position", "pos", "cursor", "mouse", "stylus", "finger", "p"})
+      if (whole == hand) return "the hand is at `x` and `y`, which are the parts of `hand`: write `x`, `hand.x` …";
+    for (const std::string_view motion : {"vel", "speed", "v"})
+      if (whole == motion) return "write `velocity.x` or `velocity.y`";
+    if (whole == "accel" || whole == "acc" || whole == "a") return "write `acceleration.x` or `acceleration.y`";
+  }
   return found_in(values, small_letters_of(name));
 }
 

@@ -14,6 +14,9 @@
 #include "compiler/grade/steep_places.hpp"
 #include "compiler/grade/steps.hpp"
 #include "compiler/measure/hands.hpp"
+#include "compiler/prove/later_force.hpp"
+#include "compiler/read/dependence.hpp"
+#include "compiler/read/swing.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
@@ -397,8 +400,11 @@ class Grader {
   }
 
   void decide() {
+    grade_.later_newton = later_force(bank_, still_seconds, remembers_time_only(program_));
     if (grade_.energy.active())
       grade_.standing = Standing::active;
+    else if (grade_.later_newton > 0)
+      grade_.standing = Standing::unknown;
     else if (grade_.required_damping == 0)
       grade_.standing = Standing::passive;
     else
@@ -453,7 +459,7 @@ std::string_view standing_word(Standing standing) {
 double Energy::watt() const { return std::max({curl_watt, motion_watt, source_watt}); }
 
 std::optional<Standing> Grade::assumed_standing() const {
-  if (standing != Standing::unknown || device_damping <= 0) return std::nullopt;
+  if (standing != Standing::unknown || device_damping <= 0 || later_newton > 0) return std::nullopt;
   return by_damping(*this);
 }
 

@@ -88,6 +88,9 @@ struct Grade {
   double fewest_counts = 0, faithful_counts = 0, fewest_levels = 0;  ///< from the hand: see `GradingHand`
 
   Energy energy;
+  /// N: what the force may come to after the first seconds, if that is more than before (proved). Those seconds are all
+  /// that the grade looks at.
+  double later_newton = 0;
 
   /// The standing by the device's damping as it is assumed, if the standing is unknown for want of a measured one;
   /// nothing if nobody assumed it either.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "compiler/grade/lift.hpp"
 
@@ -29,6 +30,19 @@ std::optional<double> turns_in_a_tick(const Graph& graph, NodeId next, std::uint
   return std::nullopt;
 }
 
+/// What lattice noise takes its cells from. Noise that is sampled seldom is noise still, of the same size.
+std::vector<bool> of_noise(const Graph& graph) {
+  std::vector<bool> found(graph.size());
+  for (NodeId id = static_cast<NodeId>(graph.size()); id-- > 0;) {
+    const Node& node = graph[id];
+    if (node.kind != Node::Kind::operation || !(found[id] || node.operation == Operation::hash)) continue;
+    const int operands = facts(node.operation).operands;
+    const NodeId from[] = {node.a, node.b, node.c};
+    for (int i = 0; i < operands; ++i) found[from[i]] = true;
+  }
+  return found;
+}
+
 }  // namespace
 
 double fastest_own_rate(const Bank& bank) {
@@ -46,10 +60,12 @@ double fastest_own_rate(const Bank& bank) {
   if (!reads_time) return fastest;
   Derivatives by_time(lifted.graph, {.inputs = {Input::time}, .state = {}});
   const auto size = static_cast<NodeId>(lifted.graph.size());
+  const std::vector<bool> noise = of_noise(lifted.graph);
   for (NodeId id = 0; id < size; ++id) {
     const Node node = lifted.graph[id];  // a copy: the graph grows
     const bool turns = is_operation(node, Operation::sine) || is_operation(node, Operation::cosine);
     if (!turns && !is_operation(node, Operation::floor)) continue;
+    if (!turns && (noise[id] || noise[node.a])) continue;
     const Node& change = lifted.graph[by_time(node.a)];
     if (change.kind != Node::Kind::constant) continue;
     const double cycle = turns ? 2 * std::numbers::pi : 1;

@@ -165,12 +165,15 @@ std::vector<CutRange> cut_ranges(const Bank& bank, std::size_t parameter, float 
 }
 
 FateRecord fate_of_force(FateRecord force, const Bank& bank, float speed) {
+  constexpr double told_newtons = 1e6;  // a larger number tells nothing more
   const CutForce cut = cut_force(bank, speed);
   force.fate = cut.asked > 0 ? Fate::saturated : Fate::kept;
   force.reason = "by the material's formulas, not found from a level";
   if (cut.asked > 0)
     force.reason = readable("by the material's formulas, which ask for {} along x or y, and `{}` gives {:.3g} N",
-                            std::isfinite(cut.asked) ? readable("up to {:.3g} N", cut.asked) : "more than any number",
+                            !std::isfinite(cut.asked)  ? "more than any number"
+                            : cut.asked > told_newtons ? readable("more than {:g} N", told_newtons)
+                                                       : readable("up to {:.3g} N", cut.asked),
                             bank.program().description().device.name, cut.given);
   return force;
 }

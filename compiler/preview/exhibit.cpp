@@ -124,11 +124,11 @@ Exhibit exhibit_of(const Bank& bank, const Memory* memory, const SectionChoice& 
     }
   }
 
-  if (exhibit.has_relief) {
+  if (exhibit.has_relief || exhibit.pushes_at_rest) {
     Relief relief;
     if (!bank.program().description().vibrates()) relief = static_force(bank).relief;
     // A surface may be shown and not be felt.
-    if (!relief.regular()) relief = picture_relief(bank, memory);
+    if (!relief.regular() && exhibit.has_relief) relief = picture_relief(bank, memory);
     if (relief.regular()) exhibit.period = relief.period;
     // The period is read from samples, so its last digits are random: 19.9973 mm is shown as 20.
     // With marks the whole patch is shown: they may be anywhere on it.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/drawing/plot.hpp"
 #include "wale/memory.hpp"
 #include "wale/program.hpp"
 
@@ -38,11 +39,6 @@ struct SectionChoice {
 /// marks, or if there is more to feel or to see outside. Heights here and below are those of the given memory; without
 /// one, those for a hand that enters at the centre.
 Exhibit exhibit_of(const Bank& bank, const Memory* memory = nullptr, const SectionChoice& section = {});
-
-/// A quantity along a line: `at` in m or m/s, ascending.
-struct Profile {
-  std::vector<double> at, values;
-};
 
 /// The height of the surface along the section, at `count` positions.
 Profile height_along(const Bank& bank, const Memory* memory, const Exhibit& exhibit, int count);

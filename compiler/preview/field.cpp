@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "compiler/preview/style.hpp"
+#include "compiler/drawing/style.hpp"
 
 namespace wale {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/preview/canvas.hpp"
+#include "compiler/drawing/canvas.hpp"
 #include "compiler/preview/exhibit.hpp"
 
 namespace wale {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "compiler/drawing/canvas.hpp"
 #include "compiler/measure/rehearsal.hpp"
-#include "compiler/preview/canvas.hpp"
 #include "compiler/preview/exhibit.hpp"
 
 namespace wale {

@@ -6,17 +6,18 @@
 #include <cmath>
 #include <optional>
 
+#include "compiler/drawing/axis.hpp"
+#include "compiler/drawing/canvas.hpp"
+#include "compiler/drawing/image_library.hpp"
+#include "compiler/drawing/plot.hpp"
+#include "compiler/drawing/style.hpp"
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/measure/rehearsal.hpp"
-#include "compiler/preview/axis.hpp"
-#include "compiler/preview/canvas.hpp"
 #include "compiler/preview/exhibit.hpp"
 #include "compiler/preview/field.hpp"
 #include "compiler/preview/marks.hpp"
-#include "compiler/preview/plot.hpp"
 #include "compiler/preview/relief.hpp"
 #include "compiler/preview/spectrum_panel.hpp"
-#include "compiler/preview/style.hpp"
 
 namespace wale {
 namespace {
@@ -324,7 +325,7 @@ void draw_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const 
 
 }  // namespace
 
-Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations,
+Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations,
                              const PreviewChoice& choice) {
   const auto images = image_library();
   if (!images) return images.error();
@@ -333,7 +334,9 @@ Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const De
   Exhibit exhibit = exhibit_of(bank, &rehearsal.memory, choice.section);
   exhibit.felt = text.felt;
   const std::optional<FeltSpectrum> spectrum = felt_spectrum(bank, exhibit, hand, choice.seconds.value_or(2));
-  Canvas canvas(page_width, spectrum ? page_height_with_spectrum : page_height, style::paper);
+  auto page = new_canvas(page_width, spectrum ? page_height_with_spectrum : page_height, style::paper);
+  if (!page) return page.error();
+  Canvas& canvas = **page;
   write_words(canvas, bank, text, exhibit);
   draw_picture(canvas, bank, exhibit, rehearsal, **images);
   draw_plots(canvas, bank, exhibit, rehearsal);
@@ -343,9 +346,7 @@ Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const De
     draw_spectrum(canvas, spectrum_plot, *spectrum);
     draw_spectrogram(canvas, spectrogram_plot, *spectrum);
   }
-  Drawing drawing = canvas.finish(**images);
-  drawing.coarseness = square_of(bank, shows_surface(bank, exhibit));
-  return drawing;
+  return Preview{*std::move(page), square_of(bank, shows_surface(bank, exhibit))};
 }
 
 }  // namespace wale

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "compiler/image/drawing.hpp"
+#include "compiler/drawing/canvas.hpp"
 #include "compiler/preview/exhibit.hpp"
 #include "wale/program.hpp"
 #include "wale/result.hpp"
@@ -24,6 +25,14 @@ struct PreviewText {
   std::string evidence;         ///< one line at the very foot: the evidence and the source of each percept
   /// The level of the strongest percept that a force down the slopes of a relief carries; empty if there is none.
   std::optional<double> felt;
+};
+
+/// A drawn material.
+struct Preview {
+  std::unique_ptr<Canvas> page;
+  /// The side, in pixels of a placed picture (`Canvas::fineness`), of the squares in which the surface is drawn: 1
+  /// unless the program costs so much that each pixel of its own would take minutes.
+  int coarseness = 1;
 };
 
 /// What a person chooses of a picture.
@@ -48,7 +57,7 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations);
 /// felt. The same bank, text and choice give the same pixels.
 ///
 /// Error: `Code::missing_library`.
-Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations,
+Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations,
                              const PreviewChoice& choice = {});
 
 }  // namespace wale

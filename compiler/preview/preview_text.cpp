@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compiler/describe/describe.hpp"
-#include "compiler/preview/axis.hpp"
+#include "compiler/drawing/axis.hpp"
 #include "compiler/preview/preview.hpp"
 #include "compiler/read/read.hpp"
 
@@ -38,8 +38,7 @@ std::string evidence_of(const DescribedPercept& percept) {
     text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.intervals.means.low,
                         percept.intervals.means.high);
   if (percept.saturated) text += ", limited by the device";
-  for (const OutsideRange& each : percept.outside)
-    text += ", " + outside_in_words(each);
+  for (const OutsideRange& each : percept.outside) text += ", " + outside_in_words(each);
   return text;
 }
 
@@ -81,13 +80,15 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
   std::vector<std::string> evidence;
   std::vector<PreviewText::Figure> others;
   for (const DescribedPercept& percept : description.percepts) {
-    const bool otherwise = percept.asked && std::abs(*percept.asked - percept.level) >= 0.005;
-    text.figures.push_back({percept.name, otherwise ? fmt::format("{:.2f}, asked {:.2f}", percept.level, *percept.asked)
-                                                    : fmt::format("{:.2f}", percept.level)});
+    const bool otherwise = percept.asked && !(std::abs(*percept.asked - percept.level) < 0.005);
+    text.figures.push_back(
+        {percept.name, percept.unknown ? fmt::format("unknown, asked {:.2f}", percept.asked.value_or(0))
+                       : otherwise     ? fmt::format("{:.2f}, asked {:.2f}", percept.level, *percept.asked)
+                                       : fmt::format("{:.2f}", percept.level)});
     others.push_back({percept.carrier, shown_quantity(percept.amplitude, notation_of(percept))});
     evidence.push_back(evidence_of(percept));
     const Percept* declared = declarations.percepts.find(percept.name);
-    if (declared && declared->extractor == Extractor::lateral_force)
+    if (declared && declared->extractor == Extractor::lateral_force && !percept.unknown)
       text.felt = std::max(text.felt.value_or(0), percept.level);
   }
   text.evidence = evidence.empty() ? "physics only, without a percept" : joined(evidence, " · ");

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "compiler/preview/canvas.hpp"
+#include "compiler/drawing/canvas.hpp"
+#include "compiler/drawing/image_library.hpp"
 #include "compiler/preview/exhibit.hpp"
 
 namespace wale {

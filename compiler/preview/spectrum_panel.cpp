@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compiler/preview/plot.hpp"
-#include "compiler/preview/style.hpp"
+#include "compiler/drawing/plot.hpp"
+#include "compiler/drawing/style.hpp"
 
 namespace wale {
 namespace {

@@ -1,6 +1,7 @@
 #include "compiler/read/bend.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace wale {
 namespace {
@@ -11,6 +12,10 @@ constexpr double least_beyond = 0.012;  // of the places, on either side of a be
 
 Bend best_bend(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every) {
   std::ranges::sort(line, {}, &PlaceOnLine::at);
+  return best_bend_of_sorted(std::move(line), kind, every);
+}
+
+Bend best_bend_of_sorted(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every) {
   // Centred and in units of the line's length, so that the sums are well conditioned.
   const double low = line.front().at, length = line.back().at - low;
   if (!(length > 0)) return {};

@@ -1,29 +1,21 @@
 #pragma once
 
+#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace wale {
 
-/// Solves a small symmetric system by Gauss and Jordan, the right side in the last column; false if it is singular.
+/// Solves a small system, whose right side is the last column and becomes the solution; false if it is singular.
 template <std::size_t N>
 bool solve(std::array<std::array<double, N + 1>, N>& rows) {
-  for (std::size_t i = 0; i < N; ++i) {
-    std::size_t best = i;
-    for (std::size_t k = i + 1; k < N; ++k)
-      if (std::abs(rows[k][i]) > std::abs(rows[best][i])) best = k;
-    std::swap(rows[i], rows[best]);
-    if (!(std::abs(rows[i][i]) > 1e-12)) return false;
-    for (std::size_t k = 0; k < N; ++k) {
-      if (k == i) continue;
-      const double times = rows[k][i] / rows[i][i];
-      for (std::size_t column = i; column <= N; ++column) rows[k][column] -= times * rows[i][column];
-    }
-  }
-  for (std::size_t i = 0; i < N; ++i) rows[i][N] /= rows[i][i];
+  constexpr int n = static_cast<int>(N);
+  Eigen::Map<Eigen::Matrix<double, n, n + 1, Eigen::RowMajor>> system(rows.front().data());
+  const Eigen::PartialPivLU<Eigen::Matrix<double, n, n>> factors(system.template leftCols<n>());
+  if (!(factors.matrixLU().diagonal().cwiseAbs().minCoeff() > 1e-12)) return false;
+  system.col(n) = factors.solve(system.col(n)).eval();
   return true;
 }
 
@@ -44,5 +36,7 @@ enum class BendKind { bends, jumps, bends_and_jumps };
 /// The best bend of all: least squares of a line, the depth behind the bend and a jump there, for each place of the
 /// bend, or each `every`-th.
 Bend best_bend(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every = 1);
+/// Of places that are sorted along the line.
+Bend best_bend_of_sorted(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every = 1);
 
 }  // namespace wale

@@ -13,7 +13,8 @@ namespace wale {
 namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double none_is_little = -1;  // 0 is a value
+constexpr double none_is_little = -1;                                  // 0 is a value
+constexpr double slow_hand = 0.05, usual_hand = 0.2, fast_hand = 0.4;  // m/s
 
 /// The principal value across the axis of the greatest, 0 if that is less than counts; not-a-number if it is alike in
 /// all directions.
@@ -35,10 +36,11 @@ double unread_force(const ForceReading& found) {
   const bool pushed = found.relief().amplitude >= least_force || std::abs(found.stiffness) >= least_stiffness ||
                       found.wall || !found.steps.empty() || std::abs(found.opposing.friction) >= least_force ||
                       glm::length(found.constant) >= least_force;
-  const bool resisted = pushed || std::abs(found.opposing.damping) >= least_damping ||
+  const bool resisted = pushed || std::abs(found.opposing.damping) >= least_damping || !found.opposing.explained ||
                         std::abs(found.inertia.greatest) >= least_mass || found.vibration.amplitude >= least_force ||
                         found.sway.amplitude >= least_force;
-  const double alone = std::max(0.0, found.still.largest - found.at_first);
+  const double noise = found.vibration.noise ? found.vibration.amplitude : 0;
+  const double alone = std::max(0.0, found.still.largest - std::max(found.at_first, noise));
   const double still = pushed ? 0 : found.still.pushes_away ? -alone : alone;
   const double moving = resisted ? 0 : found.opposing.scatter;
   const double other = std::max({moving, found.opposing.aside, found.other.largest()});
@@ -65,7 +67,7 @@ std::optional<double> cue_of(CueKind kind, const ForceReading& found) {
 }  // namespace
 
 PeriodBand band_of(const Percept& percept, const Declarations& declarations) {
-  constexpr double border = 1 + reading;
+  constexpr double border = 1 + reading_of_period;
   PeriodBand band{percept.period.low / border, percept.period.high * border};
   declarations.percepts.each([&](const std::string&, const Percept& other) {
     if (other.extractor == percept.extractor && other.period.high == percept.period.low)
@@ -130,8 +132,13 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::friction_axis: return CueKind::friction;
     case CueKind::mass_across:
     case CueKind::mass_axis: return CueKind::mass;
-    case CueKind::vibration_frequency: return CueKind::vibration;
-    case CueKind::sway_frequency: return CueKind::sway;
+    case CueKind::vibration_frequency:
+    case CueKind::vibration_axis: return CueKind::vibration;
+    case CueKind::sway_frequency:
+    case CueKind::sway_axis: return CueKind::sway;
+    case CueKind::outward_push: return CueKind::amplitude;
+    case CueKind::other_push_x:
+    case CueKind::other_push_y: return CueKind::other_force;
     default: return std::nullopt;
   }
 }

@@ -43,7 +43,9 @@ bool remembers_time_only(const PatchProgram& program) {
     return false;
   };
   // A state may begin as the place at which the hand came.
-  if (std::ranges::any_of(program.enter, is_changed)) return false;
+  if (std::ranges::any_of(program.enter, is_changed) ||
+      std::ranges::any_of(program.states, [&](const State& state) { return by_hand.contains(state.initial); }))
+    return false;
   for (const Instruction& instruction : program.tick) {
     if (is_changed(instruction))
       by_hand.insert(instruction.destination);
@@ -51,6 +53,11 @@ bool remembers_time_only(const PatchProgram& program) {
       by_hand.erase(instruction.destination);
   }
   return std::ranges::none_of(program.states, [&](const State& state) { return by_hand.contains(state.next); });
+}
+
+bool depends_on_motion(const PatchProgram& program) {
+  return reads(program, {Input::velocity_x, Input::velocity_y, Input::raw_velocity_x, Input::raw_velocity_y}) ||
+         (remembers_anything(program) && !remembers_time_only(program));
 }
 
 }  // namespace wale

@@ -18,4 +18,7 @@ bool remembers_anything(const PatchProgram& program);
 /// Whether all that is remembered goes by time alone, as the phase of a vibration does, whatever the hand does.
 bool remembers_time_only(const PatchProgram& program);
 
+/// Whether the force may differ between a hand that moves and one that rests at the same place and time.
+bool depends_on_motion(const PatchProgram& program);
+
 }  // namespace wale

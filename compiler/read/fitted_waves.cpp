@@ -75,9 +75,13 @@ void FittedWaves::shorten_if_longer(FoundWave& found) {
 }
 
 void FittedWaves::shorten(FoundWave& found, std::size_t step) {
+  fold_anew(found, static_cast<double>(step) * found.wave.waves,
+            std::max<std::size_t>(found.wave.profile.size() / step, 64));
+}
+
+void FittedWaves::fold_anew(FoundWave& found, glm::dvec2 waves, std::size_t bins) {
   add_to_rest(found.wave, 1);
-  found.wave = folded(whole_.places, found_.rest, static_cast<double>(step) * found.wave.waves,
-                      std::max<std::size_t>(found.wave.profile.size() / step, 64));
+  found.wave = folded(whole_.places, found_.rest, waves, bins);
   add_to_rest(found.wave, -1);
 }
 
@@ -165,11 +169,7 @@ void FittedWaves::part_slow_waves() {
   found_.trend = fit.line;
   update_rest();
   for (int turn = 0; turn < 2; ++turn)
-    for (FoundWave& each : found_.waves) {
-      add_to_rest(each.wave, 1);
-      each.wave = folded(whole_.places, found_.rest, each.wave.waves, each.wave.profile.size());
-      add_to_rest(each.wave, -1);
-    }
+    for (FoundWave& each : found_.waves) fold_anew(each, each.wave.waves, each.wave.profile.size());
   if (mean_square(found_.rest) >= left_before) found_ = before;
 }
 
@@ -196,11 +196,7 @@ void FittedWaves::fit_together(bool slow) {
     if (!slow && mean_square(some.forces) < negligible_rest * all_) turn = std::max(turn, turns - 2);
   }
   update_rest();
-  for (FoundWave& each : found_.waves) {
-    add_to_rest(each.wave, 1);
-    each.wave = folded(whole_.places, found_.rest, each.wave.waves, each.wave.profile.size());
-    add_to_rest(each.wave, -1);
-  }
+  for (FoundWave& each : found_.waves) fold_anew(each, each.wave.waves, each.wave.profile.size());
 }
 
 void FittedWaves::add_wave(const FoldedWave& wave, double times, StillForces& still) {

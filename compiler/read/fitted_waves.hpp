@@ -46,6 +46,8 @@ class FittedWaves {
   /// Fits the trend and all waves, the last of which is new, in turn: at few places, at more, then once at all.
   void fit_together(bool slow);
 
+  /// Finds the waveform anew beside all others, with another period and number of parts if they are not its own.
+  void fold_anew(FoundWave& found, glm::dvec2 waves, std::size_t bins);
   /// Finds a wave anew whose harmonics are all multiples of one.
   void shorten(FoundWave& found, std::size_t step);
   /// If only every so many-th harmonic of a wave is there, it is that much shorter.

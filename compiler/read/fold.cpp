@@ -1,5 +1,6 @@
 #include "compiler/read/fold.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -205,30 +206,14 @@ LinearForce linear_beside(std::span<const glm::dvec2> places, std::span<const gl
       for (std::size_t b = 0; b <= std::min(a, columns - 1); ++b)
         products[a * all + b] += sum_of_products(column(a), column(b));
   }
-  std::vector<double> matrix(columns * columns, 0.0);
-  std::vector<glm::dvec2> right(columns, glm::dvec2(0));
-  for (std::size_t a = 0; a < columns; ++a) {
-    std::copy_n(products.begin() + static_cast<std::ptrdiff_t>(a * all), a + 1,
-                matrix.begin() + static_cast<std::ptrdiff_t>(a * columns));
-    right[a] = {products[columns * all + a], products[(columns + 1) * all + a]};
-  }
-  // Cholesky's factors.
-  for (std::size_t a = 0; a < columns; ++a)
-    for (std::size_t b = 0; b <= a; ++b) {
-      double sum = matrix[a * columns + b];
-      for (std::size_t k = 0; k < b; ++k) sum -= matrix[a * columns + k] * matrix[b * columns + k];
-      if (a == b && !(sum > 0)) return linear_force(places, forces);
-      matrix[a * columns + b] = a == b ? std::sqrt(sum) : sum / matrix[b * columns + b];
-    }
-  for (std::size_t a = 0; a < columns; ++a) {
-    for (std::size_t k = 0; k < a; ++k) right[a] -= matrix[a * columns + k] * right[k];
-    right[a] /= matrix[a * columns + a];
-  }
-  for (std::size_t a = columns; a-- > 0;) {
-    for (std::size_t k = a + 1; k < columns; ++k) right[a] -= matrix[k * columns + a] * right[k];
-    right[a] /= matrix[a * columns + a];
-  }
-  return {right[0], right[1] / metre, right[2] / metre};
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> sums(
+      products.data(), static_cast<Eigen::Index>(all), static_cast<Eigen::Index>(all));
+  const auto size = static_cast<Eigen::Index>(columns);
+  const Eigen::LLT<Eigen::MatrixXd> factors(sums.topLeftCorner(size, size));  // whose lower half is filled
+  if (factors.info() != Eigen::Success) return linear_force(places, forces);
+  const Eigen::MatrixXd found = factors.solve(sums.bottomLeftCorner(2, size).transpose());
+  const auto row = [&](Eigen::Index at) { return glm::dvec2(found(at, 0), found(at, 1)); };
+  return {row(0), row(1) / metre, row(2) / metre};
 }
 
 double explained_by_lattice(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 one,

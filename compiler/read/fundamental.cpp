@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 namespace wale {
 namespace {
@@ -15,8 +16,12 @@ constexpr std::size_t few_multiples = 12;   // after which ...
 constexpr double hopeless = 0.12;           // ... so little explained means that there is no wave
 constexpr double hardly_less = 0.015;       // of the mean square: as well explained
 constexpr std::size_t small_common_multiple = 5;
-constexpr double clearly_more = 0.03;  // of the mean square
-constexpr double wholly = 0.985;       // explained: no longer period can be better
+constexpr double least_of_sum = 0.05;           // of the mean square: of each wave in a sum with a period of its own
+constexpr double clearly_more = 0.03;           // of the mean square
+constexpr double wholly = 0.985;                // explained: no longer period can be better
+constexpr std::size_t least_carrier = 7;        // periods of a wave in the time in which it wavers
+constexpr double about_carrier = 0.4;           // of the carrier's number: harmonics are so near, at most ...
+constexpr double hardly_beside_carrier = 0.12;  // ... but for so much of the mean square
 
 /// Whether one of the waves that seem to be harmonics of a common one does not quite fit it when looked for by itself,
 /// or is a harmonic of another one.
@@ -33,6 +38,19 @@ bool lies_elsewhere(const StillForces& thin, glm::dvec2 common, const std::vecto
     return (number % 2 != 0 && explained(2) > alone + clearly_more) ||
            (number % 3 != 0 && explained(3) > alone + clearly_more);
   });
+}
+
+/// Whether a long period only says how often a much shorter wave wavers, or comes and goes: its harmonics stand close
+/// about that of the peak. Those of a narrow ridge begin with the first and end far beyond the strongest.
+bool only_wavers(const std::vector<double>& powers, std::size_t carrier) {
+  if (carrier < least_carrier) return false;
+  const double width = about_carrier * static_cast<double>(carrier);
+  double near = 0, all = 0;
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    all += powers[i];
+    if (std::abs(static_cast<double>(i + 1) - static_cast<double>(carrier)) <= width) near += powers[i];
+  }
+  return near > (1 - hardly_beside_carrier) * all;
 }
 
 }  // namespace
@@ -88,17 +106,20 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
     all.push_back(explained(multiple));
     if (multiple == few_multiples && std::ranges::max(all) < hopeless) break;
   }
-  const double best = std::ranges::max(all);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i] >= best - hardly_less) {
-      found.waves = peak / static_cast<double>(i + 1), found.multiple = i + 1, found.explained = all[i];
-      break;
-    }
-  if (may_lie_beside && found.multiple == 1) return found;
-  // A few waves whose common multiple is long repeat only by chance.
-  const FoldedWave wave =
-      folded(thin.places, thin.forces, found.waves, most_bins(parts_of_a_wave * found.multiple, thin.places.size()));
-  const std::vector<double> powers = harmonics_of(wave, std::min(6 * found.multiple + 6, wave.profile.size() / 2));
+  std::vector<double> powers;
+  for (std::size_t longest = all.size();; longest = found.multiple / 2) {
+    const double best = std::ranges::max(std::span(all).first(longest));
+    for (std::size_t i = 0; i < longest; ++i)
+      if (all[i] >= best - hardly_less) {
+        found.waves = peak / static_cast<double>(i + 1), found.multiple = i + 1, found.explained = all[i];
+        break;
+      }
+    if (may_lie_beside && found.multiple == 1) return found;
+    const FoldedWave wave =
+        folded(thin.places, thin.forces, found.waves, most_bins(parts_of_a_wave * found.multiple, thin.places.size()));
+    powers = harmonics_of(wave, std::min(6 * found.multiple + 6, wave.profile.size() / 2));
+    if (!only_wavers(powers, found.multiple)) break;
+  }
   // A peak may lie beside the wave, at an even part of a multiple: then only every so many-th harmonic is there.
   std::size_t step = 0;
   for (std::size_t i = 0; i < powers.size(); ++i)
@@ -112,19 +133,23 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
   if (fine_wave(powers) == found.multiple) return {peak, 1, all.front(), {1}};
   // Harmonics of one wave, or of several that share this period: those whose multiples the others are.
   std::vector<std::size_t> own;
-  double in_own = 0;
-  const auto is_own = [&](std::size_t number) {
-    return std::ranges::any_of(own, [&](std::size_t other) { return number % other == 0; });
-  };
-  for (std::size_t i = 0; i < powers.size(); ++i)
-    if (powers[i] >= strong_part && !is_own(i + 1)) own.push_back(i + 1);
-  for (std::size_t i = 0; i < powers.size(); ++i)
-    if (is_own(i + 1)) in_own += powers[i];
+  std::vector<double> shares;
+  double in_own = 0, in_all = 0;
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    in_all += powers[i];
+    auto of = std::ranges::find_if(own, [&](std::size_t other) { return (i + 1) % other == 0; });
+    if (of == own.end()) {
+      if (!(powers[i] >= strong_part)) continue;
+      shares.push_back(0), of = own.insert(own.end(), i + 1);
+    }
+    shares[static_cast<std::size_t>(of - own.begin())] += powers[i], in_own += powers[i];
+  }
   // One wave may be there alone, and a finer one fit into the longer period by chance.
   const bool alone = own.size() == 1 && own.front() > 1;
-  const bool several = own.size() >= 2 && own.size() <= most_waves_found && in_own > 0.85;
+  const bool several = own.size() >= 2 && own.size() <= most_waves_found && in_own > 0.85 * in_all;
   if (!alone && !several) return found;
-  if (several && own.back() <= small_common_multiple && !lies_elsewhere(thin, found.waves, own)) {
+  const bool each_counts = std::ranges::min(shares) >= least_of_sum * in_own;
+  if (several && each_counts && own.back() <= small_common_multiple && !lies_elsewhere(thin, found.waves, own)) {
     found.parts = own;
     return found;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "compiler/read/wall.hpp"
 #include "wale/program.hpp"
@@ -20,6 +21,12 @@ struct Principal {
 /// they differ by no more than `least`, or by a tenth.
 Principal principal_of(glm::dvec2 by_x, glm::dvec2 by_y, double least);
 
+/// The force against a hand at one speed, over ways to and fro.
+struct DragAt {
+  double speed = 0;   ///< m/s
+  double newton = 0;  ///< negative if it pushes the hand on
+};
+
 /// The resistance to a moving hand, without forces that depend on position or time only.
 struct OpposingForce {
   /// N: of a hand that slides, at any speed above `saturation_speed`; negative if the force pushes the hand on
@@ -31,9 +38,27 @@ struct OpposingForce {
   double friction_across = 0, damping_across = 0;
   glm::dvec2 friction_axis{0}, damping_axis{0};  ///< as of `Principal`
   double aside = 0;                              ///< N: on a hand at 0.2 m/s, square to its way and turning with it
+  /// The friction is so much at least: it still grows where the patch ends.
+  bool friction_grows = false;
+
+  /// Whether one friction and one viscosity tell the resistance; otherwise those are none.
+  bool explained = true;
+  /// The resistance by speed, slow ones first; along the axis where it is greatest.
+  std::vector<DragAt> by_speed;
+  double exponent = 0;  ///< of the speed, to whose power that resistance grows; 0 if to none
+  /// N at 0.2 m/s: the resistance to a hand that goes towards +x and +y, and towards -x and -y, if they differ.
+  glm::dvec2 forward{0}, backward{0};
+  /// N at 0.2 m/s: the resistance at the places where it is least and greatest, if it is not alike everywhere.
+  double least_by_place = 0, most_by_place = 0;
 
   Principal frictions() const { return {friction, friction_across, friction_axis}; }
   Principal dampings() const { return {damping, damping_across, damping_axis}; }
+  /// N at a speed (m/s), if it is not explained; 0 otherwise.
+  double unexplained_at(double speed) const;
+  /// N at 0.2 m/s: what pushes a hand along each axis, whichever way it goes, and no resting one.
+  glm::dvec2 one_way() const { return 0.5 * (backward - forward); }
+  /// N at 0.2 m/s: by how much the resistance differs from place to place.
+  double uneven() const { return most_by_place - least_by_place; }
 };
 
 /// Strokes with hands to and fro at several speeds, along both axes and through several positions. Each goes over the

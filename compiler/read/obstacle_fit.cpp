@@ -1,5 +1,6 @@
 #include "compiler/read/obstacle_fit.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -16,27 +17,8 @@ constexpr double most_widening = 0.7;   // of the logarithm of a width, in one s
 constexpr double hardly_wide = 0.1e-3;  // m: a step that narrow jumps
 constexpr double least_gain = 1e-4;     // of what is left, by a step worth going on
 constexpr int tries = 5;
+constexpr double least_pivot = 1e-6;
 constexpr std::size_t rough_places = 300;  // of a jump, that are tried
-
-/// Cholesky's solution of a symmetric system with unit diagonal; empty if it is not definite.
-std::vector<double> solved(std::vector<double> matrix, std::vector<double> right) {
-  const std::size_t n = right.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k <= i; ++k) {
-      double sum = matrix[i * n + k];
-      for (std::size_t j = 0; j < k; ++j) sum -= matrix[i * n + j] * matrix[k * n + j];
-      if (i == k && !(sum > 1e-12)) return {};
-      matrix[i * n + k] = i == k ? std::sqrt(sum) : sum / matrix[k * n + k];
-    }
-    for (std::size_t j = 0; j < i; ++j) right[i] -= matrix[i * n + j] * right[j];
-    right[i] /= matrix[i * n + i];
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t j = i + 1; j < n; ++j) right[i] -= matrix[j * n + i] * right[j];
-    right[i] /= matrix[i * n + i];
-  }
-  return right;
-}
 
 glm::dvec2 turned(glm::dvec2 way, double by) {
   by = std::clamp(by, -most_turn, most_turn);
@@ -229,40 +211,37 @@ double ObstacleFit::improve(std::span<const glm::dvec2> places, std::span<const 
   move_jumps(places, forces);
   std::vector<glm::dvec2> left = rest(places, forces);
   double least = mean_square(left);
+  // Two rows of a place, for the axes of its force; a column for each unknown.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by;
+  std::vector<glm::dvec2> here_by;
   for (int step = 0; step < steps; ++step) {
-    const std::size_t n = columns();
-    std::vector<double> matrix(n * n, 0.0), right(n, 0.0), size(n);
-    std::vector<glm::dvec2> by(n);
-    std::vector<std::size_t> used;
+    const auto n = static_cast<Eigen::Index>(columns());
+    by.resize(2 * static_cast<Eigen::Index>(places.size()), n);
+    here_by.resize(columns());
     for (std::size_t i = 0; i < places.size(); ++i) {
-      fill(places[i], by);
-      used.clear();
-      for (std::size_t k = 0; k < n; ++k)
-        if (by[k] != glm::dvec2(0)) used.push_back(k);
-      for (const std::size_t a : used) {
-        for (const std::size_t b : used) {
-          if (b > a) break;
-          matrix[a * n + b] += glm::dot(by[a], by[b]);
-        }
-        right[a] += glm::dot(by[a], left[i]);
+      fill(places[i], here_by);
+      const auto row = 2 * static_cast<Eigen::Index>(i);
+      for (Eigen::Index k = 0; k < n; ++k) {
+        const glm::dvec2& each = here_by[static_cast<std::size_t>(k)];
+        by(row, k) = each.x, by(row + 1, k) = each.y;
       }
     }
-    for (std::size_t i = 0; i < n; ++i) size[i] = std::sqrt(std::max(matrix[i * n + i], 1e-30));
-    for (std::size_t i = 0; i < n; ++i) {
-      right[i] /= size[i];
-      for (std::size_t k = 0; k <= i; ++k) matrix[i * n + k] /= size[i] * size[k];
-    }
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+    matrix.selfadjointView<Eigen::Lower>().rankUpdate(by.transpose());
+    const Eigen::VectorXd size = matrix.diagonal().cwiseMax(1e-30).cwiseSqrt();
+    const Eigen::VectorXd right =
+        (by.transpose() * Eigen::Map<const Eigen::VectorXd>(&left.front().x, by.rows())).cwiseQuotient(size);
+    for (Eigen::Index k = 0; k < n; ++k) matrix.col(k) = matrix.col(k).cwiseQuotient(size) / size[k];
     bool better = false;
     const double before = least;
     for (int turn = 0; turn < tries && !better; ++turn) {
-      std::vector<double> damped = matrix;
-      for (std::size_t i = 0; i < n; ++i) damped[i * n + i] = 1 + damping;
-      std::vector<double> moved = solved(std::move(damped), right);
+      matrix.diagonal().setConstant(1 + damping);
       damping *= 30;
-      if (moved.empty()) continue;
-      for (std::size_t i = 0; i < n; ++i) moved[i] /= size[i];
+      const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factors(matrix);
+      if (factors.info() != Eigen::Success || !(factors.matrixLLT().diagonal().minCoeff() > least_pivot)) continue;
+      const Eigen::VectorXd moved = factors.solve(right).cwiseQuotient(size);
       ObstacleFit other = *this;
-      other.move(moved);
+      other.move({moved.data(), static_cast<std::size_t>(n)});
       for (StaticStep& each : other.found.steps)
         if (each.width < hardly_wide) each.width = 0;
       std::vector<glm::dvec2> now = other.rest(places, forces);

@@ -67,10 +67,34 @@ struct Candidate {
   double explained = 0;
 };
 
+/// Places in their order along each way that is tried: they are sorted once for all obstacles.
+class SortedWays {
+ public:
+  explicit SortedWays(std::span<const glm::dvec2> places) {
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+      const double angle = static_cast<double>(i) * std::numbers::pi / ways_tried;
+      Way& way = ways_[i];
+      way.along = {std::cos(angle), std::sin(angle)};
+      for (std::size_t k = 0; k < places.size(); ++k) way.order.emplace_back(glm::dot(places[k], way.along), k);
+      std::ranges::sort(way.order);
+    }
+  }
+
+  struct Way {
+    glm::dvec2 along{0};
+    std::vector<std::pair<double, std::size_t>> order;  // m along it, and which place
+  };
+  std::span<const Way> all() const { return ways_; }
+
+ private:
+  std::array<Way, ways_tried> ways_;
+};
+
 /// The best obstacle for what a model leaves.
 class NextObstacle {
  public:
-  NextObstacle(std::span<const glm::dvec2> places, std::span<const glm::dvec2> rest) : places_(places), rest_(rest) {
+  NextObstacle(const SortedWays& ways, std::span<const glm::dvec2> places, std::span<const glm::dvec2> rest)
+      : ways_(ways), places_(places), rest_(rest) {
     for (const glm::dvec2& place : places) half_ = glm::max(half_, glm::abs(place));
   }
 
@@ -80,9 +104,7 @@ class NextObstacle {
       return std::move(best_);
     }
     const glm::dvec2 push = axis_of_rest();
-    for (int i = 0; i < ways_tried; ++i) {
-      const double angle = i * std::numbers::pi / ways_tried;
-      const glm::dvec2 way(std::cos(angle), std::sin(angle));
+    for (const SortedWays::Way& way : ways_.all()) {
       if (kinds.straight) try_straight(way);
       if (!kinds.steps) continue;
       try_step(way, push);
@@ -100,43 +122,45 @@ class NextObstacle {
     return {std::cos(angle), std::sin(angle)};
   }
 
-  /// What a bend explains of the parts of the rest along a way, over one coordinate.
-  template <typename At, typename Value>
-  std::pair<Bend, double> bend(const At& at, const Value& value, BendKind kind) const {
-    std::vector<PlaceOnLine> line(places_.size());
+  /// What a bend explains of the parts of the rest along `push`, over the places along a way.
+  std::pair<Bend, double> bend_along(const SortedWays::Way& way, glm::dvec2 push, BendKind kind) const {
+    std::vector<PlaceOnLine> line;
+    line.reserve(places_.size());
     double squares = 0;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      line[i] = {at(places_[i]), value(i)};
-      squares += line[i].value * line[i].value / static_cast<double>(places_.size());
+    for (const auto& [at, place] : way.order) {
+      line.push_back({at, glm::dot(rest_[place], push)});
+      squares += line.back().value * line.back().value;
     }
-    const Bend best = best_bend(std::move(line), kind, every_bend);
-    return {best, squares - best.left};
+    const Bend best = best_bend_of_sorted(std::move(line), kind, every_bend);
+    return {best, squares / static_cast<double>(places_.size()) - best.left};
   }
 
-  void try_straight(glm::dvec2 way) {
-    const auto [best, explained] = bend([&](glm::dvec2 place) { return glm::dot(place, way); },
-                                        [&](std::size_t i) { return glm::dot(rest_[i], way); }, BendKind::bends);
+  void try_straight(const SortedWays::Way& way) {
+    const auto [best, explained] = bend_along(way, way.along, BendKind::bends);
     if (!(explained > best_.explained)) return;
     // Where it is less steep beyond the bend, the wall is on the other side.
     const double side = best.slope > 0 ? -1 : 1;
-    best_ = {{{{.inward = side * way, .offset = side * best.at, .stiffness = std::abs(best.slope)}}, {}}, explained};
+    best_ = {{{{.inward = side * way.along, .offset = side * best.at, .stiffness = std::abs(best.slope)}}, {}},
+             explained};
   }
 
-  void try_step(glm::dvec2 way, glm::dvec2 push) {
-    const auto [best, explained] = bend([&](glm::dvec2 place) { return glm::dot(place, way); },
-                                        [&](std::size_t i) { return glm::dot(rest_[i], push); }, BendKind::jumps);
-    if (explained > best_.explained) best_ = {{{}, {{way, best.at, first_width, best.jump * push}}}, explained};
+  void try_step(const SortedWays::Way& way, glm::dvec2 push) {
+    const auto [best, explained] = bend_along(way, push, BendKind::jumps);
+    if (explained > best_.explained) best_ = {{{}, {{way.along, best.at, first_width, best.jump * push}}}, explained};
   }
 
   /// A round wall about a point; returns what it explains.
   double try_round(glm::dvec2 centre) {
-    const auto out = [&](std::size_t i) {
+    std::vector<PlaceOnLine> line(places_.size());
+    double squares = 0;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
       const glm::dvec2 off = places_[i] - centre;
       const double far = glm::length(off);
-      return far > 0 ? off / far : glm::dvec2(0);
-    };
-    const auto [best, explained] = bend([&](glm::dvec2 place) { return glm::length(place - centre); },
-                                        [&](std::size_t i) { return glm::dot(rest_[i], out(i)); }, BendKind::bends);
+      line[i] = {far, far > 0 ? glm::dot(rest_[i], off / far) : 0};
+      squares += line[i].value * line[i].value;
+    }
+    const Bend best = best_bend(std::move(line), BendKind::bends, every_bend);
+    const double explained = squares / static_cast<double>(places_.size()) - best.left;
     // Outwards ever less: a wall around. Inwards ever more: within it, and the even force is that outside.
     if (explained > best_.explained && best.at > 0)
       best_ = {
@@ -162,6 +186,7 @@ class NextObstacle {
     }
   }
 
+  const SortedWays& ways_;
   std::span<const glm::dvec2> places_, rest_;
   glm::dvec2 half_{0};
   Candidate best_;
@@ -284,7 +309,8 @@ class ObstacleSearch {
     return explains(fit);
   }
 
-  std::optional<ObstacleFit> found(const Kinds& kinds) const {
+  std::optional<ObstacleFit> found(const Kinds& kinds) {
+    if (!ways_) ways_.emplace(places_);
     ObstacleFit fit;
     fit.even = line_;
     double left = by_line_;
@@ -312,7 +338,7 @@ class ObstacleSearch {
   /// Adds the obstacle that explains most, and returns what is left, N^2.
   double add(ObstacleFit& fit, const Kinds& kinds, double left) const {
     const std::vector<glm::dvec2> rest = fit.rest(places_, even_);
-    const Candidate next = NextObstacle(places_, rest).found(kinds);
+    const Candidate next = NextObstacle(*ways_, places_, rest).found(kinds);
     if (!(next.explained > 0)) return left;
     for (const Wall& each : next.one.walls) fit.found.walls.push_back(each);
     for (const StaticStep& each : next.one.steps) fit.found.steps.push_back(each);
@@ -366,6 +392,7 @@ class ObstacleSearch {
   const StillForces& whole_;
   std::span<const glm::dvec2> forces_;
   std::vector<glm::dvec2> places_, even_;  // of means over small cells
+  std::optional<SortedWays> ways_;         // from when something is looked for
   LinearForce line_;
   double by_line_ = 0;  // N^2: what a line leaves
 };
@@ -373,7 +400,7 @@ class ObstacleSearch {
 }  // namespace
 
 std::optional<Obstacles> find_obstacles(const StillForces& whole, std::span<const glm::dvec2> forces) {
-  const ObstacleSearch search(whole, forces);
+  ObstacleSearch search(whole, forces);
   if (!search.is_bent() || !search.is_even_between_bends()) return std::nullopt;
   const auto face =
       find_half_plane(cell_means(whole.side, whole.places), cell_means(whole.side, forces), whole.places, forces);

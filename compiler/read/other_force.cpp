@@ -18,6 +18,7 @@ constexpr std::size_t hands_pressing = 64, hands_moving = 1024;
 constexpr double slow_window = 4;         // s: long enough that a sway has no mean in it
 constexpr double slow_step = 0.5;         // s
 constexpr double left_of_a_swing = 0.03;  // of its amplitude, in a mean over that window
+constexpr double left_of_noise = 0.3;     // likewise of a noise, whose means differ by chance
 constexpr double tour = 3, pause = 0.3;   // s
 constexpr std::size_t tours = 4;
 constexpr double reach = 0.8;      // of half of the patch
@@ -32,7 +33,7 @@ glm::dvec2 half_without_rim(const Bank& bank) {
   return 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
 }
 
-double by_button(const Bank& bank) {
+double by_button(const Bank& bank, glm::dvec2& push) {
   if (!reads(bank.program().description(), {Input::button})) return 0;
   std::vector<Hand> hands = hands_at_rest(hands_pressing, glm::vec2(half_without_rim(bank)));
   std::vector<Force> open(hands.size()), pressed(hands.size());
@@ -40,19 +41,24 @@ double by_button(const Bank& bank) {
   for (Hand& hand : hands) hand.button = true;
   tick_all(bank, hands, pressed);
   double largest = 0;
-  for (std::size_t i = 0; i < hands.size(); ++i) largest = std::max(largest, double{glm::length(pressed[i] - open[i])});
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    largest = std::max(largest, double{glm::length(pressed[i] - open[i])});
+    push += glm::dvec2(pressed[i] - open[i]) / static_cast<double>(hands.size());
+  }
   return largest;
 }
 
+glm::dvec2 longer(glm::dvec2 one, glm::dvec2 other) { return glm::length(other) > glm::length(one) ? other : one; }
+
 /// The largest change of a force since its beginning.
-double change_of(const std::vector<Force>& forces) {
-  double largest = 0;
-  for (const Force& force : forces) largest = std::max(largest, double{glm::length(force - forces.front())});
+glm::dvec2 change_of(const std::vector<Force>& forces) {
+  glm::dvec2 largest{0};
+  for (const Force& force : forces) largest = longer(largest, glm::dvec2(force - forces.front()));
   return largest;
 }
 
 /// The largest change of a force's mean over a window, in which a swing has none: the window is Hann's.
-double change_of_mean(const std::vector<Force>& forces, double rate) {
+glm::dvec2 change_of_mean(const std::vector<Force>& forces, double rate) {
   const auto width = std::min(forces.size(), static_cast<std::size_t>(slow_window * rate));
   const auto step = std::max<std::size_t>(1, static_cast<std::size_t>(slow_step * rate));
   std::vector<glm::dvec2> means;
@@ -63,8 +69,8 @@ double change_of_mean(const std::vector<Force>& forces, double rate) {
              glm::dvec2(forces[first + i]);
     means.push_back(sum / static_cast<double>(width));
   }
-  double largest = 0;
-  for (const glm::dvec2& mean : means) largest = std::max(largest, glm::length(mean - means.front()));
+  glm::dvec2 largest{0};
+  for (const glm::dvec2& mean : means) largest = longer(largest, mean - means.front());
   return largest;
 }
 
@@ -134,6 +140,14 @@ double by_memory(const Bank& bank, double& rehearsed) {
 
 double OtherForce::largest() const { return std::max({button, slowly, remembered, moving}); }
 
+glm::dvec2 OtherForce::push() const {
+  constexpr double everywhere = 0.8;
+  const bool pressed = button >= slowly;
+  const double size = pressed ? button : slowly;
+  const glm::dvec2 mean = pressed ? button_push : slow_push;
+  return size >= std::max(remembered, moving) && glm::length(mean) >= everywhere * size ? mean : glm::dvec2(0);
+}
+
 double force_on_moving(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
   if (remembers_anything(program) ||
@@ -155,12 +169,17 @@ double force_on_moving(const Bank& bank) {
 OtherForce other_force(const Bank& bank, const std::vector<std::vector<Force>>& felt, const Swing& sway,
                        const Swing& vibration, double held) {
   OtherForce found;
-  found.button = by_button(bank);
+  found.button = by_button(bank, found.button_push);
   const bool swings = std::max(sway.amplitude, vibration.amplitude) >= least_force;
   const double rate = bank.program().description().device.rate;
-  for (const std::vector<Force>& forces : felt)
-    found.slowly = std::max(found.slowly, swings ? change_of_mean(forces, rate) : change_of(forces));
-  if (found.slowly < left_of_a_swing * std::max(sway.amplitude, vibration.amplitude)) found.slowly = 0;
+  for (const std::vector<Force>& forces : felt) {
+    const glm::dvec2 change = swings ? change_of_mean(forces, rate) : change_of(forces);
+    found.slowly = std::max(found.slowly, glm::length(change));
+    found.slow_push += change / static_cast<double>(felt.size());
+  }
+  if (found.slowly <
+      (vibration.noise ? left_of_noise : left_of_a_swing) * std::max(sway.amplitude, vibration.amplitude))
+    found.slowly = 0;
   for (const std::vector<Force>& forces : felt)
     for (const Force& force : forces) found.rehearsed = std::max(found.rehearsed, double{glm::length(force)});
   found.remembered = by_memory(bank, found.rehearsed);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "compiler/read/swing.hpp"
@@ -13,9 +14,16 @@ struct OtherForce {
   double remembered = 0;  ///< on a hand that has been elsewhere before; no friction is so large
   double moving = 0;      ///< on a hand at 0.25 m/s somewhere in the patch, where nothing else resists
   double rehearsed = 0;   ///< the largest force found on all these hands
+  /// What the button adds on the mean over the patch, and what comes with time: towards where they push.
+  glm::dvec2 button_push{0}, slow_push{0};
+  /// N: what the force may come to after the seconds that were looked at, if that is more than all that may come before
+  /// (both proved).
+  double later = 0;
 
   /// The largest that no other cue reads.
   double largest() const;
+  /// The push of the larger of both if it is much the same at all places, else 0.
+  glm::dvec2 push() const;
 };
 
 /// The force on hands that move, beyond that on resting ones at the same places: its 99th percentile, N. 0 of a program

@@ -74,15 +74,41 @@ ForceReading times_as_strong(ForceReading found, double times) {
     for (StaticStep& each : *steps) each.change *= times;
   Relief& relief = still.relief;
   OpposingForce& opposing = found.opposing;
-  for (double* each :
-       {&relief.amplitude,          &relief.maximum,          &relief.rms,           &relief.mean,
-        &found.stiffness,           &found.stiffness_across,  &opposing.friction,    &opposing.friction_across,
-        &opposing.damping,          &opposing.damping_across, &opposing.scatter,     &opposing.aside,
-        &found.breakaway,           &found.inertia.greatest,  &found.inertia.across, &found.sway.amplitude,
-        &found.vibration.amplitude, &found.other.button,      &found.other.slowly,   &found.other.remembered,
-        &found.other.moving,        &found.other.rehearsed,   &found.wall_push,      &found.at_first})
+  for (double* each : {&relief.amplitude,
+                       &relief.maximum,
+                       &relief.rms,
+                       &relief.mean,
+                       &found.stiffness,
+                       &found.stiffness_across,
+                       &opposing.friction,
+                       &opposing.friction_across,
+                       &opposing.damping,
+                       &opposing.damping_across,
+                       &opposing.scatter,
+                       &opposing.aside,
+                       &found.breakaway,
+                       &found.inertia.greatest,
+                       &found.inertia.across,
+                       &found.sway.amplitude,
+                       &found.vibration.amplitude,
+                       &found.other.button,
+                       &found.other.slowly,
+                       &found.other.remembered,
+                       &found.other.moving,
+                       &found.other.rehearsed,
+                       &found.wall_push,
+                       &found.at_first,
+                       &found.outward,
+                       &found.other.later,
+                       &opposing.forward.x,
+                       &opposing.forward.y,
+                       &opposing.backward.x,
+                       &opposing.backward.y,
+                       &opposing.least_by_place,
+                       &opposing.most_by_place})
     *each *= times;
-  found.constant *= times;
+  for (DragAt& each : opposing.by_speed) each.newton *= times;
+  for (glm::dvec2* each : {&found.constant, &found.other.button_push, &found.other.slow_push}) *each *= times;
   const auto scale = [&](WallFace& wall) {
     for (double* each : {&wall.stiffness, &wall.damping, &wall.release, &wall.preload}) *each *= times;
   };

@@ -9,21 +9,24 @@
 #include <vector>
 
 #include "compiler/measure/coarseness.hpp"
+#include "compiler/prove/later_force.hpp"
 #include "compiler/read/breakaway.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/room.hpp"
+#include "compiler/read/still_forces.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
 namespace {
 
-constexpr int places_a_side = 12;   // at which a trend's stiffness is looked at
-constexpr double beside_it = 1e-3;  // m: half the step for it
-constexpr double alike = 0.15;      // relative difference at which two stiffnesses count as one
-constexpr double mostly = 0.5;      // of the places: a spring's
-constexpr double misfit_of_relief = 0.03, misfit_of_spring = 0.01,
-                 misfit_of_swing = 0.01;  // in a constant push beside them
+constexpr int places_a_side = 12;      // at which a trend's stiffness is looked at
+constexpr double beside_it = 1e-3;     // m: half the step for it
+constexpr double alike = 0.15;         // relative difference at which two stiffnesses count as one
+constexpr double surely_at_first = 3;  // standard errors
+constexpr double mostly = 0.5;         // of the places: a spring's
+constexpr double misfit_of_relief = 0.03, misfit_of_spring = 0.01, misfit_of_swing = 0.01,
+                 misfit_of_noise = 0.1;  // in a constant push beside them
 
 /// The stiffness that draws the hand back, if it is alike at most places.
 double even_stiffness(const StaticForce& still, PatchSize patch) {
@@ -87,8 +90,14 @@ double chance_of_line(const Relief& relief, glm::dvec2 half) {
   return 2 * relief.amplitude * std::sqrt(1 - relief.regularity) * std::min(1.0, relief.period / side);
 }
 
+/// How much more the force pushes a hand at first, N.
+struct AtFirst {
+  glm::dvec2 force{0};
+  double uncertain = 0;  ///< so much at most: as it differs from place to place
+};
+
 /// The linear part: a spring, and a constant push.
-void tell_trend(const Bank& bank, ForceReading& found, glm::dvec2 at_first) {
+void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) {
   const StaticForce& still = found.still;
   const PatchSize patch = bank.size();
   const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
@@ -98,10 +107,11 @@ void tell_trend(const Bank& bank, ForceReading& found, glm::dvec2 at_first) {
     if (std::abs(spring.greatest) * nearest < chance) spring = {};
     found.stiffness = spring.greatest, found.stiffness_across = spring.across, found.stiffness_axis = spring.axis;
     // Less is what the waves' incomplete periods leave.
-    const double certain = std::max({chance, misfit_of_relief * found.relief().amplitude,
-                                     misfit_of_spring * std::abs(spring.greatest) * nearest,
-                                     misfit_of_swing * std::max(found.sway.amplitude, found.vibration.amplitude)});
-    const glm::dvec2 push = still.trend.mean - at_first;
+    const double certain = std::max(
+        {chance, misfit_of_relief * found.relief().amplitude, misfit_of_spring * std::abs(spring.greatest) * nearest,
+         misfit_of_swing * std::max(found.sway.amplitude, found.vibration.amplitude),
+         found.vibration.noise ? misfit_of_noise * found.vibration.amplitude : 0, at_first.uncertain});
+    const glm::dvec2 push = still.trend.mean - at_first.force;
     if (glm::length(push) >= std::max(least_force, certain)) found.constant = push;
   } else {
     found.stiffness = found.stiffness_across = even_stiffness(still, patch);
@@ -112,20 +122,54 @@ void tell_trend(const Bank& bank, ForceReading& found, glm::dvec2 at_first) {
     found.stiffness = found.stiffness_across = 0, found.stiffness_axis = {0, 0};
 }
 
+/// Whether the middle of single features pushes the hand out or draws it in.
+double outward_push(const Bank& bank, const ForceReading& found) {
+  const Relief& relief = found.relief();
+  if (relief.amplitude < least_force || relief.period > 0) return 0;
+  constexpr int side = 48;
+  constexpr double plainly = 0.5;
+  const PatchSize patch = bank.size();
+  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
+  std::vector<glm::dvec2> places;
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column)
+      places.push_back(half * ((glm::dvec2(column, row) + 0.5) / (0.5 * side) - 1.0));
+  std::vector<glm::dvec2> forces = forces_at(bank, places);
+  glm::dvec2 middle{0};
+  double power = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    forces[i] -= found.still.trend.at(places[i]);
+    middle += glm::dot(forces[i], forces[i]) * places[i], power += glm::dot(forces[i], forces[i]);
+  }
+  if (!(power > 0)) return 0;
+  middle /= power;
+  double outward = 0, all = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double along = glm::dot(forces[i], places[i] - middle);
+    outward += along, all += std::abs(along);
+  }
+  return std::abs(outward) < plainly * all ? 0 : std::copysign(relief.amplitude, outward);
+}
+
 /// What resists a moving hand in a part of the patch only is no law of motion, which strokes through the middle show.
 void tell_force_on_moving(const Bank& bank, ForceReading& found) {
   const OpposingForce& opposing = found.opposing;
+  const bool unexplained = !opposing.explained && std::ranges::any_of(opposing.by_speed, [](const DragAt& each) {
+    return std::abs(each.newton) >= least_force;
+  });
   const bool resisted = std::abs(opposing.damping) >= least_damping || std::abs(opposing.friction) >= least_force ||
-                        opposing.scatter >= least_force || opposing.aside >= least_force || found.wall;
+                        opposing.scatter >= least_force || opposing.aside >= least_force || unexplained || found.wall;
   if (!resisted) found.other.moving = force_on_moving(bank);
 }
 
 /// How much more the force pushes a hand that has just come and rests than it does in the mean over time, and over slow
 /// motion to and fro: a sway begins somewhere in its period, and a sign has a value at rest. N.
-glm::dvec2 only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& felt, const ForceReading& found) {
+AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& felt, const ForceReading& found) {
   const PatchProgram& program = bank.program().description();
-  glm::dvec2 off{0};
-  if (std::max(found.sway.amplitude, found.vibration.amplitude) >= least_force)
+  AtFirst off;
+  if (std::max(found.sway.amplitude, found.vibration.amplitude) >= least_force) {
+    const auto places = static_cast<double>(felt.size());
+    std::vector<glm::dvec2> all;
     for (const std::vector<Force>& forces : felt) {
       // Under Hann's window a swing has no mean, however many periods there are.
       glm::dvec2 mean{0};
@@ -133,8 +177,15 @@ glm::dvec2 only_at_first(const Bank& bank, const std::vector<std::vector<Force>>
       for (std::size_t i = 0; i < forces.size(); ++i)
         mean += (1 - std::cos(2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / count)) / count *
                 glm::dvec2(forces[i]);
-      off += (glm::dvec2(forces.front()) - mean) / static_cast<double>(felt.size());
+      all.push_back(glm::dvec2(forces.front()) - mean);
+      off.force += all.back() / places;
     }
+    // A wave that travels is elsewhere in its period at each place, and its mean over places is none's.
+    double squares = 0;
+    for (const glm::dvec2& each : all) squares += glm::dot(each - off.force, each - off.force);
+    off.uncertain = surely_at_first * std::sqrt(squares) / places;
+    if (off.uncertain >= least_force && glm::length(off.force) < off.uncertain) off.force = {0, 0};
+  }
   if (remembers_anything(program)) return off;
   constexpr double creeping = 1e-3;  // m/s
   std::array<Hand, 9> hands{};
@@ -150,7 +201,19 @@ glm::dvec2 only_at_first(const Bank& bank, const std::vector<std::vector<Force>>
   glm::dvec2 mean{0};
   for (std::size_t i = 1; i < forces.size(); ++i) mean += 0.125 * glm::dvec2(forces[i]);
   const glm::dvec2 at_rest = glm::dvec2(forces[0]) - mean;
-  return glm::length(at_rest) > least_force ? off + at_rest : off;
+  if (glm::length(at_rest) > least_force) off.force += at_rest;
+  return off;
+}
+
+/// A relief beside a trend that is fitted awry, or that the device cuts, may seem larger than all that pushes.
+void limit_relief(StaticForce& still, double most) {
+  constexpr double plainly_more = 1.06;
+  Relief& relief = still.relief;
+  const double largest = std::min(still.largest, std::numbers::sqrt2 * most);
+  if (relief.amplitude <= plainly_more * largest) return;
+  const double share = largest / relief.amplitude;
+  // What fills less than a hundredth of the patch is in none of these, and keeps its maximum.
+  for (double* each : {&relief.amplitude, &relief.rms, &relief.mean}) *each *= share;
 }
 
 }  // namespace
@@ -171,7 +234,7 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   if (bank.program().description().vibrates()) return {};  // such a program has no force
   ForceReading found;
   const bool remembers = remembers_anything(bank.program().description());
-  glm::dvec2 at_first{0};
+  AtFirst at_first;
   const auto read_still = [&] { found.still = static_force(bank); };
   const auto read_moving = [&] {
     found.opposing = opposing_force(bank);
@@ -182,6 +245,7 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
     at_first = only_at_first(bank, felt, found);
     found.other =
         other_force(bank, felt, found.sway, found.vibration, std::max(found.opposing.friction, found.breakaway));
+    found.other.later = later_force(bank, still_seconds, remembers_time_only(bank.program().description()));
   };
   const auto part = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -196,10 +260,12 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   else
     part(0, parts);
   if (!wanted.still) return found;
-  found.at_first = glm::length(at_first);
+  limit_relief(found.still, bank.program().description().device.most());
+  found.at_first = glm::length(at_first.force);
   tell_obstacles(bank, found);
   if (found.wall) found.wall_push = deepest(bank, *found.wall).newton;
   tell_trend(bank, found, at_first);
+  found.outward = outward_push(bank, found);
   // What damps the hand in a wall is the wall's.
   if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping)
     found.opposing = opposing_force(bank, &*found.wall);

@@ -34,6 +34,9 @@ struct ForceReading {
   Swing sway;            ///< slower than 10 Hz
   Swing vibration;
   OtherForce other;
+  /// N: the amplitude of single features that push the hand out of their middle, as a hill does; negative if they draw
+  /// it in, as a hole does; 0 if they do neither or repeat.
+  double outward = 0;
 
   /// N/m: of all walls but the stiffest together.
   double more_wall_stiffness() const;

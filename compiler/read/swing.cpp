@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -17,13 +18,17 @@ namespace wale {
 namespace {
 
 constexpr std::size_t still_places = 8;
-constexpr double still_seconds = 8;
 constexpr std::size_t fewest_swings = 3;  // over that time; slower changes are a drift
 constexpr std::size_t most_harmonic = 8;
 constexpr double of_the_strongest = 0.2;  // line's power, in a fundamental
 constexpr double stands_out = 0.25;       // of a peak's power, at most this is three lines before it
-constexpr double no_swing = 1e-5;         // N
+constexpr double most_of_power = 0.7;
+constexpr std::size_t most_lines = 24;   // of the spectrum, three for each rate, in what has rates
+constexpr std::size_t fewest_apart = 8;  // lines between the harmonics of what is no noise
+constexpr double no_swing = 1e-5;        // N
 constexpr double beats_of_ticks = 0.05;  // of a vibration's power, below its band: the rate of the ticks is no multiple
+constexpr double pure = 0.995;           // of the power: a sine has as much in the lines around its own
+constexpr double missed = 1.03;          // most that the ticks of a sine may miss of its peak
 
 /// Forces as changes, without their mean and their drift: a parabola in time.
 std::vector<std::complex<float>> without_drift(const std::vector<Force>& forces) {
@@ -61,6 +66,52 @@ double size_within(const Spectrum& spectrum, const std::vector<float>& fade, std
   const auto rank = sizes.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size()));
   std::nth_element(sizes.begin(), rank, sizes.end());
   return *rank;
+}
+
+/// rad in [0, pi): the axis of the part of a force that some lines of its spectrum hold, if it has one.
+std::optional<double> axis_within(const Spectrum& spectrum, std::size_t first, std::size_t end) {
+  double xx = 0, yy = 0, xy = 0;
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
+    const std::complex<double> line(spectrum[i]), mirror(std::conj(spectrum[spectrum.size() - i]));
+    const std::complex<double> x = line + mirror, y = std::complex<double>(0, -1) * (line - mirror);
+    xx += std::norm(x), yy += std::norm(y), xy += (x * std::conj(y)).real();
+  }
+  constexpr double plainly = 0.5, nearly_whole = 1e-3;
+  if (std::hypot(xx - yy, 2 * xy) < plainly * (xx + yy) || !(xx + yy > 0)) return std::nullopt;
+  const double angle = std::fmod(0.5 * std::atan2(2 * xy, xx - yy) + std::numbers::pi, std::numbers::pi);
+  return std::numbers::pi - angle < nearly_whole ? 0 : angle;
+}
+
+/// N: the farthest that some forces go from the middle between the extremes along each axis. No swing is larger.
+double farthest_from_middle(const std::vector<Force>& forces) {
+  glm::dvec2 least(HUGE_VAL), most(-HUGE_VAL);
+  for (const Force& force : forces)
+    least = glm::min(least, glm::dvec2(force)), most = glm::max(most, glm::dvec2(force));
+  double farthest = 0;
+  for (const Force& force : forces)
+    farthest = std::max(farthest, glm::length(glm::dvec2(force) - 0.5 * (least + most)));
+  return farthest;
+}
+
+/// Whether a changing force has no rate: it takes many lines of its spectrum to hold most of its power, and they are no
+/// multiples of one.
+bool is_noise(const std::vector<double>& powers) {
+  std::vector<double> sorted = powers;
+  std::ranges::sort(sorted, std::greater());
+  double whole = 0, sum = 0;
+  for (const double power : sorted) whole += power;
+  std::size_t needed = 0;
+  while (needed < sorted.size() && sum < most_of_power * whole) sum += sorted[needed++];
+  if (needed <= most_lines) return false;
+  // The fundamental of a train of pulses is hardly stronger than its harmonics.
+  double best = 0;
+  for (std::size_t apart = fewest_apart; apart < powers.size() / 4; ++apart) {
+    double within = 0;
+    for (std::size_t i = apart; i + 1 < powers.size(); i += apart) within += powers[i - 1] + powers[i] + powers[i + 1];
+    best = std::max(best, within / whole);
+    if (best > most_of_power) return false;
+  }
+  return true;
 }
 
 /// A size (N) that counts from the mean of the forces, or half of the way between those farthest apart if that is
@@ -175,6 +226,11 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
     const std::size_t mirror = spectrum.size() - i;
     powers[i] = (std::norm(spectrum[i]) + (mirror == i ? 0 : std::norm(spectrum[mirror]))) / (0.375 * ticks * ticks);
   }
+  if (is_noise(powers)) {
+    vibration = {std::min(size_within(spectrum, fade, 1, powers.size() - 1), farthest_from_middle(*at_busiest)), 0,
+                 true};
+    return;
+  }
   // A swing at the border belongs to the faster ones with all of its lines, which are three under this window.
   auto first_fast = static_cast<std::size_t>(slowest_vibration * seconds);
   const auto foot = powers.begin() + static_cast<std::ptrdiff_t>(first_fast) - 2;
@@ -190,12 +246,24 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
     sway.amplitude =
         size_within(spectrum, fade, std::max<std::size_t>(3, static_cast<std::size_t>(sway.frequency * seconds)) - 2,
                     harmonic ? powers.size() : first_fast);
+  if (sway.frequency > 0) sway.axis = axis_within(spectrum, fewest_swings, first_fast);
+  sway.amplitude = std::min(sway.amplitude, farthest_from_middle(*at_busiest));
   if (!(vibration.frequency > 0)) return;
+  vibration.axis = axis_within(spectrum, first_fast, powers.size());
   double slower = 0, faster = 0;
   for (std::size_t i = 1; i < powers.size(); ++i) (i < first_fast ? slower : faster) += powers[i];
   const bool alone = !(sway.frequency > 0) && slower < beats_of_ticks * faster;
   vibration.amplitude = size_within(spectrum, fade, alone ? 1 : first_fast, powers.size());
   if (slower < beats_of_ticks * faster) vibration.amplitude = without_unequal_halves(vibration.amplitude, *at_busiest);
+  vibration.amplitude = std::min(vibration.amplitude, farthest_from_middle(*at_busiest));
+  // Few ticks of a sine fall on its peaks: what those miss is not of the wave.
+  const auto line = static_cast<std::size_t>(std::lround(vibration.frequency * seconds));
+  double tone = 0;
+  for (std::size_t i = std::max<std::size_t>(line, 3) - 2; i < std::min(line + 3, powers.size()); ++i)
+    tone += powers[i];
+  const double peak = std::sqrt(2 * tone);
+  if (tone >= pure * (slower + faster) && peak > vibration.amplitude && peak < missed * vibration.amplitude)
+    vibration.amplitude = peak;
 }
 
 }  // namespace wale

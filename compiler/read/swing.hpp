@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "wale/program.hpp"
@@ -9,8 +10,14 @@ namespace wale {
 /// A changing force on a hand that holds still.
 struct Swing {
   double amplitude = 0;  ///< N: the 99th percentile of its size, as the amplitude of a relief is defined
-  double frequency = 0;  ///< Hz: of its strongest component; 0 if the force does not swing
+  double frequency = 0;  ///< Hz: of its strongest component; 0 if the force does not swing, or no one stands out
+  bool noise = false;    ///< it changes without a rate
+  /// rad in [0, pi): along which it swings; nothing if it swings about as much across
+  std::optional<double> axis{};
 };
+
+/// s: so long hands hold still that feel what time brings.
+inline constexpr double still_seconds = 8;
 
 /// Below this frequency (Hz) a swing is a sway, which the hand follows; above it is a vibration.
 inline constexpr double slowest_vibration = 10;

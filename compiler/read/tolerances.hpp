@@ -18,5 +18,7 @@ inline constexpr double least_of_relief = 0.1;
 /// The relative error of a carrier's size that is read from a force: less than a third of the 7 % that people notice
 /// (calibration/thresholds/pang1991.wale).
 inline constexpr double reading = 0.02;
+/// The relative error of a period: over the many periods of a patch it adds up, so it is read far better than a size.
+inline constexpr double reading_of_period = 0.005;
 
 }  // namespace wale

@@ -150,8 +150,11 @@ class Solver {
     states_ = checker.record().states;
     for (const auto& carrier : carriers_)
       if (carrier.relief) {
-        relief_ = carrier.relief;
-        solved_.relief_is_length = carrier.relief_dimension == declarations_.dimension("length");
+        // Heights of one kind lie on each other, as their forces add up.
+        const bool is_length = carrier.relief_dimension == declarations_.dimension("length");
+        const bool alike = relief_ && is_length == solved_.relief_is_length;
+        relief_ = alike ? terms_.apply(Operation::add, *relief_, *carrier.relief) : *carrier.relief;
+        solved_.relief_is_length = is_length;
       }
     return diagnostics_.error_count() == errors_before;
   }

@@ -30,6 +30,13 @@ std::string sources_of(const std::vector<const Map*>& maps) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
+/// "`lateral`, by its amplitude" for "lateral amplitude".
+std::string carrier_words(const std::string& carrier) {
+  const std::size_t space = carrier.find(' ');
+  if (space == std::string::npos) return fmt::format("`{}`", carrier);
+  return fmt::format("`{}`, by its {}", carrier.substr(0, space), carrier.substr(space + 1));
+}
+
 }  // namespace
 
 /// Finds the terms of the total force: what is added up, unchanged. A sum that is used twice is read once.
@@ -192,7 +199,7 @@ void PerceptSolver::match(const AskedPercept& asked) {
   if (mine.empty())
     return report(Code::percept_unrealised, asked.place(),
                   fmt::format("expected a force that carries {}, found none", asked.name),
-                  fmt::format("{} is carried by the {}; add such a force", asked.name, percept.carrier));
+                  fmt::format("{} is carried by {}; add such a force", asked.name, carrier_words(percept.carrier)));
   if (open.size() > 1) {
     settle_all();
     return report(Code::several_open, open[1]->span,

@@ -47,9 +47,12 @@ std::vector<Input> tick_inputs_of(const PatchProgram& program) {
 }  // namespace
 
 const BlockCode& BlockSection::code() const {
-  std::call_once(decoded_, [this] {
+  if (is_decoded_.load(std::memory_order_acquire)) return code_;
+  const std::lock_guard lock(decoding_);  // with std::call_once an exception may end the process when memory is short
+  if (!is_decoded_.load(std::memory_order_relaxed)) {
     code_ = decode_block(program_.description, program_.splines, program_.grids, instructions_);
-  });
+    is_decoded_.store(true, std::memory_order_release);
+  }
   return code_;
 }
 

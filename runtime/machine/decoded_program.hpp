@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -33,7 +34,8 @@ class BlockSection {
  private:
   const DecodedProgram& program_;
   std::span<const Instruction> instructions_;
-  mutable std::once_flag decoded_;
+  mutable std::mutex decoding_;
+  mutable std::atomic<bool> is_decoded_ = false;
   mutable BlockCode code_;
 };
 

@@ -20,6 +20,7 @@ class Line {
   template <class Number>
   requires std::is_arithmetic_v<Number> Line& operator<<(Number number) {
     if (std::isnan(static_cast<double>(number))) return *this << std::string_view();
+    if (number == Number{0}) number = Number{0};  // no -0
     std::array<char, 32> digits;
     const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
     return *this << std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data()));

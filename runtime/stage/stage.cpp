@@ -5,6 +5,20 @@
 #include "runtime/stage/session.hpp"
 
 namespace wale {
+namespace {
+
+/// Ends the run that `start` began, and waits for its end; false if it began none. Allocates nothing.
+bool end_started_run(StageState& state) {
+  if (!state.thread.joinable()) return false;
+  {
+    const std::lock_guard lock(state.mutex);
+    if (!state.outcome) state.told_to_stop = true;  // a run that failed has ended, and another may be under way
+  }
+  state.thread.join();
+  return true;
+}
+
+}  // namespace
 
 Stage::Stage(std::unique_ptr<Device> device, StageOptions options) {
   const DeviceProfile profile = device->profile();
@@ -27,7 +41,10 @@ Stage& Stage::operator=(Stage&& other) noexcept {
 
 Stage::~Stage() {
   if (!state_) return;
-  (void)stop();
+  {
+    const std::lock_guard starting(state_->starting);
+    end_started_run(*state_);
+  }
   std::unique_lock lock(state_->mutex);
   state_->over = true;
   state_->told_to_stop = true;
@@ -96,12 +113,7 @@ Result<> Stage::start() {
 
 Result<RunResult> Stage::stop() {
   const std::lock_guard starting(state_->starting);
-  if (!state_->thread.joinable()) return wrong_moment("no run was started on this stage");
-  {
-    const std::lock_guard lock(state_->mutex);
-    if (!state_->outcome) state_->told_to_stop = true;  // a run that failed has ended, and another may be under way
-  }
-  state_->thread.join();
+  if (!end_started_run(*state_)) return wrong_moment("no run was started on this stage");
   return *std::exchange(state_->outcome, std::nullopt);
 }
 

@@ -84,6 +84,35 @@ TEST(HandMotion, AHandAlongYCrossesWhatLiesAcrossY) {
   EXPECT_EQ(felt_text(report).find("read back"), std::string::npos);
 }
 
+TEST(FeltPercepts, AreThoseThatDescribeReads) {
+  Declared plain("material m { physical { force = vector(1 N * sin(2 pi * x / 4 mm), 0 N) } }\n");
+  const Program program = plain.program();
+  FeltReport report = felt(program, "lateral", 5);
+  tell_read_percepts(report, Bank(program), plain.declarations());
+  EXPECT_NE(felt_text(report).find("none is asked for; `wale describe` reads roughness 0.36"), std::string::npos)
+      << felt_text(report);
+
+  Declared wide(
+      "material m { perceptual { roughness 0.5 } physical { force = lateral(grating(x, period: 14 mm)) } }\n");
+  const Program coarse = wide.program();
+  report = felt(coarse, "lateral", 20);
+  EXPECT_TRUE(report.levels.at(0).back) << "enough crossings";
+  tell_read_percepts(report, Bank(coarse), wide.declarations());
+  EXPECT_NE(felt_text(report).find("no level: outside what was measured (period 14 mm, measured to 10)"),
+            std::string::npos)
+      << felt_text(report);
+}
+
+// A push in the first moments only is the largest, though the figures leave them out.
+TEST(FeltPercepts, TheLargestForceIsThatOfAllTicks) {
+  Declared early("material m { physical { active 2 W\n force = vector(if time < 0.2 s then 3 N else 0.5 N, 0 N) } }\n");
+  const FeltReport report = felt(early.program(), "lateral", 5);
+  EXPECT_LT(report.felt.force.maximum, 0.6);
+  EXPECT_NEAR(report.largest, 3, 0.05);
+  EXPECT_LT(report.largest_at, 0.2);
+  EXPECT_NE(felt_text(report).find("  largest      "), std::string::npos) << felt_text(report);
+}
+
 // A wall of 500 N/m at 20 mm, and a hand of 135 N/m that aims for 40 mm: it stops where 500 d = 135 (20 mm - d).
 TEST(HandMotion, AHandPressesIntoAWall) {
   Declared declared("material m { physical { force = firm(500 N/m) + crisp(4 N s/m) } }\n");

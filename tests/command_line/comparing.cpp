@@ -119,6 +119,23 @@ TEST(Levels, AreProposedAsADeclaration) {
               json["levels"][2]["apart"].get<double>(), 0.2);
 }
 
+// A hand on it is never fast enough to feel what resists in proportion to its speed, and on so small a patch no wall
+// stands.
+TEST(Levels, ThatNoHandOnTheDeviceMeetsAreNotProposed) {
+  const TemporaryFolder folder;
+  const std::string devices = folder.write(
+      "devices.wale",
+      "wale 1\nexport device slow {\n  class force_plane\n  workspace disc(30 mm)\n  position 4096 counts\n"
+      "  force 10 N, 2048 counts\n  rate 900 Hz\n  speed 50 mm/s\n  slew 200 N/s\n  velocity_filter 15, 1 counts\n"
+      "  patch 20 mm, 20 mm, 2 mm\n  mass 0.3 kg\n  damping 1 N s/m\n  friction 0.15 N\n  delay 0 ms\n}\n");
+  for (const char* percept : {"viscosity", "hardness"}) {
+    const Outcome run = wale({"levels", percept, "--devices", devices, "--device", "slow"});
+    EXPECT_EQ(run.status, 1) << percept << run.out;
+    EXPECT_TRUE(contains(run.err, "no hand on `slow` meets " + std::string(percept))) << run.err;
+  }
+  EXPECT_EQ(wale({"levels", "roughness", "--devices", devices, "--device", "slow"}).status, 0);
+}
+
 TEST(Levels, ThatCannotBeProposedAreExplained) {
   EXPECT_EQ(wale({"levels", "vibration"}).status, 1);
   // Cholewiak, Tan and Ebert 2008: 2.9 forces are recognised alone; side by side many more are told apart.

@@ -49,6 +49,19 @@ TEST(CompareUnlike, AWallsDampingAndAWallBesideATextureAreCompared) {
             Verdict::apart);
 }
 
+TEST(CompareUnlike, SmallFeaturesAndHowAWallBeginsAndEndsAreCompared) {
+  EXPECT_EQ(verdict_between("force = vector(0 N, 0 N)",
+                            "force = vector(2 N * (if abs(x) < 0.5 mm then sin(2 * pi * x / 1 mm) else 0), 0 N)"),
+            Verdict::apart);
+  const auto wall = [](const char* law) {
+    return "force = vector(if x > 20 mm then " + std::string(law) + " else 0 N, 0 N)";
+  };
+  const std::string plain = wall("-300 N/m * (x - 20 mm)");
+  EXPECT_EQ(verdict_between(plain, wall("-3 N - 300 N/m * (x - 20 mm)")), Verdict::apart);
+  EXPECT_EQ(verdict_between(plain, wall("-min(300 N/m * (x - 20 mm), 3 N)")), Verdict::apart);
+  EXPECT_EQ(verdict_between(plain, plain), Verdict::alike);
+}
+
 // People's thresholds for these are not published.
 TEST(CompareUnlike, ADifferenceOfDirectionOrGrainIsUnknown) {
   const std::pair<const char*, const char*> pairs[] = {
@@ -62,6 +75,32 @@ TEST(CompareUnlike, ADifferenceOfDirectionOrGrainIsUnknown) {
     EXPECT_EQ(verdict_between(one, one), Verdict::alike) << one;
     EXPECT_EQ(verdict_between(other, other), Verdict::alike) << other;
   }
+}
+
+// A force has a way, and not only a size.
+TEST(CompareUnlike, WhereAForcePushesTellsApart) {
+  const std::pair<const char*, const char*> pairs[] = {
+      {"force = vector(if button then 3 N else 0 N, 0 N)", "force = vector(if button then -3 N else 0 N, 0 N)"},
+      {"active 2 W\nforce = vector(if time > 1 s then 3 N else 0 N, 0 N)",
+       "active 2 W\nforce = vector(0 N, if time > 1 s then 3 N else 0 N)"},
+      {"force = vector(2 N * (x / 8 mm) * exp(-(x / 8 mm)^2), 0 N)",
+       "force = vector(-2 N * (x / 8 mm) * exp(-(x / 8 mm)^2), 0 N)"},
+      {"force = 2 N * hand / 8 mm * exp(-dot(hand, hand) / 64 mm / 1 mm)",
+       "force = -2 N * hand / 8 mm * exp(-dot(hand, hand) / 64 mm / 1 mm)"}};
+  for (const auto& [one, other] : pairs) {
+    EXPECT_EQ(verdict_between(one, other), Verdict::apart) << one << '\n' << other;
+    EXPECT_EQ(verdict_between(one, one), Verdict::alike) << one;
+    EXPECT_EQ(verdict_between(other, other), Verdict::alike) << other;
+  }
+}
+
+TEST(CompareUnlike, AVibrationHasAnAxis) {
+  const std::string along_x = "active 2 W\nforce = vector(0.5 N * sin(2 pi * phase(50 Hz)), 0 N)";
+  const std::string along_y = "active 2 W\nforce = vector(0 N, 0.5 N * sin(2 pi * phase(50 Hz)))";
+  const std::string round = "active 2 W\nforce = 0.5 N * vector(cos(2 pi * phase(50 Hz)), sin(2 pi * phase(50 Hz)))";
+  EXPECT_EQ(verdict_between(along_x, along_y), Verdict::unknown);
+  EXPECT_EQ(verdict_between(along_x, round), Verdict::unknown);
+  for (const std::string& each : {along_x, along_y, round}) EXPECT_EQ(verdict_between(each, each), Verdict::alike);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -214,7 +215,10 @@ TEST(Outside, APeriodIsSaidAndNeverGradedMeasured) {
     const Description description = made.description();
     EXPECT_NE(description_text(description).find(each.words), std::string::npos) << description_text(description);
     EXPECT_EQ(percept(description, "roughness").evidence(), Evidence::extrapolated);
-    EXPECT_EQ(percept(description, "roughness").level, 0) << "its period counts for no roughness";
+    EXPECT_TRUE(percept(description, "roughness").unknown) << "its period counts for no roughness";
+    EXPECT_NE(description_text(description).find("reads     unknown"), std::string::npos);
+    EXPECT_TRUE(made.json()["percepts"]["roughness"]["level"].is_null());
+    EXPECT_FLOAT_EQ(fate(description, "roughness").given, fate(description, "roughness").asked) << "no other is known";
     EXPECT_EQ(fate(description, "roughness").fate, Fate::approximated);
     const Json outside = made.json()["percepts"]["roughness"]["outside"];
     ASSERT_EQ(outside.size(), 1u);
@@ -222,6 +226,63 @@ TEST(Outside, APeriodIsSaidAndNeverGradedMeasured) {
     EXPECT_NEAR(outside[0]["low_si"].get<double>(), 0.7e-3, 1e-8);
     EXPECT_NEAR(outside[0]["high_si"].get<double>(), 10e-3, 1e-8);
   }
+}
+
+TEST(Outside, APeriodALittleBeyondTheRangeIsNotMeasured) {
+  for (const char* period : {"10.2 mm", "10.1 mm", "0.69 mm"}) {
+    const Made made("roughness 0.6", "    force = lateral(grating(x, period: " + std::string(period) + "))");
+    EXPECT_EQ(made.codes(), "W0407") << period;
+    EXPECT_EQ(percept(made.description(), "roughness").evidence(), Evidence::extrapolated) << period;
+  }
+}
+
+// ---- parameters ----
+
+/// The described material of these percepts and statements at other values of its parameters.
+Description described_at(const Made& made, const std::vector<float>& values) {
+  return describe(Bank(made.program, values, made.program.default_size()), made.declared.declarations());
+}
+
+TEST(Parameters, TheFateIsWhatIsReadWhereverTheValuesComeFrom) {
+  const Made made("roughness 0.5",
+                  "    param p = 2 mm in 0.5 mm .. 30 mm\n    param g = 1 in 0 .. 5\n"
+                  "    force = g * lateral(grating(x, period: p))");
+  const auto& parameters = made.program.description().parameters;
+  std::vector<float> values;
+  for (const Parameter& each : parameters) values.push_back(each.value);
+  const auto place = [&](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(parameters, name, &Parameter::name) - parameters.begin());
+  };
+  for (const auto& [gain, reads] : {std::pair{0.0f, 0.0}, {5.0f, level_of(5 * newton(0.5))}}) {
+    values[place("g")] = gain;
+    const Description description = described_at(made, values);
+    EXPECT_NEAR(percept(description, "roughness").level, reads, 0.02) << gain;
+    EXPECT_EQ(fate(description, "roughness").fate, Fate::approximated) << gain;
+    EXPECT_NEAR(fate(description, "roughness").given, percept(description, "roughness").level, 1e-3) << gain;
+  }
+  values[place("g")] = 1, values[place("p")] = 0.014f;
+  EXPECT_TRUE(percept(described_at(made, values), "roughness").unknown);
+}
+
+TEST(Parameters, TheEndsOfARangeThatFeelOtherwiseAreTold) {
+  const Made made("roughness 0.5",
+                  "    param p = 2 mm in 1 mm .. 30 mm\n    param g = 1 in 0 .. 3\n    param k = 1 N/m in 0.5 N/m .. 2 "
+                  "N/m\n    force a = g * lateral(grating(x, period: p))\n    force b = spring(k)");
+  const Description description = made.description();
+  const auto& ends = percept(description, "roughness").ends;
+  ASSERT_EQ(ends.size(), 3u) << description_text(description);
+  const std::string text = description_text(description);
+  EXPECT_NE(text.find("at 30 mm roughness reads unknown"), std::string::npos) << text;
+  EXPECT_NE(text.find("; at 0 roughness reads 0.00; at 3 roughness reads "), std::string::npos) << text;
+}
+
+TEST(Parameters, ALevelTooSmallToBeReadIsNotGiven) {
+  const Made made("viscosity 0.05", "    force = viscous()");
+  const Description description = made.description();
+  EXPECT_EQ(percept(description, "viscosity").level, 0);
+  EXPECT_EQ(fate(description, "viscosity").fate, Fate::approximated);
+  EXPECT_EQ(fate(description, "viscosity").given, 0);
+  EXPECT_EQ(made.codes(), "W0407") << "few people feel what was asked for, which is said";
 }
 
 TEST(Outside, APeriodAtTheEndOfTheRangeIsInside) {

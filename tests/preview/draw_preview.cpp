@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "compiler/drawing/axis.hpp"
+#include "compiler/drawing/canvas.hpp"
 #include "compiler/image/openimageio.hpp"
 #include "compiler/modules/load_modules.hpp"
-#include "compiler/preview/axis.hpp"
 #include "compiler/preview/exhibit.hpp"
 #include "compiler/preview/preview.hpp"
 #include "tests/preview/hand_made.hpp"
@@ -40,9 +41,11 @@ int darkest(const Drawing& drawing, int left, int top, int right, int bottom) {
   return least;
 }
 
-Drawing draw(const Bank& bank) {
-  return *draw_preview(bank, preview_text(bank, common_modules()->declarations), common_modules()->declarations);
+Drawing drawn(const Bank& bank, const PreviewText& text) {
+  return draw_preview(bank, text, common_modules()->declarations)->page->pixels();
 }
+
+Drawing draw(const Bank& bank) { return drawn(bank, preview_text(bank, common_modules()->declarations)); }
 
 TEST(Preview, ReliefRepeatsWithThePeriodAndIsConstantAlongTheRibs) {
   const Drawing drawing = draw(sine_grating(0.004f, 1));
@@ -88,17 +91,16 @@ TEST(Preview, WordsAreOnThePage) {
   ASSERT_EQ(text.figures.size(), 1u);
   EXPECT_EQ(text.figures[0].word, "maximum force");
   EXPECT_EQ(text.figures[0].value, "1 N");
-  const Drawing drawing = *draw_preview(bank, text, common_modules()->declarations);
-  if (!drawing.has_text) GTEST_SKIP() << "no font is installed";
+  const Drawing drawing = drawn(bank, text);
   EXPECT_LT(darkest(drawing, 64, 60, 500, 110), 200);     // title
   EXPECT_LT(darkest(drawing, 64, 860, 300, 920), 200);    // figures
   EXPECT_GT(darkest(drawing, 1100, 30, 1590, 110), 700);  // nothing beside the title
 
   // Letters outside ASCII are drawn: the accent adds pixels above the letter, and nothing else changes.
   text.title = "Crepe";
-  const Drawing plain = *draw_preview(bank, text, common_modules()->declarations);
+  const Drawing plain = drawn(bank, text);
   text.title = "Crêpe";
-  const Drawing accented = *draw_preview(bank, text, common_modules()->declarations);
+  const Drawing accented = drawn(bank, text);
   EXPECT_NE(plain, accented);
   for (int y = 80; y < 1000; ++y) {
     for (int x = 0; x < 1600; x += 7)
@@ -113,9 +115,9 @@ TEST(Preview, LongAndBrokenWordsStayOnThePage) {
   text.names = "tab\there, newline\nthere, \xff\xfe not UTF-8, \xe2\x82";
   for (int i = 0; i < 40; ++i) text.figures.push_back({std::string(300, 'w'), std::string(300, '8')});
   text.evidence = std::string(5000, 'e');
-  const Drawing drawing = *draw_preview(bank, text, common_modules()->declarations);
+  const Drawing drawing = drawn(bank, text);
   EXPECT_GT(darkest(drawing, 1545, 0, 1600, 1000), 700);  // the right margin is empty
-  const Drawing wordless = *draw_preview(bank, {}, common_modules()->declarations);
+  const Drawing wordless = drawn(bank, {});
   EXPECT_EQ(wordless.width, drawing.width);
 }
 
@@ -263,6 +265,59 @@ TEST(EncodeDrawing, PngComesBackPixelForPixel) {
   EXPECT_FALSE(input->spec().find_attribute("Software"));
   input->close();
   std::filesystem::remove(path);
+}
+
+// ---- a page ----
+
+TEST(Page, AnSvgHasThePagesSizeAndItsLines) {
+  const auto page = *new_canvas(300, 200, {1, 1, 1});
+  page->line({10, 20}, {110, 20}, {4, {1, 0, 0}});
+  const auto bytes = *encode_page(*page, "page.svg");
+  const std::string svg(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  EXPECT_NE(svg.find("width=\"300px\" height=\"200px\""), std::string::npos) << svg.substr(0, 300);
+  EXPECT_NE(svg.find("M 10 20 L 110 20"), std::string::npos) << svg;
+  EXPECT_EQ(svg.find("<image"), std::string::npos);
+  EXPECT_EQ(bytes, *encode_page(*page, "page.SVG"));
+}
+
+TEST(Page, LinesCoverTheirWidthAndDashesLeaveGaps) {
+  const auto page = *new_canvas(100, 40, {1, 1, 1});
+  page->line({10, 10}, {90, 10}, {4, {0, 0, 0}});
+  page->line({10, 30}, {90, 30}, {4, {0, 0, 0}, 1, 10});
+  page->line({50, 20}, {50, 20}, {6, {0, 0, 1}});
+  const Drawing drawing = page->pixels();
+  for (const int y : {8, 9, 10, 11}) EXPECT_EQ(at(drawing, 50, y).lightness(), 0) << y;
+  for (const int y : {7, 12}) EXPECT_EQ(at(drawing, 50, y).lightness(), 3 * 255) << y;
+  EXPECT_EQ(at(drawing, 15, 30).lightness(), 0);
+  EXPECT_EQ(at(drawing, 25, 30).lightness(), 3 * 255);
+  EXPECT_EQ(at(drawing, 35, 30).lightness(), 0);
+  EXPECT_EQ(at(drawing, 50, 20).lightness(), 255) << "a line without a length is a dot";
+}
+
+TEST(Page, APlacedPictureHasItsColoursAndNothingBeyondItsBox) {
+  const auto page = *new_canvas(40, 40, {1, 1, 1});
+  const std::vector<Colour> squares = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+  page->place_squares({10, 10, 30, 30}, squares, 2);
+  const Drawing drawing = page->pixels();
+  const auto is = [&](int x, int y, int red, int green, int blue) {
+    const Pixel p = at(drawing, x, y);
+    return p.red == red && p.green == green && p.blue == blue;
+  };
+  for (const int near : {10, 19})
+    EXPECT_TRUE(is(near, near, 255, 0, 0) && is(near + 10, near, 0, 255, 0) && is(near, near + 10, 0, 0, 255)) << near;
+  for (const int beyond : {9, 30}) EXPECT_TRUE(is(beyond, 20, 255, 255, 255) && is(20, beyond, 255, 255, 255));
+}
+
+TEST(Page, WordsEndWhereTheyMayAndAreDrawnOnlyWithAFont) {
+  const auto page = *new_canvas(400, 60, {1, 1, 1});
+  const Type type = {Face::sans, 20, {0, 0, 0}};
+  page->write_within({10, 40}, 100, std::string(60, 'W'), type);
+  const Drawing drawing = page->pixels();
+  if (!page->has_text()) GTEST_SKIP() << "no font is installed";
+  EXPECT_LT(darkest(drawing, 10, 20, 110, 45), 200);
+  EXPECT_GT(darkest(drawing, 112, 0, 400, 60), 700);
+  // Kerning and shaping change a little; twice the letters are about twice as wide.
+  EXPECT_NEAR(page->width_of("wale wale", type), 2 * page->width_of("wale", type) + page->width_of(" ", type), 2);
 }
 
 TEST(EncodeDrawing, ProblemsAreWords) {

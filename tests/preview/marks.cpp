@@ -45,15 +45,15 @@ int count_red(const Drawing& drawing) {
 /// The hand that strokes a program before it is drawn.
 const HandDeclaration* showing_hand() { return common_modules()->declarations.hands.find("showing"); }
 
-Drawing draw(const Bank& bank) { return *draw_preview(bank, {}, common_modules()->declarations); }
+Drawing draw(const Bank& bank) { return draw_preview(bank, {}, common_modules()->declarations)->page->pixels(); }
 
 /// Only the marks, at their places on the page, on white. It is faster than a page.
 Drawing marks_of(const Bank& bank) {
-  Canvas canvas(picture_left + picture_side + 60, picture_top + picture_side + 60, {1, 1, 1});
+  const auto page = *new_canvas(picture_left + picture_side + 60, picture_top + picture_side + 60, {1, 1, 1});
   const Rehearsal rehearsal = rehearse(bank, showing_hand());
   const PageBox box = {picture_left, picture_top, picture_left + picture_side, picture_top + picture_side};
-  draw_marks(canvas, box, {.side = side}, rehearsal);
-  return canvas.finish(**image_library());
+  draw_marks(*page, box, {.side = side}, rehearsal);
+  return page->pixels();
 }
 
 constexpr std::uint32_t red = 0xd01010;

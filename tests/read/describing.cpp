@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compiler/describe/describe.hpp"
+#include "compiler/describe/describe_figure.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "tests/standard/standard.hpp"
 
@@ -217,11 +218,15 @@ TEST(DescribingForces, WhatGoesByTimeAloneHasNoMemoryAndOneLargestForce) {
       "state trail : length = 0 mm in -50 mm .. 50 mm\ntrail' = (x - trail) / 1 s\nforce = vector(-20 N/m * trail, 0 "
       "N)");
   EXPECT_EQ(rubbed.no_texture, "its force depends on its memory, so it has no single texture");
-  // A soft bristle gives most where the hand has come from afar.
+  // It gives most where the hand has come from afar.
+  EXPECT_GT(rubbed.other.remembered, 0.1);
+  EXPECT_GE(rubbed.force.max_newton, rubbed.other.remembered - 1e-4);
+  EXPECT_GE(rubbed.bound.found.newton, rubbed.force.max_newton - 1e-4);
+  // A soft bristle is friction, which no other cue tells again.
   const Description soft = described("force = sticky(0.5 N, 6 N/m)");
-  EXPECT_GT(soft.other.remembered, 0.1);
-  EXPECT_GE(soft.force.max_newton, soft.other.remembered - 1e-4);
-  EXPECT_GE(soft.bound.found.newton, soft.force.max_newton - 1e-4);
+  ASSERT_TRUE(percept(soft, "stickiness"));
+  EXPECT_NEAR(percept(soft, "stickiness")->amplitude, 0.5, 0.015);
+  EXPECT_EQ(soft.other.remembered, 0);
 }
 
 TEST(DescribingForces, ASquareWaveOfOneNewtonReadsOneNewtonAtAnyRate) {
@@ -232,6 +237,58 @@ TEST(DescribingForces, ASquareWaveOfOneNewtonReadsOneNewtonAtAnyRate) {
     ASSERT_TRUE(percept(description, "vibration")) << rate;
     EXPECT_NEAR(percept(description, "vibration")->amplitude, 1, 0.03) << rate;
   }
+}
+
+TEST(DescribingForces, WhatDrivesTheHandAwayAndASpringThatSlipsAreNoWalls) {
+  // Each pushes with what is noted behind it, and nowhere back out of a face that it stands behind.
+  const std::pair<const char*, double> forces[] = {
+      {"vector(if x > 20 mm then 300 N/m * (x - 20 mm) else 0 N, 0 N)", 10},  // the device's limit
+      {"vector(0 N, if y < -15 mm then 200 N/m * (y + 15 mm) else 0 N)", 10},
+      {"vector(if x > 20 mm then -3 N - 300 N/m * (x - 20 mm) else 0 N, 0 N) limit 8 N", 8},
+      {"vector(-clamp(x * 200 N/m, -2 N, 2 N), 0 N)", 2}};
+  for (const auto& [force, most] : forces) {
+    const Description description = described(std::string("active 9 W\nforce = ") + force);
+    EXPECT_FALSE(percept(description, "hardness")) << force;
+    EXPECT_EQ(description.constant_push, glm::dvec2(0)) << force;
+    EXPECT_TRUE(!description.wall || description.wall->face.place.x == 0.02) << force;
+    EXPECT_NEAR(description.unread, most, 0.15 * most) << force;
+  }
+  const Description wall = described("force = vector(if x > 20 mm then -300 N/m * (x - 20 mm) else 0 N, 0 N)");
+  ASSERT_TRUE(wall.wall);
+  EXPECT_NEAR(wall.wall->face.stiffness, 300, 3);
+  EXPECT_EQ(wall.unread, 0);
+}
+
+TEST(DescribingForces, SmallFeaturesSwaysAndWhatPushesOnAreTold) {
+  const Description ridge =
+      described("force = vector(2 N * (if abs(x) < 0.5 mm then sin(2 * pi * x / 1 mm) else 0), 0 N)");
+  EXPECT_NEAR(ridge.small_feature, 2, 0.1);
+  EXPECT_EQ(described("force = lateral(grating(x, period: 3 mm), amplitude: 1 N)").small_feature, 0);
+  const Description sway = described("active 9 W\nforce = vector(0.6 N * sin(2 * pi * phase(3 Hz)), 0 N)");
+  EXPECT_NEAR(sway.sway.amplitude, 0.6, 0.02);
+  EXPECT_NEAR(sway.sway.frequency, 3, 0.05);
+  // A triangle that begins at its crest is a vibration and nothing else.
+  const Description triangle = described("active 9 W\nforce = vector(0.5 N * (4 * abs(phase(50 Hz) - 0.5) - 1), 0 N)");
+  EXPECT_TRUE(percept(triangle, "vibration"));
+  EXPECT_EQ(triangle.unread, 0);
+  const Description away = described("force = 20 N/m * hand");
+  ASSERT_EQ(away.directed.size(), 1u);
+  EXPECT_NEAR(away.directed[0].size.greatest, -20, 0.1);
+}
+
+// firm(500 N/m) is its whole law, though the device gives 10 N only.
+TEST(DescribingForces, AHardnessIsThatOfAllWallsInOnePlace) {
+  const Description description = described(
+      "force a = firm(500 N/m, face: 20 mm)\n"
+      "force b = vector(if x > 20 mm then -300 N/m * (x - 20 mm) else 0 N, 0 N)");
+  const DescribedPercept* const hardness = percept(description, "hardness");
+  ASSERT_TRUE(hardness);
+  EXPECT_NEAR(hardness->amplitude, 800, 8);
+}
+
+TEST(DescribingForces, FiguresHaveNoSizeThatIsAnError) {
+  EXPECT_NEAR(figure(1e-310), 1e-310, 1e-312);
+  EXPECT_FALSE(std::signbit(figure(-0.0)));
 }
 
 }  // namespace

@@ -60,6 +60,34 @@ Composition chirp(Chance& chance) {
   return made;
 }
 
+/// A sine that wavers about its period, or comes and goes: rough, by however long it takes to be the same again.
+Composition wavering(Chance& chance) {
+  Composition made = any_patch(chance);
+  const double size = rounded(chance.octaves(0.05, 4), 3), angle = any_orientation(chance);
+  const double period = rounded(chance.octaves(1.2, 4), 3), after = rounded(period * chance.between(8, 16), 3);  // mm
+  const double deep = rounded(chance.between(0.3, 2), 3);
+  const bool comes_and_goes = chance.happens(0.5);
+  const glm::dvec2 way{std::cos(angle), std::sin(angle)};
+  const ForceLaw law = [=](const Sample& hand) {
+    const double along = 1e3 * glm::dot(way, hand.position), turn = 2 * pi * along / after;
+    const double there = 0.5 + 0.5 * std::cos(turn);
+    return size *
+           (comes_and_goes ? std::sin(2 * pi * along / period) * there * there
+                           : std::sin(2 * pi * along / period + deep * std::sin(turn))) *
+           way;
+  };
+  made.statement(fmt::format("let along = ({} * x + {} * y) / 1 mm", number(way.x), number(way.y)));
+  made.statement(fmt::format("let turn = 2 * pi * along / {}", number(after)));
+  const std::string wave = comes_and_goes
+                               ? fmt::format("sin(2 * pi * along / {}) * (0.5 + 0.5 * cos(turn))^2", number(period))
+                               : fmt::format("sin(2 * pi * along / {} + {} * sin(turn))", number(period), number(deep));
+  made.push(fmt::format("{} N * {} * {}", number(size), wave, unit_vector(angle)), law);
+  made.truth[Cue::amplitude] = made.truth[Cue::roughness] = valued(made.percentile_99(law));
+  made.truth[Cue::period] = made.truth[Cue::orientation] = open;
+  made.truth.waves.reset();
+  return made;
+}
+
 }  // namespace
 
 void add_hill(Composition& made, Chance& chance, double strongest) {
@@ -78,6 +106,8 @@ void add_hill(Composition& made, Chance& chance, double strongest) {
   for (const Cue cue : {Cue::amplitude, Cue::roughness, Cue::bumpiness, Cue::constant}) made.truth[cue] = open;
 }
 
-std::vector<Family> aperiodic_families() { return {{"hill", hills}, {"grains", grains}, {"chirp", chirp}}; }
+std::vector<Family> aperiodic_families() {
+  return {{"hill", hills}, {"grains", grains}, {"chirp", chirp}, {"wavering", wavering}};
+}
 
 }  // namespace wale::truth

@@ -87,6 +87,8 @@ class Patch {
   }
   /// Its number on the stage, as in recordings. A later patch may get the number of a removed one.
   std::uint32_t number() const { return number_; }
+  /// Never 0, and never that of another patch of the same stage.
+  std::uint64_t id() const { return (std::uint64_t{generation_} + 1) << 32 | number_; }
 
  private:
   friend class StageEdit;

@@ -1,0 +1,84 @@
+#include "compiler/describe/describe_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compiler/read/tolerances.hpp"
+#include "compiler/text/json_text.hpp"
+#include "compiler/text/readable.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::array<double, 4> told_speeds = {0.05, 0.1, 0.2, 0.4};  // m/s
+
+std::string size_words(double newton) {
+  if (std::abs(newton) < least_force) return "none";
+  return readable("{}{:.3g} N", newton < 0 ? "a push of " : "", std::abs(newton));
+}
+
+std::string power_words(double exponent) {
+  constexpr double near = 0.05;
+  if (exponent == 0) return "in no proportion to the speed";
+  if (std::abs(exponent - 2) < near) return "with the square of the speed";
+  if (std::abs(exponent - 3) < near) return "with the cube of the speed";
+  if (std::abs(exponent - 0.5) < near) return "with the root of the speed";
+  return readable("with the speed to the power {:.2g}", exponent);
+}
+
+bool goes_one_way(const OpposingForce& motion) { return motion.one_way() != glm::dvec2(0); }
+
+/// "1 N to the right, none to the left".
+std::string ways_words(const OpposingForce& motion) {
+  std::string text;
+  const auto add = [&](double newton, const char* way) {
+    text += readable("{}{} {}", text.empty() ? "" : ", ", size_words(newton), way);
+  };
+  if (motion.forward.x != motion.backward.x)
+    add(motion.forward.x, "to the right"), add(motion.backward.x, "to the left");
+  if (motion.forward.y != motion.backward.y) add(motion.forward.y, "upwards"), add(motion.backward.y, "downwards");
+  return text;
+}
+
+}  // namespace
+
+std::string motion_lines(const OpposingForce& motion) {
+  std::string text;
+  if (motion.friction_grows)
+    text += readable("  the friction is at least {:.3g} N: it still grows where the patch ends\n", motion.friction);
+  if (goes_one_way(motion))
+    text += readable("  the drag differs with the way that a hand goes: at 200 mm/s {}\n", ways_words(motion));
+  if (motion.uneven() > 0) {
+    const bool part = std::min(std::abs(motion.least_by_place), std::abs(motion.most_by_place)) < least_force;
+    text += part ? readable("  a drag in part of the patch only: at 200 mm/s up to {}\n",
+                            size_words(std::max(std::abs(motion.least_by_place), std::abs(motion.most_by_place))))
+                 : readable("  the drag differs from place to place: at 200 mm/s from {} to {}\n",
+                            size_words(motion.least_by_place), size_words(motion.most_by_place));
+  }
+  if (motion.explained || goes_one_way(motion) || motion.uneven() > 0) return text;
+  std::string sizes;
+  for (const double speed : told_speeds)
+    sizes += readable("{}{} at {:.0f} mm/s", sizes.empty() ? "" : ", ", size_words(motion.unexplained_at(speed)),
+                      1e3 * speed);
+  return text + readable("  a drag that {} {}: {}\n", motion.exponent == 0 ? "changes" : "grows",
+                         power_words(motion.exponent), sizes);
+}
+
+void add_motion(nlohmann::ordered_json& json, const OpposingForce& motion) {
+  if (motion.friction_grows) json["friction_at_least_newton"] = figure(motion.friction);
+  if (!motion.explained) {
+    auto& drag = json["drag"] = nlohmann::ordered_json::object();
+    if (motion.exponent > 0) drag["exponent"] = figure(motion.exponent);
+    for (const DragAt& each : motion.by_speed)
+      drag["by_speed"].push_back({{"speed", figure(each.speed)}, {"newton", figure(each.newton)}});
+  }
+  if (goes_one_way(motion))
+    json["drag_by_way"] = {{"forward_newton", {figure(motion.forward.x), figure(motion.forward.y)}},
+                           {"backward_newton", {figure(motion.backward.x), figure(motion.backward.y)}}};
+  if (motion.uneven() > 0)
+    json["drag_by_place"] = {{"least_newton", figure(motion.least_by_place)},
+                             {"most_newton", figure(motion.most_by_place)}};
+}
+
+}  // namespace wale

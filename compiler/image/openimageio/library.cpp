@@ -1,7 +1,0 @@
-#include "compiler/image/openimageio/functions.hpp"
-
-/// The one name that is looked for in the library.
-extern "C" const wale::ImageLibrary wale_image_library;
-
-const wale::ImageLibrary wale_image_library{wale::openimageio::encode_drawing, wale::openimageio::shrunk,
-                                            wale::openimageio::surroundings};

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+
+#include "compiler/check/check.hpp"
+
+namespace wale {
+
+/// The force that drives a hand away from where it rests, as a spring or a wall does whose minus is missing: along x or
+/// along y it never falls, rises over some millimetres, and does not push one way from one edge to the other. A height,
+/// which may be a hill, a force that begins with a sign and a parameter that may be negative are meant so. Nothing
+/// where the formulas cannot be evaluated.
+std::optional<Span> driving_away(const CheckedMaterial& material, const DeviceProfile& device);
+
+/// Whether the force that the formulas give a hand at rest is known to have no curl, however far above the device's
+/// force it is. False where it has one or cannot be evaluated.
+bool has_no_curl(const CheckedMaterial& material, const DeviceProfile& device);
+
+}  // namespace wale

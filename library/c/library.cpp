@@ -1,0 +1,252 @@
+#include "wale/library.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "runtime/c/device.hpp"
+#include "runtime/c/program.hpp"
+#include "runtime/c/sized.hpp"
+#include "wale/library.h"
+
+struct WaleLibrary {
+  wale::Library library;
+  std::vector<wale::DeclaredDevice> devices = library.devices();
+};
+
+struct WaleFuture {
+  std::future<wale::Result<wale::Compiled>> future;
+};
+
+namespace wale::c {
+namespace {
+
+using Later = std::future<Result<Compiled>>;
+
+Result<LibraryOptions> read_library_options(const WaleLibraryOptions* options) {
+  const auto given = read_sized("options", options);
+  if (!given) return given.error();
+  if (given->folder_count > 0 && given->folders == nullptr)
+    return about_argument("folders", "expected a value, found NULL");
+  LibraryOptions read{.unsandboxed_pictures = given->unsandboxed_pictures != 0};
+  for (const WaleText& each : std::span(given->folders, given->folder_count)) {
+    auto folder = read_path("folders", each);
+    if (!folder) return std::move(folder).error();
+    read.folders.push_back(*std::move(folder));
+  }
+  return read;
+}
+
+Result<CompileOptions> read_compile_options(const WaleCompileOptions* options) {
+  const auto given = read_sized("options", options);
+  if (!given) return given.error();
+  CompileOptions read;
+  auto device = read_text("device", given->device);
+  if (!device) return std::move(device).error();
+  auto material = read_text("material", given->material);
+  if (!material) return std::move(material).error();
+  auto name = read_path("name", given->name);
+  if (!name) return std::move(name).error();
+  read.device = *std::move(device), read.material = *std::move(material);
+  if (!name->empty()) read.name = *std::move(name);
+  return read;
+}
+
+Result<> hand_out_program(Result<Compiled> compiled, WaleProgram** to) {
+  if (!compiled) return std::move(compiled).error();
+  auto program = std::make_unique<WaleProgram>(WaleProgram{std::move(compiled->program)});
+  for (Error& each : compiled->warnings) program->warnings.push_back(handle_of(std::move(each)));
+  program->taken = std::move(compiled->taken);
+  hand_out(std::move(program), to);
+  return {};
+}
+
+/// A call of the library that gives a program: `make(library, options)`.
+template <class Make>
+WaleCode make_program(WaleLibrary* library, const WaleCompileOptions* options, WaleProgram** program, WaleError** error,
+                      const Make& make) {
+  return call(error, [&]() -> Result<> {
+    if (auto clear = clear_result("program", program); !clear) return clear;
+    if (auto given = is_given("library", library); !given) return given;
+    const auto read = read_compile_options(options);
+    if (!read) return read.error();
+    return hand_out_program(make(library->library, *read), program);
+  });
+}
+
+/// A call of the library that gives a future: `make(library, options)`, or the error of its arguments.
+template <class Make>
+WaleCode make_future(WaleLibrary* library, const WaleCompileOptions* options, WaleFuture** future, WaleError** error,
+                     const Make& make) {
+  return call(error, [&]() -> Result<> {
+    if (auto clear = clear_result("future", future); !clear) return clear;
+    if (auto given = is_given("library", library); !given) return given;
+    const auto read = read_compile_options(options);
+    if (!read) return read.error();
+    Result<Later> begun = make(library->library, *read);
+    if (!begun) return std::move(begun).error();
+    hand_out(std::make_unique<WaleFuture>(WaleFuture{*std::move(begun)}), future);
+    return {};
+  });
+}
+
+}  // namespace
+}  // namespace wale::c
+
+using namespace wale::c;
+using Compiled = wale::Result<wale::Compiled>;
+
+WaleCode wale_library_create(const WaleLibraryOptions* options, WaleLibrary** library, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto clear = clear_result("library", library); !clear) return clear;
+    const auto read = read_library_options(options);
+    if (!read) return read.error();
+    hand_out(std::unique_ptr<WaleLibrary>(new WaleLibrary{wale::Library(*read)}), library);
+    return {};
+  });
+}
+
+void wale_library_free(WaleLibrary* library) { free_handle(library); }
+
+WaleCode wale_library_find(WaleLibrary* library, WaleText name, const WaleCompileOptions* options,
+                           WaleProgram** program, WaleError** error) {
+  return make_program(library, options, program, error, [&](const wale::Library& in, const auto& read) -> Compiled {
+    const auto wanted = read_text("name", name);
+    return wanted ? in.find(*wanted, read) : wanted.error();
+  });
+}
+
+WaleCode wale_library_level(WaleLibrary* library, WaleText percept, WaleText level, const WaleCompileOptions* options,
+                            WaleProgram** program, WaleError** error) {
+  return make_program(library, options, program, error, [&](const wale::Library& in, const auto& read) -> Compiled {
+    const auto wanted = read_text("percept", percept);
+    if (!wanted) return wanted.error();
+    const auto size = read_text("level", level);
+    return size ? in.level(*wanted, *size, read) : size.error();
+  });
+}
+
+WaleCode wale_library_compile(WaleLibrary* library, WaleText text, const WaleCompileOptions* options,
+                              WaleProgram** program, WaleError** error) {
+  return make_program(library, options, program, error, [&](const wale::Library& in, const auto& read) -> Compiled {
+    const auto bytes = bytes_of("text", text);
+    return bytes ? in.compile(*bytes, read) : bytes.error();
+  });
+}
+
+WaleCode wale_library_open(WaleLibrary* library, WaleText path, const WaleCompileOptions* options,
+                           WaleProgram** program, WaleError** error) {
+  return make_program(library, options, program, error, [&](const wale::Library& in, const auto& read) -> Compiled {
+    const auto file = read_path("path", path);
+    return file ? in.open(*file, read) : file.error();
+  });
+}
+
+WaleCode wale_library_open_bytes(WaleLibrary* library, const void* bytes, size_t length,
+                                 const WaleCompileOptions* options, WaleProgram** program, WaleError** error) {
+  return make_program(library, options, program, error, [&](const wale::Library& in, const auto& read) -> Compiled {
+    if (auto given = is_given("bytes", bytes); !given) return std::move(given).error();
+    return in.open(std::span(static_cast<const std::byte*>(bytes), length), read);
+  });
+}
+
+WaleCode wale_library_find_later(WaleLibrary* library, WaleText name, const WaleCompileOptions* options,
+                                 WaleFuture** future, WaleError** error) {
+  return make_future(library, options, future, error,
+                     [&](const wale::Library& in, const auto& read) -> wale::Result<Later> {
+                       const auto wanted = read_text("name", name);
+                       if (!wanted) return wanted.error();
+                       return in.find_later(*wanted, read);
+                     });
+}
+
+WaleCode wale_library_level_later(WaleLibrary* library, WaleText percept, WaleText level,
+                                  const WaleCompileOptions* options, WaleFuture** future, WaleError** error) {
+  return make_future(library, options, future, error,
+                     [&](const wale::Library& in, const auto& read) -> wale::Result<Later> {
+                       const auto wanted = read_text("percept", percept);
+                       if (!wanted) return wanted.error();
+                       const auto size = read_text("level", level);
+                       if (!size) return size.error();
+                       return in.level_later(*wanted, *size, read);
+                     });
+}
+
+WaleCode wale_library_compile_later(WaleLibrary* library, WaleText text, const WaleCompileOptions* options,
+                                    WaleFuture** future, WaleError** error) {
+  return make_future(library, options, future, error,
+                     [&](const wale::Library& in, const auto& read) -> wale::Result<Later> {
+                       const auto bytes = bytes_of("text", text);
+                       if (!bytes) return bytes.error();
+                       return in.compile_later(std::string(*bytes), read);
+                     });
+}
+
+WaleCode wale_library_open_later(WaleLibrary* library, WaleText path, const WaleCompileOptions* options,
+                                 WaleFuture** future, WaleError** error) {
+  return make_future(library, options, future, error,
+                     [&](const wale::Library& in, const auto& read) -> wale::Result<Later> {
+                       const auto file = read_path("path", path);
+                       if (!file) return file.error();
+                       return in.open_later(*file, read);
+                     });
+}
+
+int32_t wale_future_poll(const WaleFuture* future) { return wale_future_wait(future, 0); }
+
+int32_t wale_future_wait(const WaleFuture* future, double seconds) {
+  if (future == nullptr) return 0;
+  if (!future->future.valid()) return 1;  // it was ready when it was taken
+  constexpr double longest = 1e9;         // s; 30 years do for ever
+  const std::chrono::duration<double> time(seconds > 0 ? std::min(seconds, longest) : 0);
+  return future->future.wait_for(time) == std::future_status::ready;
+}
+
+WaleCode wale_future_take(WaleFuture* future, WaleProgram** program, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto clear = clear_result("program", program); !clear) return clear;
+    if (auto given = is_given("future", future); !given) return given;
+    if (!future->future.valid())
+      return about_argument("future", "its program was taken already", wale::Code::wrong_moment);
+    return hand_out_program(future->future.get(), program);
+  });
+}
+
+void wale_future_free(WaleFuture* future) { free_handle(future); }
+
+WaleCode wale_library_devices(WaleLibrary* library, WaleDevices** devices, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto clear = clear_result("devices", devices); !clear) return clear;
+    if (auto given = is_given("library", library); !given) return given;
+    const auto trusted = library->library.trusted_devices();
+    if (!trusted) return trusted.error();
+    hand_out_devices(wale::devices(*trusted), devices);
+    return {};
+  });
+}
+
+WaleCode wale_library_profile(WaleLibrary* library, WaleText name, WaleProfile* profile, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto given = is_given("library", library); !given) return given;
+    if (auto sized = is_sized("profile", profile); !sized) return sized;
+    return give_profile(library->devices, name, profile);
+  });
+}
+
+WaleCode wale_library_open_device(WaleLibrary* library, WaleText spelling, const WaleDeviceOptions* options,
+                                  WaleDevice** device, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto clear = clear_result("device", device); !clear) return clear;
+    if (auto given = is_given("library", library); !given) return given;
+    const auto wanted = read_text("spelling", spelling);
+    if (!wanted) return wanted.error();
+    const auto read = read_options(options);
+    if (!read) return read.error();
+    auto opened = library->library.open_device(*wanted, *read);
+    if (!opened) return std::move(opened).error();
+    hand_out_device(*std::move(opened), device);
+    return {};
+  });
+}

@@ -1,0 +1,28 @@
+"""How things feel, from Python: materials and levels by name, on a joystick or many simulated hands.
+
+The names are those of the C and C++ interfaces. Units are SI. Errors are raised as `wale.Error`. Everything that holds
+something of the library is closed at the end of a `with`, by `close()`, or when nobody uses it any more.
+"""
+
+from wale._abi import lib as _lib
+from wale._abi import read as _read
+from wale.batch import batch
+from wale.codes import Code, ContactKind, DeviceKind, MarkKind, ReadingContact
+from wale.device import Device, DeviceInfo, Hand, Motion, Profile, devices, open_device, profile
+from wale.errors import Error, Span
+from wale.library import Future, Library
+from wale.loop import Loop
+from wale.program import Parameter, Percept, Program
+from wale.recording import Recording, Replay
+from wale.run import Felt, ForceSize, Guards, Level, Now, Run, Times
+from wale.snapshot import Mark, Snapshot
+from wale.stage import Contact, Edit, Patch, Stage
+
+__version__: str = _read(_lib.wale_version())
+
+__all__ = [
+    "Code", "Contact", "ContactKind", "Device", "DeviceInfo", "DeviceKind", "Edit", "Error", "Felt", "ForceSize", "Future",
+    "Guards", "Hand", "Level", "Library", "Loop", "Mark", "MarkKind", "Motion", "Now", "Parameter", "Patch", "Percept",
+    "Profile", "Program", "ReadingContact", "Recording", "Replay", "Run", "Snapshot", "Span", "Stage", "Times",
+    "batch", "devices", "open_device", "profile",
+]

@@ -1,0 +1,132 @@
+"""The shared library, and how its functions are called."""
+
+import os
+from typing import Any, Self
+
+import cffi  # type: ignore[import]
+
+from wale import _declarations
+from wale.errors import Error, Span
+
+ffi: Any = cffi.FFI()
+ffi.cdef(_declarations.declarations)
+
+
+def _opened() -> Any:
+    """The library that WALE_SHARED_LIBRARY names, else the installed one."""
+    lib = ffi.dlopen(os.environ.get("WALE_SHARED_LIBRARY") or "libwale.so.1")
+    if lib.wale_interface() < _declarations.interface:
+        raise ImportError(f"libwale has interface {lib.wale_interface()}; this package needs {_declarations.interface}")
+    return lib
+
+
+lib: Any = _opened()
+
+
+class Arguments:
+    """Makes arguments of a call, and keeps their memory until it is over."""
+
+    def __init__(self) -> None:
+        self._kept: list[object] = []
+
+    def text(self, text: str | bytes | os.PathLike[str]) -> Any:
+        """A WaleText. Paths may hold bytes that are no UTF-8."""
+        data = os.fsencode(text) if not isinstance(text, str) else text.encode("utf-8", "surrogateescape")
+        buffer = ffi.from_buffer(data)
+        made = ffi.new("WaleText*", (buffer, len(data)))
+        self._kept += [data, buffer, made]
+        return made[0]
+
+    def struct(self, kind: str, **fields: Any) -> Any:
+        """A struct that begins with its size; texts become WaleText, what is not given is 0."""
+        made = sized(kind)
+        for name, value in fields.items():
+            if value is not None:
+                setattr(made, name, self.text(value) if isinstance(value, (str, bytes, os.PathLike)) else value)
+        self._kept.append(made)
+        return made
+
+    def keep(self, value: object) -> None:
+        self._kept.append(value)
+
+
+def sized(kind: str) -> Any:
+    """A new struct of zeros that knows its size."""
+    made = ffi.new(kind + "*")
+    made.size = ffi.sizeof(kind)
+    return made
+
+
+def read(text: Any) -> str:
+    """A text that the library gave."""
+    return bytes(ffi.buffer(text.data, text.length)).decode("utf-8", "surrogateescape") if text.data else ""
+
+
+def or_none(figure: float) -> float | None:
+    """A figure that may not have been measured."""
+    return figure if figure == figure else None
+
+
+def described(error: Any) -> Error:
+    """An error or a warning as a value; the handle stays its owner's."""
+    details = sized("WaleErrorDetails")
+    lib.wale_error_details(error, details)
+    span = Span(file=read(details.place), line=details.number, column=details.column, length=details.length)
+    return Error(
+        read(details.in_words),
+        code=details.code,
+        severity="warning" if details.severity == lib.WALE_SEVERITY_warning else "error",
+        sentence=read(details.sentence),
+        mend=read(details.mend),
+        expected=read(details.expected),
+        found=read(details.found),
+        argument=read(details.place),
+        text=read(details.place_text),
+        span=span if details.column >= 0 else None,
+        nearest=tuple(read(lib.wale_error_nearest(error, i)) for i in range(details.nearest)),
+        others=tuple(described(lib.wale_error_other(error, i)) for i in range(details.others)),
+    )
+
+
+def call(function: Any, *arguments: Any) -> None:
+    """Calls a function whose last argument takes an error, and raises it."""
+    place = ffi.new("WaleError**")
+    if function(*arguments, place) != 0:
+        raised = described(place[0])
+        lib.wale_error_free(place[0])
+        raise raised
+
+
+def made(function: Any, kind: str, *arguments: Any) -> Any:
+    """Calls a function that gives a handle by its last argument but the error."""
+    place = ffi.new(kind + "**")
+    call(function, *arguments, place)
+    return place[0]
+
+
+class Handle:
+    """Something of the library that is freed by `close`, at the end of a `with`, or when nobody uses it any more.
+
+    After that its calls raise ValueError.
+    """
+
+    def __init__(self, pointer: Any, free: Any) -> None:
+        self._held: Any = ffi.gc(pointer, free)
+
+    @property
+    def _pointer(self) -> Any:
+        if self._held is None:
+            raise ValueError(f"the {type(self).__name__} is closed")
+        return self._held
+
+    def close(self) -> None:
+        """Frees it. Doing so again does nothing."""
+        held, self._held = self._held, None
+        if held is not None:
+            ffi.release(held)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

@@ -1,0 +1,59 @@
+"""Errors and warnings."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from wale.codes import Code
+
+
+@dataclass(frozen=True)
+class Span:
+    """A place in a Wale file."""
+
+    file: str
+    line: int
+    """From 1."""
+    column: int
+    """From 1, in characters."""
+    length: int
+    """Bytes from there on; 0 if that is not known."""
+
+
+class Error(Exception):
+    """What a call raises; also a warning about a text, which is not raised (`Program.warnings`)."""
+
+    code: int
+    """A `Code`, or the number of a newer one. Programs decide by it."""
+    severity: str
+    """ "error" or "warning"."""
+    sentence: str
+    """What is wrong, for people."""
+    mend: str
+    """What to do about it; may be empty."""
+    expected: str
+    """In a Wale file: what would be right; may be empty."""
+    found: str
+    """In a Wale file: what the text has; may be empty."""
+    argument: str
+    """The argument, file or section that it is about; may be empty."""
+    text: str
+    """The text at that place; may be empty."""
+    span: Span | None
+    """The place in a Wale file, if it is about one."""
+    nearest: tuple[str, ...]
+    """Names that may have been meant, the nearest first."""
+    others: "tuple[Error, ...]"
+    """The other errors and warnings of the same text."""
+
+    def __init__(self, words: str, **fields: Any) -> None:
+        super().__init__(words)
+        vars(self).update(fields)
+
+    @property
+    def name(self) -> str:
+        """ "unknown_name"; empty for a code that is newer than this package."""
+        return Code(self.code).name if self.code in Code._value2member_map_ else ""
+
+    def __str__(self) -> str:
+        near = f" (near: {', '.join(self.nearest)})" if self.nearest else ""
+        return f"W{self.code:04}: {self.args[0]}{near}"

@@ -1,0 +1,32 @@
+"""A run whose ticks the program serves itself."""
+
+from wale._abi import Handle, ffi, lib, made, sized
+from wale.codes import ReadingContact
+from wale.run import Vector, vector_of
+from wale.stage import Stage
+
+
+class Loop(Handle):
+    """A run of a stage, by the program's own clock: `force = loop.step((x, y))`. All guards are in it. Closing ends it."""
+
+    def __init__(self, stage: Stage) -> None:
+        super().__init__(made(lib.wale_loop_begin, "WaleLoop", stage._pointer), lib.wale_loop_free)
+        self._reading = sized("WaleReading")
+
+    def step(self, counts: tuple[int, int], *, button: bool = False, contact: ReadingContact = ReadingContact.good,
+             interaction: Vector | None = None, periods: int = 1) -> Vector:
+        """Serves one tick: the force (N; of a pad its amplitude and frequency) to command.
+
+        `counts`: of the encoder, from the workspace's centre. `interaction`: N, of the hand on the handle, if the device
+        measures it. `periods` have passed since the last step.
+        """
+        of = self._reading
+        of.counts_x, of.counts_y = counts
+        of.button, of.contact = int(button), int(contact)
+        of.measures_interaction = int(interaction is not None)
+        of.interaction_x, of.interaction_y = interaction or (0.0, 0.0)
+        return vector_of(lib.wale_loop_step(self._pointer, of, periods))
+
+    def exerted(self, force: Vector) -> None:
+        """The force that the actuator really exerts since the last step, where the device tells it."""
+        lib.wale_loop_exerted(self._pointer, ffi.new("WaleVector*", force)[0])

@@ -1,0 +1,105 @@
+"""Patch programs."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from wale._abi import Handle, call, described, ffi, lib, made, read, sized
+from wale.errors import Error
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A quantity that can be changed while the program runs. Values are in SI units; shown = value / unit_in_si."""
+
+    name: str
+    description: str
+    unit: str
+    si_unit: str
+    unit_in_si: float
+    value: float
+    low: float
+    high: float
+    soft_low: float
+    soft_high: float
+
+
+@dataclass(frozen=True)
+class Percept:
+    """A percept of a program."""
+
+    name: str
+    carrier: str
+    unit: str
+    map: str
+    source: str
+    parameter: str | None
+    """The parameter that is its level, if there is one."""
+    amplitude: float
+    """The carrier's size that the program aims at with its default parameters, in `unit`."""
+    level: float
+    """The level that this size is felt as, by the map."""
+    valid: tuple[float, float]
+    """The sizes for which the map was measured."""
+
+
+class Program(Handle):
+    """A verified patch program, ready to run, with the warnings about its text. It never changes."""
+
+    def __init__(self, pointer: Any) -> None:
+        super().__init__(pointer, lib.wale_program_free)
+        details = sized("WaleProgramDetails")
+        call(lib.wale_program_details, pointer, details)
+        self.material: str = read(details.material)
+        self.device: str = read(details.device)
+        """The name of the profile that it is built for."""
+        self.taken: str = read(details.taken)
+        """If the name could have meant another material too: which one was taken; mostly empty."""
+        self.size: tuple[float, float, float] = (details.width, details.height, details.rim)
+        """m, width, height and rim of a patch whose size nobody gives."""
+        self.rate: float = details.rate
+        """Hz, ticks per second of its device."""
+        self.vibrates: bool = bool(details.vibrates)
+        self.has_colour: bool = bool(details.has_colour)
+        self._counts = (details.parameters, details.percepts, details.warnings)
+
+    @staticmethod
+    def load(data: bytes) -> "Program":
+        """Reads and verifies the bytes of a .wpp file."""
+        return Program(made(lib.wale_program_load, "WaleProgram", ffi.from_buffer(data), len(data)))
+
+    def __bytes__(self) -> bytes:
+        """The bytes of its .wpp file; equal programs give equal bytes on every machine."""
+        length = ffi.new("size_t*")
+        call(lib.wale_program_bytes, self._pointer, ffi.NULL, 0, length)
+        data = bytearray(length[0])
+        call(lib.wale_program_bytes, self._pointer, ffi.from_buffer(data), len(data), length)
+        return bytes(data)
+
+    @property
+    def parameters(self) -> Sequence[Parameter]:
+        def one(index: int) -> Parameter:
+            of = sized("WaleParameter")
+            call(lib.wale_program_parameter, self._pointer, index, of)
+            return Parameter(read(of.name), read(of.description), read(of.unit), read(of.si_unit), of.unit_in_si, of.value,
+                             of.low, of.high, of.soft_low, of.soft_high)
+
+        return [one(i) for i in range(self._counts[0])]
+
+    @property
+    def percepts(self) -> Sequence[Percept]:
+        names = [each.name for each in self.parameters]
+
+        def one(index: int) -> Percept:
+            of = sized("WalePercept")
+            call(lib.wale_program_percept, self._pointer, index, of)
+            parameter = names[of.parameter] if of.parameter >= 0 else None
+            return Percept(read(of.name), read(of.carrier), read(of.unit), read(of.map), read(of.source), parameter,
+                           of.amplitude, of.level, (of.valid_low, of.valid_high))
+
+        return [one(i) for i in range(self._counts[1])]
+
+    @property
+    def warnings(self) -> Sequence[Error]:
+        """About its text, in the order of their places."""
+        return [described(lib.wale_program_warning(self._pointer, i)) for i in range(self._counts[2])]

@@ -1,0 +1,59 @@
+"""Recordings of runs."""
+
+import os
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wale._abi import Arguments, Handle, call, lib, made, read, sized
+from wale._arrays import dtype_of, pointer
+
+
+@dataclass(frozen=True)
+class Replay:
+    """How a replay compares with its recording."""
+
+    ticks: int
+    differing: int
+    """Ticks that are not bit for bit as recorded."""
+    largest_force: float
+    """The largest difference of the commanded force, N or m/s^2."""
+
+
+class Recording(Handle):
+    """A file that a run made (`Stage(record=…)`). It never changes."""
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        arguments, of = Arguments(), sized("WaleRecordingDetails")
+        super().__init__(made(lib.wale_recording_open, "WaleRecording", arguments.text(os.fspath(path))),
+                         lib.wale_recording_free)
+        call(lib.wale_recording_details, self._pointer, of)
+        self.device: str = read(of.device)
+        self.hand: str = read(of.hand)
+        """What moved the handle; empty if that is not known."""
+        self.rate: float = of.rate
+        """Hz."""
+        self.position_step: float = of.position_step
+        """m per encoder count."""
+        self.max_force: float = of.max_force
+        """N, infinite without a limit."""
+        self.complete: bool = bool(of.complete)
+        self.virtual_time: bool = bool(of.virtual_time)
+        self._count: int = of.ticks
+
+    def __len__(self) -> int:
+        return self._count
+
+    @property
+    def ticks(self) -> NDArray[np.void]:
+        """An array with the fields of WaleRecordedTick: counts, velocity, wanted, commanded, force, guards, …"""
+        ticks: NDArray[np.void] = np.zeros(self._count, dtype=dtype_of("WaleRecordedTick"))
+        call(lib.wale_recording_ticks, self._pointer, 0, len(ticks), ticks.itemsize, pointer(ticks, "WaleRecordedTick"))
+        return ticks
+
+    def replay(self) -> Replay:
+        """Runs the recorded programs on the recorded counts again and compares bit for bit."""
+        of = sized("WaleReplay")
+        call(lib.wale_recording_replay, self._pointer, of)
+        return Replay(of.ticks, of.differing, of.largest_force)

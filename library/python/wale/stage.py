@@ -1,0 +1,246 @@
+"""Patches under a hand."""
+
+import os
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from wale._abi import Arguments, Handle, call, ffi, lib, made, sized
+from wale._arrays import size_in_full
+from wale.codes import ContactKind
+from wale.device import Device, Profile
+from wale.program import Program
+from wale.run import Now, Run, Vector, now_of, vector_of
+from wale.snapshot import Snapshot
+
+Size = Sequence[float]
+"""m: width, height and, if it has one, rim."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A moment at which a hand and a patch begin or end to touch, or the button changes on a patch."""
+
+    kind: ContactKind
+    patch: int
+    """Its `Patch.id`."""
+    time: float
+    position: Vector
+    velocity: Vector
+    force: Vector
+
+
+def _placed(at: Vector, size: Size | None, layer: float) -> Any:
+    width, height, rim = size_in_full(size) if size is not None else (0.0, 0.0, 0.0)
+    return Arguments().struct("WalePatchOptions", x=at[0], y=at[1], width=width, height=height, rim=rim, layer=layer)
+
+
+class Patch(Handle):
+    """A patch on a stage. It may outlive the patch and the stage: its calls then raise `wrong_moment`.
+
+    Closing it leaves the patch where it is. All calls are safe from any thread, also during a run.
+    """
+
+    def __init__(self, pointer: Any) -> None:
+        super().__init__(pointer, lib.wale_patch_free)
+
+    @property
+    def id(self) -> int:
+        """What `Now` and `Contact` call it; never 0."""
+        return int(lib.wale_patch_id(self._pointer))
+
+    @property
+    def exists(self) -> bool:
+        """Whether it names a patch that is on its stage."""
+        return bool(lib.wale_patch_exists(self._pointer))
+
+    def set(self, parameter: str, value: float) -> None:
+        """Sets a parameter, in SI units."""
+        arguments = Arguments()
+        call(lib.wale_patch_set, self._pointer, arguments.text(parameter), value)
+
+    def move(self, to: Vector) -> None:
+        """Moves its centre, m from the workspace's centre."""
+        call(lib.wale_patch_move, self._pointer, *to)
+
+    def resize(self, size: Size) -> None:
+        """Width, height and rim, m."""
+        call(lib.wale_patch_resize, self._pointer, *size_in_full(size))
+
+    def replace(self, program: Program) -> None:
+        """Another program."""
+        call(lib.wale_patch_replace, self._pointer, program._pointer)
+
+    def enable(self, enabled: bool = True) -> None:
+        """A patch that is not enabled is not felt, and keeps its memory."""
+        call(lib.wale_patch_enable, self._pointer, int(enabled))
+
+    def bring(self, layer: float = 0.0) -> None:
+        """Puts it in front of all patches of a layer."""
+        call(lib.wale_patch_bring, self._pointer, layer)
+
+    def remove(self) -> None:
+        """Removes the patch from its stage."""
+        call(lib.wale_patch_remove, self._pointer)
+
+    def snapshot(self) -> Snapshot:
+        """Its parameters and memory at one tick. Takes a period or two during a run."""
+        return Snapshot(made(lib.wale_patch_snapshot, "WaleSnapshot", self._pointer))
+
+
+class Edit(Handle):
+    """Several changes that are felt at one tick, all or none. At the end of a `with` they are made, unless it raised."""
+
+    def __init__(self, pointer: Any) -> None:
+        super().__init__(pointer, lib.wale_edit_free)
+
+    def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0) -> Patch:
+        return Patch(made(lib.wale_edit_add, "WalePatch", self._pointer, program._pointer, _placed(at, size, layer)))
+
+    def set(self, patch: Patch, parameter: str, value: float) -> None:
+        arguments = Arguments()
+        call(lib.wale_edit_set, self._pointer, patch._pointer, arguments.text(parameter), value)
+
+    def move(self, patch: Patch, to: Vector) -> None:
+        call(lib.wale_edit_move, self._pointer, patch._pointer, *to)
+
+    def resize(self, patch: Patch, size: Size) -> None:
+        call(lib.wale_edit_resize, self._pointer, patch._pointer, *size_in_full(size))
+
+    def replace(self, patch: Patch, program: Program) -> None:
+        call(lib.wale_edit_replace, self._pointer, patch._pointer, program._pointer)
+
+    def enable(self, patch: Patch, enabled: bool = True) -> None:
+        call(lib.wale_edit_enable, self._pointer, patch._pointer, int(enabled))
+
+    def bring(self, patch: Patch, layer: float = 0.0) -> None:
+        call(lib.wale_edit_bring, self._pointer, patch._pointer, layer)
+
+    def remove(self, patch: Patch) -> None:
+        call(lib.wale_edit_remove, self._pointer, patch._pointer)
+
+    def commit(self) -> None:
+        """Makes all changes. If one has an error, nothing has changed. Afterwards the edit is empty and may be used again."""
+        call(lib.wale_edit_commit, self._pointer)
+
+    def __exit__(self, *raised: object) -> None:
+        try:
+            if raised[0] is None:
+                self.commit()
+        finally:
+            self.close()
+
+
+@ffi.callback("void(const WaleContact*, void*)")  # type: ignore[misc]
+def _hear(of: Any, user: Any) -> None:
+    ffi.from_handle(user).append(Contact(ContactKind(of.kind), of.patch, of.time, vector_of(of.position),
+                                         vector_of(of.velocity), vector_of(of.force)))
+
+
+def _created(function: Any, of: Any, options: Any) -> Any:
+    return made(function, "WaleStage", of, options)
+
+
+class Stage(Handle):
+    """Patches on a device's workspace, and the loop that lets the hand feel the front-most one under it.
+
+    `priority`: 1 .. 99, SCHED_FIFO for the loop if it is permitted. `max_force`: N, 0: only the device's own limit.
+    `record`: a file for the run's recording; it must not exist yet.
+    """
+
+    def __init__(self, device: Device | Profile, *, priority: int = 0, lock_memory: bool = False,
+                 low_latency: bool = False, max_force: float = 0.0, record: str | os.PathLike[str] = "",
+                 record_hand: str = "") -> None:
+        arguments = Arguments()
+        options = arguments.struct("WaleStageOptions", priority=priority, lock_memory=int(lock_memory),
+                                   low_latency=int(low_latency), max_force=max_force, record=os.fspath(record),
+                                   record_hand=record_hand)
+        if isinstance(device, Device):
+            stage = _created(lib.wale_stage_create, device._pointer, options)
+        else:
+            figures = {name: value for name, value in vars(device).items() if not isinstance(value, bool)}
+            given = arguments.struct("WaleProfile", vibrates=int(device.vibrates), has_position=int(device.has_position),
+                                     **figures)
+            stage = _created(lib.wale_stage_create_for, given, options)
+        super().__init__(stage, lib.wale_stage_free)
+        self._heard: list[Contact] = []
+        self._hears: Any = ffi.new_handle(self._heard)
+        self._receive: Callable[[Contact], None] | None = None
+
+    def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0) -> Patch:
+        """Puts a patch on the stage, in front of all others of its layer. `at`: m; `size`: m, with or without a rim."""
+        return Patch(made(lib.wale_stage_add, "WalePatch", self._pointer, program._pointer, _placed(at, size, layer)))
+
+    def edit(self) -> Edit:
+        """Begins an edit: `with stage.edit() as edit: edit.move(patch, (0.01, 0))`."""
+        return Edit(made(lib.wale_stage_edit, "WaleEdit", self._pointer))
+
+    def __len__(self) -> int:
+        """How many patches there are."""
+        return int(lib.wale_stage_size(self._pointer))
+
+    def __bool__(self) -> bool:
+        return True
+
+    def run(self, seconds: float, *, virtual_time: bool = False, kept_seconds: float = 0.0) -> Run:
+        """Runs for so many seconds, in real time or as fast as possible. An interrupt (Ctrl-C) ends it."""
+        options = Arguments().struct("WaleRunOptions", seconds=seconds, kept_seconds=kept_seconds,
+                                     virtual_time=int(virtual_time))
+        pointer, done = self._pointer, list[Any]()
+
+        def serve() -> None:
+            try:
+                done.append(Run(made(lib.wale_stage_run, "WaleRun", pointer, options)))
+            except BaseException as raised:
+                done.append(raised)
+
+        # On a thread of its own, since this one must hear an interrupt.
+        server = threading.Thread(target=serve)
+        server.start()
+        try:
+            while server.is_alive():
+                server.join(0.1)
+        except BaseException:
+            while server.is_alive():
+                lib.wale_stage_interrupt(pointer)
+                server.join(0.1)
+            raise
+        if isinstance(done[0], BaseException):
+            raise done[0]
+        run: Run = done[0]
+        return run
+
+    def start(self) -> None:
+        """Begins an endless run in real time and returns."""
+        call(lib.wale_stage_start, self._pointer)
+
+    def stop(self) -> Run:
+        """Ends the run that `start` began."""
+        return Run(made(lib.wale_stage_stop, "WaleRun", self._pointer))
+
+    @property
+    def is_running(self) -> bool:
+        return bool(lib.wale_stage_is_running(self._pointer))
+
+    def now(self) -> Now:
+        """The state after the latest tick of the present run or the last one. Never waits."""
+        of = sized("WaleNow")
+        lib.wale_stage_now(self._pointer, of)
+        return now_of(of)
+
+    def on_contact(self, receive: Callable[[Contact], None] | None) -> None:
+        """What `poll` calls for each contact; None ends it. Contacts are noted only while there is one."""
+        call(lib.wale_stage_on_contact, self._pointer, _hear if receive else ffi.NULL, self._hears)
+        self._receive = receive
+
+    def poll(self) -> int:
+        """Calls the receiver for all contacts since the last poll. Returns how many were dropped, since too many waited."""
+        dropped = ffi.new("size_t*")
+        call(lib.wale_stage_poll, self._pointer, dropped)
+        heard = self._heard[:]
+        self._heard.clear()
+        for each in heard:
+            if self._receive is not None:
+                self._receive(each)
+        return int(dropped[0])

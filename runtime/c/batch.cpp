@@ -1,0 +1,128 @@
+#include "wale/batch.h"
+
+#include <cmath>
+#include <span>
+
+#include "runtime/c/program.hpp"
+#include "runtime/c/run.hpp"
+#include "runtime/c/sized.hpp"
+#include "wale/batch.hpp"
+
+namespace wale::c {
+namespace {
+
+/// So many forces of a batch at most; they would be 512 GiB.
+constexpr std::size_t most_forces = std::size_t{1} << 36;
+
+Result<> is_sound(const WaleBatchOptions& given, const WaleVector* forces) {
+  if (given.hands == 0 || given.ticks == 0) return about_argument("hands", "expected a hand and a tick at least");
+  if (given.ticks > most_forces || given.hands > most_forces / given.ticks)
+    return about_argument("hands", "expected 2^36 forces at most");
+  if (given.position == nullptr) return about_argument("position", "expected a value, found NULL");
+  if (given.setting_count > 0 && given.settings == nullptr)
+    return about_argument("settings", "expected a value, found NULL");
+  return is_given("forces", forces);
+}
+
+/// The parameters' values with the settings.
+Result<std::vector<float>> parameters_of(const Program& program, const WaleBatchOptions& given) {
+  std::vector<float> values = program.default_parameters();
+  for (const WaleSetting& each : std::span(given.settings, given.setting_count)) {
+    const auto name = read_text("settings", each.name);
+    if (!name) return name.error();
+    const auto index = program.parameter(*name);
+    if (!index) {
+      Error unknown = about_argument("settings", "the program has no parameter `" + *name + "`", Code::unknown_name);
+      unknown.place.text = *name;
+      return unknown;
+    }
+    if (!std::isfinite(each.value)) return about_argument("settings", "expected a finite number for `" + *name + "`");
+    values[*index] = static_cast<float>(each.value);
+  }
+  return values;
+}
+
+Result<PatchSize> size_of(const Program& program, const WaleBatchOptions& given) {
+  if (given.width == 0 && given.height == 0) return program.default_size();
+  const float widest = static_cast<float>(program.description().device.widest_patch());
+  for (const float side : {given.width, given.height})
+    if (!(side > 0 && side <= widest)) return about_argument("width", "expected positive sides within the workspace");
+  if (!(given.rim >= 0 && given.rim <= widest)) return about_argument("rim", "expected a rim that is not negative");
+  return PatchSize{given.width, given.height, given.rim};
+}
+
+/// The motions of a batch. What is not given is computed from the tick before.
+class GivenMotions {
+ public:
+  GivenMotions(const WaleBatchOptions& given, double rate) : given_(given), rate_(rate) {}
+
+  Hand hand(std::size_t row, std::size_t tick) const {
+    const std::size_t at = row * given_.ticks + tick;
+    const std::size_t since = tick > 0 ? at - 1 : at, before = tick > 1 ? at - 2 : since;
+    const WaleVector* const raw = given_.raw_velocity;
+    const glm::vec2 raw_velocity = raw != nullptr ? of(raw, at) : change(given_.position, since, at);
+    const glm::vec2 raw_before = raw != nullptr ? of(raw, since)
+                                 : tick > 1     ? change(given_.position, before, since)
+                                                : glm::vec2(0);
+    const glm::vec2 raw_acceleration =
+        tick > 0 ? (raw_velocity - raw_before) * static_cast<float>(rate_) : glm::vec2(0);
+    Hand hand{.position = of(given_.position, at), .raw_velocity = raw_velocity, .raw_acceleration = raw_acceleration};
+    hand.velocity = given_.velocity != nullptr ? of(given_.velocity, at) : change(given_.position, since, at);
+    if (given_.raw_acceleration != nullptr) hand.raw_acceleration = of(given_.raw_acceleration, at);
+    hand.acceleration = given_.acceleration != nullptr ? of(given_.acceleration, at)
+                        : given_.velocity != nullptr   ? change(given_.velocity, since, at)
+                                                       : raw_of_positions(tick, before, since, at);
+    hand.workspace = given_.workspace != nullptr ? of(given_.workspace, at) : hand.position;
+    hand.time = given_.time != nullptr ? given_.time[tick] : static_cast<double>(tick) / rate_;
+    hand.button = given_.button != nullptr && given_.button[at] != 0;
+    return hand;
+  }
+
+ private:
+  static glm::vec2 of(const WaleVector* all, std::size_t at) { return {all[at].x, all[at].y}; }
+  /// What one tick changes, per second.
+  glm::vec2 change(const WaleVector* all, std::size_t from, std::size_t to) const {
+    return (of(all, to) - of(all, from)) * static_cast<float>(rate_);
+  }
+  /// The acceleration by the positions alone.
+  glm::vec2 raw_of_positions(std::size_t tick, std::size_t before, std::size_t since, std::size_t at) const {
+    if (tick == 0) return glm::vec2(0);
+    const glm::vec2 earlier = tick > 1 ? change(given_.position, before, since) : glm::vec2(0);
+    return (change(given_.position, since, at) - earlier) * static_cast<float>(rate_);
+  }
+
+  const WaleBatchOptions& given_;
+  double rate_;
+};
+
+}  // namespace
+}  // namespace wale::c
+
+using namespace wale::c;
+
+WaleCode wale_batch(const WaleProgram* program, const WaleBatchOptions* options, WaleVector* forces,
+                    WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto given = is_given("program", program); !given) return given;
+    if (auto given = is_given("options", options); !given) return given;
+    const auto given = read_sized("options", options);
+    if (!given) return given.error();
+    if (auto sound = is_sound(*given, forces); !sound) return sound;
+    const auto parameters = parameters_of(program->program, *given);
+    if (!parameters) return parameters.error();
+    const auto size = size_of(program->program, *given);
+    if (!size) return size.error();
+    const wale::Bank bank(program->program, *parameters, *size);
+    const GivenMotions motions(*given, program->program.description().device.rate);
+    const std::size_t ticks = given->ticks;
+    wale::run_batch(bank, given->hands, static_cast<long>(ticks),
+                    [&](std::size_t first, long tick, std::span<const wale::Force> last, std::span<wale::Hand> hands) {
+                      const auto now = static_cast<std::size_t>(tick);
+                      for (std::size_t i = 0; now > 0 && i < last.size(); ++i)
+                        forces[(first + i) * ticks + now - 1] = vector_of(last[i]);
+                      for (std::size_t i = 0; now < ticks && i < hands.size(); ++i)
+                        hands[i] = motions.hand(first + i, now);
+                    });
+    return {};
+  });
+}

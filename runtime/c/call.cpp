@@ -1,0 +1,98 @@
+#include "runtime/c/call.hpp"
+
+#include <cstdint>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "schema/utf8.hpp"
+
+namespace wale::c {
+namespace {
+
+constexpr Code without_memory = Code::short_of_resources;
+
+/// Made beforehand, since there is no memory for it when it is needed. Not noted as a handle, so nobody frees it.
+WaleError& no_memory() {
+  static auto* const error = handle_of({.code = without_memory, .sentence = "there is no memory left"}).release();
+  return *error;
+}
+[[maybe_unused]] const WaleError& made_early = no_memory();
+
+}  // namespace
+
+std::unique_ptr<WaleError> handle_of(Error error) {
+  auto handle = std::make_unique<WaleError>();
+  handle->in_words = in_words(error);
+  handle->explained = explained(error);
+  for (Error& each : error.others) handle->others.push_back(handle_of(std::move(each)));
+  handle->error = std::move(error);
+  return handle;
+}
+
+WaleCode give_error(Error error, WaleError** to) noexcept {
+  const auto code = static_cast<WaleCode>(error.code);
+  if (to == nullptr) return code;
+  try {
+    hand_out(handle_of(std::move(error)), to);
+  } catch (...) {
+    *to = &no_memory();
+    return static_cast<WaleCode>(without_memory);
+  }
+  return code;
+}
+
+WaleCode give_thrown(WaleError** to) noexcept {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+  } catch (const std::exception& thrown) {
+    try {
+      return give_error({.code = without_memory, .sentence = thrown.what()}, to);
+    } catch (...) {
+    }
+  } catch (...) {
+  }
+  if (to != nullptr) *to = &no_memory();
+  return static_cast<WaleCode>(without_memory);
+}
+
+Error about_argument(std::string argument, std::string sentence, Code code) {
+  return {.code = code, .sentence = std::move(sentence), .place = {.name = std::move(argument)}};
+}
+
+Result<> is_given(const char* argument, const void* value) {
+  if (value == nullptr) return about_argument(argument, "expected a value, found NULL");
+  return {};
+}
+
+Result<std::string_view> bytes_of(const char* argument, WaleText text) {
+  if (text.data == nullptr) {
+    if (text.length == 0 || text.length == WALE_ZERO_ENDED) return std::string_view();
+    return about_argument(argument, "expected a text, found NULL with a length");
+  }
+  if (text.length == WALE_ZERO_ENDED) return std::string_view(text.data);
+  if (text.length > PTRDIFF_MAX) return about_argument(argument, "expected a length, found one beyond all memory");
+  return std::string_view(text.data, text.length);
+}
+
+Result<std::string> read_path(const char* argument, WaleText text) {
+  const auto bytes = bytes_of(argument, text);
+  if (!bytes) return bytes.error();
+  if (bytes->find('\0') != std::string_view::npos)
+    return about_argument(argument, "expected a text, found a zero byte in it", Code::invalid_encoding);
+  return std::string(*bytes);
+}
+
+Result<std::string> read_text(const char* argument, WaleText text) {
+  auto read = read_path(argument, text);
+  if (!read) return read;
+  for (std::size_t at = 0; at < read->size();) {
+    const Character character = decode(*read, at);
+    if (!character.valid) return about_argument(argument, "expected UTF-8, found other bytes", Code::invalid_encoding);
+    at += character.bytes;
+  }
+  return read;
+}
+
+}  // namespace wale::c

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "runtime/c/handle.hpp"
+#include "wale/error.h"
+#include "wale/result.hpp"
+
+struct WaleError {
+  wale::Error error;
+  std::string in_words, explained;
+  std::vector<std::unique_ptr<WaleError>> others;
+};
+
+namespace wale::c {
+
+/// An error as a handle, with the others of its text.
+std::unique_ptr<WaleError> handle_of(Error error);
+
+/// Gives an error to the caller, if `to` is a place for it, and returns its code.
+WaleCode give_error(Error error, WaleError** to) noexcept;
+/// The error for what is being thrown. Call it within `catch` only.
+WaleCode give_thrown(WaleError** to) noexcept;
+
+/// The body of a C function that can fail: a function that returns a `Result<>`. Nothing thrown leaves it.
+template <class Body>
+WaleCode call(WaleError** error, const Body& body) noexcept {
+  if (error != nullptr) *error = nullptr;
+  try {
+    Result<> done = body();
+    return done ? 0 : give_error(std::move(done).error(), error);
+  } catch (...) {
+    return give_thrown(error);
+  }
+}
+
+/// The error about an argument.
+Error about_argument(std::string argument, std::string sentence, Code code = Code::malformed_value);
+/// Error: an argument is NULL.
+Result<> is_given(const char* argument, const void* value);
+
+inline WaleText text_of(std::string_view text) { return {text.data(), text.size()}; }
+
+/// The bytes of an argument. Error: `malformed_value`.
+Result<std::string_view> bytes_of(const char* argument, WaleText text);
+/// The text of an argument. Errors: `malformed_value`; `invalid_encoding` if it is not UTF-8 or holds a zero byte.
+Result<std::string> read_text(const char* argument, WaleText text);
+/// The path of an argument, which need not be UTF-8. Errors: as for a text.
+Result<std::string> read_path(const char* argument, WaleText text);
+
+}  // namespace wale::c

@@ -1,0 +1,161 @@
+#include "runtime/c/sized.hpp"
+#include "runtime/c/stage.hpp"
+
+struct WaleEdit {
+  wale::StageEdit edit;
+};
+
+namespace wale::c {
+namespace {
+
+/// Calls `change` with the patch of a handle.
+template <class Change>
+WaleCode change_patch(WalePatch* patch, WaleError** error, const Change& change) {
+  return call(error, [&]() -> Result<> {
+    if (auto given = is_given("patch", patch); !given) return given;
+    return change(patch->patch);
+  });
+}
+
+/// Calls `change` with an edit and a patch.
+template <class Change>
+WaleCode change_edit(WaleEdit* edit, const WalePatch* patch, WaleError** error, const Change& change) {
+  return call(error, [&]() -> Result<> {
+    if (auto given = is_given("edit", edit); !given) return given;
+    if (auto given = is_given("patch", patch); !given) return given;
+    return change(edit->edit, patch->patch);
+  });
+}
+
+}  // namespace
+}  // namespace wale::c
+
+using namespace wale::c;
+
+WaleCode wale_patch_set(WalePatch* patch, WaleText parameter, double value, WaleError** error) {
+  return change_patch(patch, error, [&](wale::Patch& each) -> wale::Result<> {
+    const auto name = read_text("parameter", parameter);
+    return name ? each.set(*name, static_cast<float>(value)) : name.error();
+  });
+}
+
+WaleCode wale_patch_move(WalePatch* patch, float x, float y, WaleError** error) {
+  return change_patch(patch, error, [&](wale::Patch& each) { return each.move({x, y}); });
+}
+
+WaleCode wale_patch_resize(WalePatch* patch, float width, float height, float rim, WaleError** error) {
+  return change_patch(patch, error, [&](wale::Patch& each) { return each.resize({width, height, rim}); });
+}
+
+WaleCode wale_patch_replace(WalePatch* patch, const WaleProgram* program, WaleError** error) {
+  return change_patch(patch, error, [&](wale::Patch& each) -> wale::Result<> {
+    const auto known = read_program(program);
+    return known ? each.replace(**known) : known.error();
+  });
+}
+
+WaleCode wale_patch_enable(WalePatch* patch, int32_t enabled, WaleError** error) {
+  return change_patch(patch, error, [&](wale::Patch& each) { return each.enable(enabled != 0); });
+}
+
+WaleCode wale_patch_bring(WalePatch* patch, float layer, WaleError** error) {
+  return change_patch(patch, error, [&](wale::Patch& each) { return each.bring({.layer = layer}); });
+}
+
+WaleCode wale_patch_remove(WalePatch* patch, WaleError** error) {
+  return change_patch(patch, error, [&](wale::Patch& each) { return each.remove(); });
+}
+
+int32_t wale_patch_exists(const WalePatch* patch) { return patch != nullptr && patch->patch.exists(); }
+
+uint64_t wale_patch_id(const WalePatch* patch) { return patch == nullptr ? 0 : patch->patch.id(); }
+
+void wale_patch_free(WalePatch* patch) { free_handle(patch); }
+
+WaleCode wale_stage_edit(WaleStage* stage, WaleEdit** edit, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto clear = clear_result("edit", edit); !clear) return clear;
+    if (auto given = is_stage(stage); !given) return given;
+    hand_out(std::make_unique<WaleEdit>(WaleEdit{stage->stage.edit()}), edit);
+    return {};
+  });
+}
+
+WaleCode wale_edit_add(WaleEdit* edit, const WaleProgram* program, const WalePatchOptions* options, WalePatch** patch,
+                       WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (patch != nullptr) *patch = nullptr;
+    if (auto given = is_given("edit", edit); !given) return given;
+    const auto known = read_program(program);
+    if (!known) return known.error();
+    const auto read = read_options(options);
+    if (!read) return read.error();
+    auto added = edit->edit.add(**known, *read);
+    if (!added) return std::move(added).error();
+    hand_out_patch(*std::move(added), patch);
+    return {};
+  });
+}
+
+WaleCode wale_edit_set(WaleEdit* edit, const WalePatch* patch, WaleText parameter, double value, WaleError** error) {
+  return change_edit(edit, patch, error, [&](wale::StageEdit& to, const wale::Patch& each) -> wale::Result<> {
+    const auto name = read_text("parameter", parameter);
+    if (!name) return name.error();
+    to.set(each, *name, static_cast<float>(value));
+    return {};
+  });
+}
+
+WaleCode wale_edit_move(WaleEdit* edit, const WalePatch* patch, float x, float y, WaleError** error) {
+  return change_edit(edit, patch, error, [&](wale::StageEdit& to, const wale::Patch& each) -> wale::Result<> {
+    to.move(each, {x, y});
+    return {};
+  });
+}
+
+WaleCode wale_edit_resize(WaleEdit* edit, const WalePatch* patch, float width, float height, float rim,
+                          WaleError** error) {
+  return change_edit(edit, patch, error, [&](wale::StageEdit& to, const wale::Patch& each) -> wale::Result<> {
+    to.resize(each, {width, height, rim});
+    return {};
+  });
+}
+
+WaleCode wale_edit_replace(WaleEdit* edit, const WalePatch* patch, const WaleProgram* program, WaleError** error) {
+  return change_edit(edit, patch, error, [&](wale::StageEdit& to, const wale::Patch& each) -> wale::Result<> {
+    const auto known = read_program(program);
+    if (!known) return known.error();
+    to.replace(each, **known);
+    return {};
+  });
+}
+
+WaleCode wale_edit_enable(WaleEdit* edit, const WalePatch* patch, int32_t enabled, WaleError** error) {
+  return change_edit(edit, patch, error, [&](wale::StageEdit& to, const wale::Patch& each) -> wale::Result<> {
+    to.enable(each, enabled != 0);
+    return {};
+  });
+}
+
+WaleCode wale_edit_bring(WaleEdit* edit, const WalePatch* patch, float layer, WaleError** error) {
+  return change_edit(edit, patch, error, [&](wale::StageEdit& to, const wale::Patch& each) -> wale::Result<> {
+    to.bring(each, {.layer = layer});
+    return {};
+  });
+}
+
+WaleCode wale_edit_remove(WaleEdit* edit, const WalePatch* patch, WaleError** error) {
+  return change_edit(edit, patch, error, [&](wale::StageEdit& to, const wale::Patch& each) -> wale::Result<> {
+    to.remove(each);
+    return {};
+  });
+}
+
+WaleCode wale_edit_commit(WaleEdit* edit, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto given = is_given("edit", edit); !given) return given;
+    return edit->edit.commit();
+  });
+}
+
+void wale_edit_free(WaleEdit* edit) { free_handle(edit); }

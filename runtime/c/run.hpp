@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+
+#include "runtime/c/call.hpp"
+#include "wale/run.h"
+#include "wale/run.hpp"
+
+struct WaleRun {
+  wale::RunResult result;
+  double position_step = 0;  ///< m
+  std::unique_ptr<WaleError> problem = {};
+};
+
+namespace wale::c {
+
+inline WaleVector vector_of(const glm::vec2& vector) noexcept { return {vector.x, vector.y}; }
+WaleGuards guards_of(const GuardCounts& counts) noexcept;
+/// Gives a handle to the caller, if it wants one.
+void hand_out_run(RunResult result, const DeviceProfile& profile, WaleRun** to);
+
+}  // namespace wale::c

@@ -1,0 +1,293 @@
+/* Devices, stages, patches and edits, at their edges. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/c/check.h"
+#include "tests/c/parts.h"
+#include "tests/c/placed.h"
+
+static void devices(void) {
+  WaleDevices* all = NULL;
+  CHECK_GOOD(wale_devices(&all, &error));
+  WaleDeviceInfo info = {.size = sizeof info};
+  int simulations = 0, pointers = 0;
+  for (size_t i = 0; i < wale_devices_count(all); ++i) {
+    CHECK_GOOD(wale_devices_info(all, i, &info, &error));
+    simulations += info.kind == WALE_DEVICE_simulated;
+    pointers += info.kind == WALE_DEVICE_pointer;
+    CHECK(info.spelling.length > 0);
+  }
+  CHECK(simulations >= 5 && pointers == 1);
+  CHECK_MALFORMED(wale_devices_info(all, wale_devices_count(all), &info, &error));
+  wale_devices_free(all);
+  wale_devices_free(all); /* freed already */
+  CHECK(wale_devices_count(NULL) == 0);
+  CHECK_MALFORMED(wale_devices(NULL, &error));
+  CHECK_MALFORMED(wale_devices_info(NULL, 0, &info, &error));
+
+  WaleProfile profile = {.size = sizeof profile};
+  CHECK_GOOD(wale_profile(WALE_TEXT("sandpaper"), &profile, &error));
+  CHECK(is_text(profile.name, "sandpaper") && profile.rate > 100 && profile.force > 1 && !profile.vibrates);
+  CHECK_CODE(WALE_CODE_unknown_device, wale_profile(WALE_TEXT("sandpeper"), &profile, &error));
+  CHECK_MALFORMED(wale_profile(WALE_TEXT("sandpaper"), NULL, &error));
+
+  CHECK_GOOD(wale_library_profile(library, WALE_TEXT("gamepad"), &profile, &error));
+  CHECK(is_text(profile.name, "gamepad") && profile.vibrates);
+  CHECK_CODE(WALE_CODE_unknown_device, wale_library_profile(library, WALE_TEXT("sandpeper"), &profile, &error));
+  CHECK_MALFORMED(wale_library_profile(NULL, WALE_TEXT("gamepad"), &profile, &error));
+  CHECK_MALFORMED(wale_library_profile(library, WALE_TEXT("gamepad"), NULL, &error));
+  CHECK_GOOD(wale_library_devices(library, &all, &error));
+  CHECK(wale_devices_count(all) > 5);
+  wale_devices_free(all);
+  CHECK_MALFORMED(wale_library_devices(NULL, &all, &error));
+  CHECK_MALFORMED(wale_library_devices(library, NULL, &error));
+
+  WaleDevice* device = simulated();
+  CHECK_GOOD(wale_device_profile(device, &profile, &error));
+  CHECK(is_text(profile.name, "sandpaper"));
+  wale_device_free(device);
+  wale_device_free(device); /* freed already */
+  CHECK_MALFORMED(wale_device_profile(NULL, &profile, &error));
+  CHECK_CODE(WALE_CODE_unknown_device, wale_device_open(WALE_TEXT("sandpeper"), NULL, &device, &error));
+  CHECK_CODE(WALE_CODE_absent_device, wale_device_open(WALE_TEXT("1-77"), NULL, &device, &error));
+  CHECK(device == NULL);
+  CHECK_MALFORMED(wale_device_open(WALE_TEXT("simulated"), NULL, NULL, &error));
+  WaleDeviceOptions wrong[] = {
+      {.priority = 100}, {.max_force = -1}, {.max_force = NAN},      {.hand_mass = NAN},
+      {.hand_mass = -1}, {.motion = 9},     {.amplitude = INFINITY}, {.motion = WALE_MOTION_trace}};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+    wrong[i].size = sizeof *wrong;
+    CHECK_MALFORMED(wale_device_open(WALE_TEXT("simulated:sandpaper"), &wrong[i], &device, &error));
+  }
+  const double points[] = {0, 0, 0, 1, 0.01, 0, 1, 0, 0};
+  WaleDeviceOptions trace = {
+      .size = sizeof trace, .hand_mass = 0.5, .motion = WALE_MOTION_trace, .points = points, .count = 2};
+  CHECK_GOOD(wale_device_open(WALE_TEXT("simulated:sandpaper"), &trace, &device, &error));
+  wale_device_free(device);
+  trace.count = 3; /* the times do not rise */
+  CHECK_MALFORMED(wale_device_open(WALE_TEXT("simulated:sandpaper"), &trace, &device, &error));
+}
+
+static void stages(void) {
+  WaleStage *stage = NULL, *second = NULL;
+  WaleDevice* device = simulated();
+  WaleProfile profile = {.size = sizeof profile};
+  CHECK_MALFORMED(wale_stage_create(NULL, NULL, &stage, &error));
+  CHECK_MALFORMED(wale_stage_create(device, NULL, NULL, &error));
+  CHECK_GOOD(wale_stage_create(device, NULL, &stage, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_stage_create(device, NULL, &second, &error));
+  CHECK(second == NULL);
+  wale_stage_free(stage);
+  CHECK_GOOD(wale_stage_create(device, NULL, &stage, &error)); /* the first one gave it back */
+  wale_device_free(device);                                    /* the stage keeps it */
+
+  WaleRunOptions options = {.size = sizeof options, .seconds = 0.1, .virtual_time = 1};
+  WaleRun* run = NULL;
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_stage_run(stage, &options, &run, &error)); /* nothing is on it */
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_stage_stop(stage, NULL, &error));
+  WalePatch* patch = NULL;
+  CHECK_GOOD(wale_stage_add(stage, corduroy, NULL, &patch, &error));
+  CHECK(wale_stage_size(stage) == 1 && wale_patch_exists(patch) && wale_patch_id(patch) != 0);
+  const double seconds[] = {0, -1, NAN, INFINITY};
+  for (size_t i = 0; i < 4; ++i) {
+    options.seconds = seconds[i];
+    CHECK_MALFORMED(wale_stage_run(stage, &options, NULL, &error));
+  }
+  CHECK_MALFORMED(wale_stage_run(stage, NULL, NULL, &error));
+  CHECK_MALFORMED(wale_stage_run(NULL, &options, NULL, &error));
+
+  run = run_for(stage, 2);
+  WaleRunFigures figures = {.size = sizeof figures};
+  CHECK_GOOD(wale_run_figures(run, &figures, &error));
+  CHECK(figures.ticks_run > 100 && figures.recorded == (uint64_t)figures.ticks_run && figures.problem == NULL);
+  WaleTick* ticks = malloc(figures.recorded * sizeof *ticks);
+  CHECK_GOOD(wale_run_ticks(run, 0, figures.recorded, sizeof *ticks, ticks, &error));
+  double largest = 0;
+  for (size_t i = 0; i < figures.recorded; ++i) {
+    CHECK(fabs(ticks[i].time - (double)i * figures.seconds_per_tick) < 1e-9);
+    if (fabs(ticks[i].force.x) > largest) largest = fabs(ticks[i].force.x);
+  }
+  CHECK(largest > 1.5 && largest < 2.5); /* N: corduroy pushes with 1.934 N */
+  double times[4];                       /* an older caller, for whom a tick was only its time */
+  CHECK_GOOD(wale_run_ticks(run, 10, 4, sizeof *times, (WaleTick*)(void*)times, &error));
+  for (int i = 0; i < 4; ++i) CHECK(times[i] == ticks[10 + i].time);
+  CHECK_MALFORMED(wale_run_ticks(run, figures.recorded, 1, sizeof *ticks, ticks, &error));
+  CHECK_MALFORMED(wale_run_ticks(run, SIZE_MAX, 2, sizeof *ticks, ticks, &error));
+  CHECK_MALFORMED(wale_run_ticks(run, 0, 1, 5, ticks, &error));
+  CHECK_MALFORMED(wale_run_ticks(run, 0, 1, sizeof *ticks, NULL, &error));
+  CHECK_MALFORMED(wale_run_ticks(NULL, 0, 1, sizeof *ticks, ticks, &error));
+  CHECK_MALFORMED(wale_run_figures(NULL, &figures, &error));
+  free(ticks);
+
+  WaleFelt* felt = NULL;
+  WaleMeasureOptions measure = {.size = sizeof measure, .settling = 0.5, .least_crossings = 10};
+  CHECK_GOOD(wale_felt_measure(run, patch, &measure, &felt, &error));
+  WaleFeltFigures read = {.size = sizeof read};
+  CHECK_GOOD(wale_felt_figures(felt, &read, &error));
+  CHECK(read.rubbing_p99 > 1.5 && read.rubbing_p99 < 2.5 && read.levels >= 1 && read.crossings > 10);
+  WaleFeltLevel level = {.size = sizeof level};
+  CHECK_GOOD(wale_felt_level(felt, 0, &level, &error));
+  CHECK(is_text(level.name, "roughness") && level.problem == NULL && fabs(level.level - 0.6) < 0.05);
+  CHECK_MALFORMED(wale_felt_level(felt, read.levels, &level, &error));
+  CHECK_MALFORMED(wale_felt_level(NULL, 0, &level, &error));
+  wale_felt_free(felt);
+  measure.settling = NAN;
+  CHECK_MALFORMED(wale_felt_measure(run, patch, &measure, &felt, &error));
+  CHECK_MALFORMED(wale_felt_measure(NULL, patch, NULL, &felt, &error));
+  CHECK_MALFORMED(wale_felt_measure(run, NULL, NULL, &felt, &error));
+  CHECK_MALFORMED(wale_felt_figures(NULL, &read, &error));
+
+  wale_stage_free(stage);
+  wale_stage_free(stage); /* freed already */
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_felt_measure(run, patch, NULL, &felt, &error));
+  wale_run_free(run);
+  wale_patch_free(patch);
+
+  /* Without a device. */
+  CHECK_GOOD(wale_profile(WALE_TEXT("sandpaper"), &profile, &error));
+  WaleStageOptions stage_options = {.size = sizeof stage_options, .max_force = 1};
+  CHECK_GOOD(wale_stage_create_for(&profile, &stage_options, &stage, &error));
+  wale_stage_free(stage);
+  CHECK_GOOD(wale_profile(WALE_TEXT("touch_pad"), &profile, &error));
+  CHECK(profile.vibrates);
+  CHECK_GOOD(wale_stage_create_for(&profile, NULL, &stage, &error));
+  wale_stage_free(stage);
+  profile.name = WALE_TEXT("my pad");
+  CHECK_MALFORMED(wale_stage_create_for(&profile, NULL, &stage, &error));
+  CHECK_GOOD(wale_profile(WALE_TEXT("sandpaper"), &profile, &error));
+  profile.rate = NAN;
+  CHECK_MALFORMED(wale_stage_create_for(&profile, NULL, &stage, &error));
+  profile.rate = 1e9;
+  CHECK_MALFORMED(wale_stage_create_for(&profile, NULL, &stage, &error));
+  CHECK_MALFORMED(wale_stage_create_for(NULL, NULL, &stage, &error));
+  wale_stage_free(NULL);
+  wale_stage_interrupt(NULL);
+  CHECK(wale_stage_size(NULL) == 0 && !wale_stage_is_running(NULL));
+  CHECK_MALFORMED(wale_stage_start(NULL, &error));
+  CHECK_MALFORMED(wale_stage_stop(NULL, NULL, &error));
+  WaleNow now = {.size = sizeof now};
+  CHECK(wale_stage_now(NULL, &now) == WALE_CODE_malformed_value);
+}
+
+static void patches(void) {
+  WaleStage* stage = new_stage();
+  WalePatch *patch = NULL, *other = NULL;
+  WalePatchOptions options = {.size = sizeof options, .x = 0.01f, .width = 0.02f, .height = 0.02f};
+  CHECK_GOOD(wale_stage_add(stage, corduroy, &options, &patch, &error));
+  const WalePatchOptions wrong[] = {{.x = NAN}, {.width = 0.01f}, {.width = -1, .height = 1}, {.layer = INFINITY}};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+    WalePatchOptions each = wrong[i];
+    each.size = sizeof each;
+    CHECK_MALFORMED(wale_stage_add(stage, corduroy, &each, &other, &error));
+    CHECK(other == NULL);
+  }
+  CHECK_MALFORMED(wale_stage_add(stage, NULL, NULL, &other, &error));
+  CHECK_MALFORMED(wale_stage_add(NULL, corduroy, NULL, &other, &error));
+
+  CHECK_GOOD(wale_patch_set(patch, WALE_TEXT("wale"), 0.003, &error));
+  CHECK_CODE(WALE_CODE_unknown_name, wale_patch_set(patch, WALE_TEXT("whale"), 0.003, &error));
+  const double values[] = {NAN, INFINITY, 1e300, -1, 1};
+  for (size_t i = 0; i < 5; ++i) CHECK_MALFORMED(wale_patch_set(patch, WALE_TEXT("wale"), values[i], &error));
+  CHECK_CODE(WALE_CODE_invalid_encoding, wale_patch_set(patch, WALE_TEXT("\xff"), 0.003, &error));
+  CHECK_GOOD(wale_patch_move(patch, 0, 0.01f, &error));
+  CHECK_MALFORMED(wale_patch_move(patch, NAN, 0, &error));
+  CHECK_GOOD(wale_patch_resize(patch, 0.03f, 0.03f, 0, &error));
+  CHECK_MALFORMED(wale_patch_resize(patch, -0.03f, 0.03f, 0, &error));
+  CHECK_GOOD(wale_patch_enable(patch, 0, &error));
+  CHECK_GOOD(wale_patch_bring(patch, 2, &error));
+  CHECK_MALFORMED(wale_patch_bring(patch, NAN, &error));
+  CHECK_GOOD(wale_patch_replace(patch, corduroy, &error));
+  CHECK_MALFORMED(wale_patch_replace(patch, NULL, &error));
+  WaleProgram* pad = NULL;
+  WaleCompileOptions for_pad = {.size = sizeof for_pad, .device = WALE_TEXT("touch_pad")};
+  CHECK_GOOD(wale_library_find(library, WALE_TEXT("corduroy"), &for_pad, &pad, &error));
+  CHECK_CODE(WALE_CODE_other_device, wale_patch_replace(patch, pad, &error));
+  CHECK_CODE(WALE_CODE_other_device, wale_stage_add(stage, pad, NULL, &other, &error));
+  wale_program_free(pad);
+
+  CHECK_GOOD(wale_stage_add(stage, corduroy, NULL, &other, &error));
+  CHECK(wale_patch_id(patch) != wale_patch_id(other));
+  CHECK_GOOD(wale_patch_remove(other, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_remove(other, &error)); /* removed already */
+  CHECK(!wale_patch_exists(other) && wale_patch_exists(patch) && wale_stage_size(stage) == 1);
+  wale_patch_free(other);
+
+  /* The stage goes from under the patch: every call says so. */
+  WaleEdit* edit = NULL;
+  WaleSnapshot* snapshot = NULL;
+  CHECK_GOOD(wale_stage_edit(stage, &edit, &error));
+  wale_stage_free(stage);
+  CHECK(!wale_patch_exists(patch));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_set(patch, WALE_TEXT("wale"), 0.003, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_move(patch, 0, 0, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_resize(patch, 1, 1, 0, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_replace(patch, corduroy, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_enable(patch, 1, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_bring(patch, 1, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_remove(patch, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_snapshot(patch, &snapshot, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_edit_add(edit, corduroy, NULL, NULL, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_edit_commit(edit, &error));
+  wale_edit_free(edit);
+  wale_patch_free(patch);
+  wale_patch_free(patch); /* freed already */
+  CHECK(wale_patch_id(NULL) == 0 && !wale_patch_exists(NULL));
+  CHECK_MALFORMED(wale_patch_set(NULL, WALE_TEXT("wale"), 1, &error));
+  CHECK_MALFORMED(wale_patch_move(NULL, 0, 0, &error));
+  CHECK_MALFORMED(wale_patch_resize(NULL, 1, 1, 0, &error));
+  CHECK_MALFORMED(wale_patch_replace(NULL, corduroy, &error));
+  CHECK_MALFORMED(wale_patch_enable(NULL, 1, &error));
+  CHECK_MALFORMED(wale_patch_bring(NULL, 1, &error));
+  CHECK_MALFORMED(wale_patch_remove(NULL, &error));
+  CHECK_MALFORMED(wale_patch_snapshot(NULL, &snapshot, &error));
+}
+
+static void edits(void) {
+  WaleStage *stage = new_stage(), *another = new_stage();
+  WaleEdit* edit = NULL;
+  WalePatch *one = NULL, *two = NULL, *strange = NULL;
+  CHECK_GOOD(wale_stage_add(another, corduroy, NULL, &strange, &error));
+  CHECK_GOOD(wale_stage_edit(stage, &edit, &error));
+  CHECK_GOOD(wale_edit_add(edit, corduroy, NULL, &one, &error));
+  CHECK_GOOD(wale_edit_add(edit, corduroy, NULL, &two, &error));
+  CHECK_GOOD(wale_edit_set(edit, one, WALE_TEXT("wale"), 0.004, &error));
+  CHECK_GOOD(wale_edit_move(edit, one, 0.01f, 0, &error));
+  CHECK_GOOD(wale_edit_resize(edit, one, 0.01f, 0.01f, 0, &error));
+  CHECK_GOOD(wale_edit_replace(edit, one, corduroy, &error));
+  CHECK_GOOD(wale_edit_enable(edit, one, 0, &error));
+  CHECK_GOOD(wale_edit_bring(edit, two, 1, &error));
+  CHECK(wale_stage_size(stage) == 0);
+  CHECK_GOOD(wale_edit_commit(edit, &error));
+  CHECK(wale_stage_size(stage) == 2);
+  CHECK_GOOD(wale_edit_remove(edit, one, &error));
+  CHECK_GOOD(wale_edit_move(edit, two, NAN, 0, &error));
+  CHECK_MALFORMED(wale_edit_commit(edit, &error)); /* all or nothing */
+  CHECK(wale_stage_size(stage) == 2 && wale_patch_exists(one));
+  CHECK_GOOD(wale_edit_remove(edit, strange, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_edit_commit(edit, &error));
+  CHECK_GOOD(wale_edit_remove(edit, one, &error));
+  CHECK_GOOD(wale_edit_commit(edit, &error));
+  CHECK(wale_stage_size(stage) == 1 && !wale_patch_exists(one));
+  CHECK_GOOD(wale_edit_remove(edit, two, &error));
+  wale_edit_free(edit); /* without a commit */
+  wale_edit_free(edit);
+  CHECK(wale_stage_size(stage) == 1);
+  CHECK_MALFORMED(wale_stage_edit(NULL, &edit, &error));
+  CHECK_MALFORMED(wale_stage_edit(stage, NULL, &error));
+  CHECK_MALFORMED(wale_edit_add(NULL, corduroy, NULL, NULL, &error));
+  CHECK_MALFORMED(wale_edit_set(NULL, two, WALE_TEXT("wale"), 1, &error));
+  CHECK_MALFORMED(wale_edit_move(NULL, two, 0, 0, &error));
+  CHECK_MALFORMED(wale_edit_resize(NULL, two, 1, 1, 0, &error));
+  CHECK_MALFORMED(wale_edit_replace(NULL, two, corduroy, &error));
+  CHECK_MALFORMED(wale_edit_enable(NULL, two, 0, &error));
+  CHECK_MALFORMED(wale_edit_bring(NULL, two, 0, &error));
+  CHECK_MALFORMED(wale_edit_remove(NULL, two, &error));
+  CHECK_MALFORMED(wale_edit_commit(NULL, &error));
+  wale_patch_free(one), wale_patch_free(two), wale_patch_free(strange);
+  wale_stage_free(stage), wale_stage_free(another);
+}
+
+int stage_parts(void) {
+  run_parts((Part[]){devices, stages, patches, edits, NULL});
+  return failures;
+}

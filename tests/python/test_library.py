@@ -1,0 +1,119 @@
+"""Materials and levels by name, errors, programs."""
+
+import gc
+import math
+import threading
+
+import pytest
+import wale
+
+unfinished = "wale 1\nmaterial m {\n  physical {\n    force = 1 + nothing\n  }\n}\n"
+unused = "wale 1\nmaterial m {\n  physical {\n    let half = 0.5 mm\n    force = -1 N/m * hand\n  }\n}\n"
+
+
+def test_a_material_is_the_same_by_every_way(library: wale.Library, corduroy: wale.Program, tmp_path) -> None:
+    data = bytes(corduroy)
+    assert data == bytes(library.find("fabric.corduroy"))
+    assert data == bytes(library.find_later("corduroy").take())
+    assert data == bytes(wale.Program.load(data)) == bytes(library.open_bytes(data))
+    file = tmp_path / "corduroy.wpp"
+    file.write_bytes(data)
+    assert data == bytes(library.open(file)) == bytes(library.open_later(file).take())
+
+
+def test_a_program_says_what_it_is(corduroy: wale.Program) -> None:
+    assert (corduroy.material, corduroy.device, corduroy.vibrates) == ("corduroy", "sandpaper", False)
+    ribs = next(each for each in corduroy.parameters if each.name == "wale")
+    assert (ribs.unit, ribs.si_unit, ribs.description) == ("mm", "m", "distance between ribs")
+    assert (ribs.low, ribs.value, ribs.high) == pytest.approx((1e-3, 2.5e-3, 5e-3))
+    roughness = corduroy.percepts[0]
+    assert (roughness.name, roughness.unit, roughness.parameter) == ("roughness", "N", "roughness")
+    assert roughness.level == pytest.approx(0.6, abs=0.01)
+    assert roughness.amplitude == pytest.approx(1.934, abs=0.002)  # N
+    assert corduroy.warnings == []
+
+
+def test_levels(library: wale.Library) -> None:
+    assert library.level("roughness", 0.6).percepts[0].level == pytest.approx(0.6, abs=0.01)
+    assert bytes(library.level("roughness", 0.5)) == bytes(library.level("roughness", "0.5"))
+    assert library.level("roughness", "coarse").percepts[0].level > 0.5
+    for wrong, code in [(1.5, wale.Code.level_out_of_range), (math.nan, None), ("coarze", wale.Code.unknown_name)]:
+        with pytest.raises(wale.Error) as raised:
+            library.level("roughness", wrong)
+        assert code is None or raised.value.code == code
+
+
+def test_an_unknown_name_comes_with_the_nearest(library: wale.Library) -> None:
+    with pytest.raises(wale.Error) as raised:
+        library.find("corduory")
+    error = raised.value
+    assert error.code == wale.Code.unknown_name and error.name == "unknown_name" and error.severity == "error"
+    assert error.nearest[0] == "corduroy" and len(error.nearest) <= 3
+    assert (error.argument, error.text, error.span) == ("name", "corduory", None)
+    assert "corduory" in str(error) and str(error).startswith("W0201")
+
+
+def test_an_error_in_a_text_has_its_place(library: wale.Library) -> None:
+    with pytest.raises(wale.Error) as raised:
+        library.compile(unfinished, name="mine.wale")
+    assert raised.value.span == wale.Span(file="mine.wale", line=4, column=17, length=7)
+    assert raised.value.mend
+
+
+def test_warnings_come_with_the_program(library: wale.Library) -> None:
+    (warning,) = library.compile(unused).warnings
+    assert (warning.code, warning.severity) == (wale.Code.unused_name, "warning")
+    assert warning.span is not None and warning.span.line == 4
+
+
+def test_texts_may_be_anything(library: wale.Library) -> None:
+    for text in ["", "\0", "cor\0duroy", "\udcff", "ä" * 1000, "\U0001f9f5"]:
+        with pytest.raises(wale.Error):
+            library.find(text)
+
+
+def test_futures(library: wale.Library) -> None:
+    with wale.Library() as own:
+        future = own.find_later("denim")
+        assert future.wait(60) and future.poll()
+        assert future.take().material == "denim"
+        with pytest.raises(wale.Error) as raised:
+            future.take()
+        assert raised.value.code == wale.Code.wrong_moment
+        with pytest.raises(wale.Error):
+            own.level_later("roughness", 7).take()
+        with pytest.raises(wale.Error):
+            own.compile_later(unfinished).take()
+
+
+def test_what_is_closed_says_so(library: wale.Library) -> None:
+    own = wale.Library()
+    own.close()
+    own.close()
+    with pytest.raises(ValueError, match="the Library is closed"):
+        own.find("corduroy")
+    program = library.find("denim")
+    with program:
+        pass
+    with pytest.raises(ValueError, match="the Program is closed"):
+        bytes(program)
+
+
+def test_damaged_programs_are_refused(corduroy: wale.Program) -> None:
+    data = bytearray(bytes(corduroy))
+    data[len(data) // 2] ^= 1
+    for wrong in [bytes(data), b"", b"\x7fELF"]:
+        with pytest.raises(wale.Error) as raised:
+            wale.Program.load(wrong)
+        assert raised.value.code == wale.Code.damaged_file
+
+
+def test_threads_may_ask_at_the_same_time(library: wale.Library) -> None:
+    found: list[bytes] = []
+    threads = [threading.Thread(target=lambda: found.append(bytes(library.find("denim")))) for _ in range(2)]
+    for each in threads:
+        each.start()
+    for each in threads:
+        each.join()
+    assert len(found) == 2 and found[0] == found[1]
+    gc.collect()

@@ -1,0 +1,215 @@
+"""Devices, stages, patches, edits, loops, snapshots and recordings."""
+
+import math
+import threading
+import time
+
+import numpy as np
+import pytest
+import wale
+
+
+def code_of(call) -> int:
+    with pytest.raises(wale.Error) as raised:
+        call()
+    return raised.value.code
+
+
+def test_devices(library: wale.Library) -> None:
+    listed = wale.devices()
+    assert [each.spelling for each in library.devices()] == [each.spelling for each in listed]
+    assert library.profile("gamepad") == wale.profile("gamepad")
+    assert {each.kind for each in listed} >= {wale.DeviceKind.pointer, wale.DeviceKind.simulated}
+    assert any(each.spelling == "simulated:sandpaper" for each in listed)
+    profile = wale.profile("sandpaper")
+    assert profile.rate > 100 and profile.position_step > 0 and not profile.vibrates
+    assert code_of(lambda: wale.profile("sandpeper")) == wale.Code.unknown_device
+    assert code_of(lambda: wale.open_device("1-77")) == wale.Code.absent_device
+    for wrong in [{"priority": 100}, {"max_force": math.nan}, {"hand": wale.Hand(-1)},
+                  {"motion": wale.Motion.trace([[0, 0, 0], [0, 0, 0]])}]:
+        assert code_of(lambda: wale.open_device("simulated:sandpaper", **wrong)) == wale.Code.malformed_value
+    with pytest.raises(ValueError):
+        wale.open_device("simulated:sandpaper", motion=wale.Motion.trace([0, 1]))
+    hand = wale.Hand(0.5)
+    for motion in [wale.Motion.rest(), wale.Motion.circular(0.01, 1), wale.Motion.press(0.01, 1),
+                   wale.Motion.trace([[0, 0, 0], [1, 0.01, 0]])]:
+        with wale.open_device("simulated:sandpaper", hand=hand, motion=motion) as device:
+            assert device.profile == profile
+
+
+def test_a_run_gives_arrays_and_levels(stage: wale.Stage, corduroy: wale.Program) -> None:
+    patch = stage.add(corduroy)
+    run = stage.run(2, virtual_time=True)
+    ticks = run.ticks
+    assert len(ticks) == run.ticks_run == 2 * wale.profile("sandpaper").rate
+    assert ticks["position"].shape == (len(ticks), 2) and ticks["force"].dtype == np.float32
+    assert np.allclose(np.diff(ticks["time"]), run.seconds_per_tick)
+    felt = run.measure(patch, settling=0.5, least_crossings=10)
+    # The figures, once more by numpy.
+    settled = ticks[ticks["time"] >= 0.5]
+    assert felt.force.maximum == pytest.approx(np.abs(settled["force"][:, 0]).max(), rel=1e-3)
+    (level,) = felt.levels
+    assert level.name == "roughness" and level.problem is None and level.level == pytest.approx(0.6, abs=0.05)
+    again = stage.run(2, virtual_time=True, kept_seconds=0.5).ticks
+    assert len(again) == 450 and (again["time"] == ticks["time"][-450:]).all()
+
+
+def test_errors_of_runs(stage: wale.Stage, corduroy: wale.Program) -> None:
+    assert code_of(lambda: stage.run(1, virtual_time=True)) == wale.Code.wrong_moment
+    assert code_of(stage.stop) == wale.Code.wrong_moment
+    stage.add(corduroy)
+    for seconds in [0, -1, math.nan, math.inf]:
+        assert code_of(lambda: stage.run(seconds)) == wale.Code.malformed_value
+
+
+def test_real_time(stage: wale.Stage, corduroy: wale.Program) -> None:
+    patch = stage.add(corduroy)
+    stage.start()
+    assert stage.is_running
+    end = time.monotonic() + 30
+    while stage.now().ticks_run < 20 and time.monotonic() < end:
+        time.sleep(0.005)
+    now = stage.now()
+    assert now.ticks_run >= 20 and now.inside and now.patch == patch.id
+    assert stage.stop().ticks_run >= now.ticks_run
+    runner = threading.Thread(target=lambda: stage.run(3600))
+    runner.start()
+    while not stage.is_running and time.monotonic() < end:
+        time.sleep(0.001)
+    stage.close()  # ends it
+    runner.join(30)
+    assert not runner.is_alive()
+
+
+def test_patches(stage: wale.Stage, corduroy: wale.Program) -> None:
+    patch = stage.add(corduroy, at=(0.01, 0), size=(0.02, 0.02))
+    patch.set("wale", 0.003)
+    patch.move((0, 0.01))
+    patch.resize((0.03, 0.03, 0.001))
+    patch.enable(False)
+    patch.bring(2)
+    patch.replace(corduroy)
+    assert patch.exists and len(stage) == 1
+    assert code_of(lambda: patch.set("whale", 0.003)) == wale.Code.unknown_name
+    for wrong in [lambda: patch.set("wale", math.nan), lambda: patch.set("wale", 1), lambda: patch.move((math.inf, 0)),
+                  lambda: patch.resize((-1, 1)), lambda: patch.bring(math.nan),
+                  lambda: stage.add(corduroy, at=(math.nan, 0))]:
+        assert code_of(wrong) == wale.Code.malformed_value
+    with pytest.raises(ValueError):
+        stage.add(corduroy, size=(1,))
+    other = stage.add(corduroy)
+    other.remove()
+    assert not other.exists and code_of(other.remove) == wale.Code.wrong_moment
+    stage.close()
+    for gone in [lambda: patch.move((0, 0)), lambda: patch.enable(), patch.remove, patch.snapshot]:
+        assert code_of(gone) == wale.Code.wrong_moment
+
+
+def test_an_edit_is_all_or_nothing(stage: wale.Stage, corduroy: wale.Program) -> None:
+    with stage.edit() as edit:
+        one, two = edit.add(corduroy), edit.add(corduroy, layer=1)
+        edit.set(one, "wale", 0.004)
+        edit.move(one, (0.01, 0))
+        assert len(stage) == 0
+    assert len(stage) == 2 and one.exists
+    with pytest.raises(wale.Error), stage.edit() as edit:
+        edit.remove(two)
+        edit.move(one, (math.nan, 0))
+    assert len(stage) == 2
+    with pytest.raises(KeyError), stage.edit() as edit:
+        edit.remove(two)
+        raise KeyError
+    assert len(stage) == 2
+    with stage.edit() as edit:
+        edit.enable(one, False)
+        edit.bring(one, 2)
+        edit.resize(one, (0.01, 0.01))
+        edit.replace(one, corduroy)
+        edit.remove(two)
+    assert len(stage) == 1
+
+
+def test_contacts(stage: wale.Stage, corduroy: wale.Program) -> None:
+    heard: list[wale.Contact] = []
+    patch = stage.add(corduroy, size=(0.01, 0.03))
+    stage.on_contact(heard.append)
+    stage.run(1.25, virtual_time=True)
+    assert heard == [] and stage.poll() == 0
+    kinds = [each.kind for each in heard]
+    assert kinds[:4] == [wale.ContactKind.enter, wale.ContactKind.leave] * 2
+    assert all(each.patch == patch.id for each in heard)
+    assert [each.time for each in heard] == sorted(each.time for each in heard)
+
+    def refuse(_: wale.Contact) -> None:
+        raise KeyError
+
+    stage.on_contact(refuse)
+    stage.run(0.5, virtual_time=True)
+    with pytest.raises(KeyError):
+        stage.poll()
+    stage.on_contact(None)
+    assert stage.poll() == 0
+
+
+def test_a_loop_of_ones_own(corduroy: wale.Program) -> None:
+    profile = wale.profile("sandpaper")
+    with wale.Stage(profile, max_force=1) as stage:
+        stage.add(corduroy)
+        with wale.Loop(stage) as loop:
+            largest = 0.0
+            for tick in range(100_000):
+                if tick >= 2000 and largest > 0.9:
+                    break
+                x = int(profile.position_counts / 8 * math.sin(tick * 2 * math.pi / profile.rate))
+                force = loop.step((x, 0))
+                loop.exerted(force)
+                largest = max(largest, abs(force[0]))
+                time.sleep(1e-4)
+            assert 0.9 < largest <= 1.0
+            assert loop.step((0, 0), contact=wale.ReadingContact.lost) == (0, 0)
+    profile.rate = 1e9
+    assert code_of(lambda: wale.Stage(profile)) == wale.Code.malformed_value
+
+
+def test_snapshots(stage: wale.Stage, library: wale.Library) -> None:
+    patch = stage.add(library.find("sandpit"))
+    stage.run(2, virtual_time=True)
+    snapshot = patch.snapshot()
+    stage.close()
+    (grid,) = snapshot.grids.values()
+    assert grid.ndim == 2 and grid.dtype == np.float32 and np.ptp(grid) > 0
+    x, y = np.meshgrid(np.linspace(-0.02, 0.02, 80), np.linspace(-0.02, 0.02, 60))
+    places = np.stack([x, y], axis=-1)
+    heights = snapshot.surface(places)
+    assert heights.shape == (60, 80) and np.ptp(heights) > 0
+    assert snapshot.surface(places[7]) == pytest.approx(heights[7])
+    assert snapshot.colours(places).shape == (60, 80, 3)
+    with pytest.raises(ValueError):
+        snapshot.surface(np.zeros((5, 3)))
+    assert isinstance(snapshot.states, dict)
+
+
+def test_marks(stage: wale.Stage, library: wale.Library) -> None:
+    program = library.compile("wale 1\nmaterial m {\n  physical {\n    force = -1 N/m * hand\n"
+                              "    show circle(hand, 5 mm)\n  }\n}\n")
+    patch = stage.add(program)
+    (mark,) = patch.snapshot().show(position=(0.01, -0.02))
+    assert mark.kind == wale.MarkKind.circle and mark.values[:3] == pytest.approx((0.01, -0.02, 0.005))
+
+
+def test_recordings(device: wale.Device, corduroy: wale.Program, tmp_path) -> None:
+    file = tmp_path / "rän.wrec"
+    with wale.Stage(device, record=file, record_hand="lateral", max_force=3) as stage:
+        stage.add(corduroy)
+        run = stage.run(1, virtual_time=True)
+        assert code_of(lambda: stage.run(1, virtual_time=True)) == wale.Code.unwritable_file
+    with wale.Recording(file) as recording:
+        assert (recording.device, recording.hand, recording.max_force) == ("sandpaper", "lateral", 3)
+        assert recording.complete and recording.virtual_time and len(recording) == run.ticks_run
+        ticks = recording.ticks
+        assert (ticks["force"] == run.ticks["force"]).all()
+        assert ticks["counts_x"] * recording.position_step == pytest.approx(run.ticks["position"][:, 0], abs=1e-6)
+        replay = recording.replay()
+        assert (replay.ticks, replay.differing, replay.largest_force) == (len(ticks), 0, 0)
+    file.write_bytes(b"x")
+    assert code_of(lambda: wale.Recording(file)) == wale.Code.damaged_file
