@@ -92,6 +92,7 @@ TEST(Preview, WordsAreOnThePage) {
   EXPECT_EQ(text.figures[0].word, "maximum force");
   EXPECT_EQ(text.figures[0].value, "1 N");
   const Drawing drawing = drawn(bank, text);
+  if (!(*new_canvas(1, 1, {}))->has_text()) GTEST_SKIP() << "no font is installed";
   EXPECT_LT(darkest(drawing, 64, 60, 500, 110), 200);     // title
   EXPECT_LT(darkest(drawing, 64, 860, 300, 920), 200);    // figures
   EXPECT_GT(darkest(drawing, 1100, 30, 1590, 110), 700);  // nothing beside the title
