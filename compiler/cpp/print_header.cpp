@@ -71,6 +71,8 @@ RegisterFacts facts_before_setup(const Program& program, const LiveParts& live, 
   for (std::size_t number = 0; number < first_constant; ++number) bound(number, domain.inputs[number]);
   facts.smallest[register_of(Input::button)] = {.size = 1};
   know(register_of(Input::seconds_per_tick));
+  // A header's patch is a rectangle.
+  for (const Input input : {Input::shape_edge, Input::shape_edge_x, Input::shape_edge_y}) know(register_of(input));
   if (!live.size)
     for (const Input input : size_inputs) know(register_of(input));
   for (std::size_t number = first_constant; number < description.first_parameter(); ++number) know(number);

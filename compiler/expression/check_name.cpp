@@ -38,6 +38,7 @@ constexpr InputName input_names[] = {
     {"patch_half_width", Input::patch_half_width, {}, "length"},
     {"patch_half_height", Input::patch_half_height, {}, "length"},
     {"patch_rim", Input::patch_rim, {}, "length"},
+    {"shape_edge", Input::shape_edge, {}, "length"},
 };
 
 const InputName* input_named(std::string_view name) {

@@ -70,8 +70,8 @@ Derivatives::Derivatives(Graph& graph, By by, std::optional<float> difference)
     : graph_(graph), by_(std::move(by)), difference_(difference) {}
 
 Derivatives::By Derivatives::place(int axis) {
-  if (axis == 0) return {.inputs = {Input::x, Input::workspace_x}, .state = {}};
-  return {.inputs = {Input::y, Input::workspace_y}, .state = {}};
+  if (axis == 0) return {.inputs = {Input::x, Input::workspace_x}, .state = {}, .edge_slope = Input::shape_edge_x};
+  return {.inputs = {Input::y, Input::workspace_y}, .state = {}, .edge_slope = Input::shape_edge_y};
 }
 
 bool Derivatives::moves(const Node& node) const {
@@ -159,6 +159,8 @@ NodeId Derivatives::operator()(NodeId of) {
       known_[id] = of_component(node);
     else if (moves(node))
       known_[id] = graph_.constant(1);
+    else if (by_.edge_slope && node.kind == Node::Kind::input && static_cast<Input>(node.index) == Input::shape_edge)
+      known_[id] = graph_.input(*by_.edge_slope);
   }
   return known_[of];
 }

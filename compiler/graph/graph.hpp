@@ -108,6 +108,7 @@ class Derivatives {
   struct By {
     std::vector<Input> inputs;
     std::optional<std::uint32_t> state;
+    std::optional<Input> edge_slope = {};  ///< the derivative of `shape_edge`; without it that is 0
   };
   /// A look-up in a table gives its value and its slopes. The derivatives of the slopes are taken as 0; or, with
   /// `difference`, as the central difference of the slopes at this distance, in samples, to both sides.

@@ -43,7 +43,10 @@ namespace {
 Dependence dependence_of_input(Input input) {
   switch (input) {
     case Input::x:
-    case Input::y: return Dependence::position;
+    case Input::y:
+    case Input::shape_edge:
+    case Input::shape_edge_x:
+    case Input::shape_edge_y: return Dependence::position;
     case Input::velocity_x:
     case Input::velocity_y:
     case Input::raw_velocity_x:

@@ -28,6 +28,9 @@ std::string input_name(unsigned number) {
     case Input::time: return "time";
     case Input::button: return "button";
     case Input::seconds_per_tick: return "seconds_per_tick";
+    case Input::shape_edge: return "shape_edge";
+    case Input::shape_edge_x: return "shape_edge_x";
+    case Input::shape_edge_y: return "shape_edge_y";
   }
   return fmt::format("input {}", number);
 }

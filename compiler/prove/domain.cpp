@@ -10,7 +10,7 @@ Domain whole_domain(const PatchProgram& program) {
   const Envelope envelope(program.device);
   const auto either_way = [](float bound) { return Interval::between(-bound, bound); };
   Domain domain;
-  for (const Input place : {Input::x, Input::y, Input::workspace_x, Input::workspace_y}) {
+  for (const Input place : {Input::x, Input::y, Input::workspace_x, Input::workspace_y, Input::shape_edge}) {
     domain[place] = either_way(envelope.reach);
   }
   for (const Input speed : {Input::velocity_x, Input::velocity_y, Input::raw_velocity_x, Input::raw_velocity_y}) {
@@ -20,6 +20,7 @@ Domain whole_domain(const PatchProgram& program) {
        {Input::acceleration_x, Input::acceleration_y, Input::raw_acceleration_x, Input::raw_acceleration_y}) {
     domain[acceleration] = either_way(envelope.acceleration);
   }
+  domain[Input::shape_edge_x] = domain[Input::shape_edge_y] = either_way(1);
   const float widest = static_cast<float>(program.device.widest_patch());
   domain[Input::patch_half_width] = domain[Input::patch_half_height] = Interval::between(0, 0.5f * widest);
   domain[Input::patch_rim] = Interval::between(0, 0.5f * widest);
@@ -40,6 +41,8 @@ Domain domain_at_defaults(const PatchProgram& program) {
   domain[Input::patch_half_width] = Interval::of(0.5f * program.patch_width);
   domain[Input::patch_half_height] = Interval::of(0.5f * program.patch_height);
   domain[Input::patch_rim] = Interval::of(program.patch_rim);
+  domain[Input::shape_edge] = domain[Input::shape_edge_x] = domain[Input::shape_edge_y] =
+      Interval::of(0);  // a rectangle
   for (std::size_t i = 0; i < program.parameters.size(); ++i) {
     domain.parameters[i] = Interval::of(program.parameters[i].value);
   }

@@ -52,6 +52,9 @@ float* component(Hand& hand, Input input) {
     case Input::raw_acceleration_y: return &hand.raw_acceleration.y;
     case Input::workspace_x: return &hand.workspace.x;
     case Input::workspace_y: return &hand.workspace.y;
+    case Input::shape_edge: return &hand.edge;
+    case Input::shape_edge_x: return &hand.edge_slope.x;
+    case Input::shape_edge_y: return &hand.edge_slope.y;
     default: return nullptr;
   }
 }

@@ -24,29 +24,35 @@ float seconds(double time) {
   return time >= arithmetic::least_normal ? (time <= most ? static_cast<float>(time) : most) : 0.0f;
 }
 
-/// The field of a hand for an input, and its bound; empty for time and button, which are not components of motion.
+/// Where in a hand an input is, and its bound; empty for time and button, which are not floats.
 struct Place {
-  glm::vec2 Hand::*quantity;
-  float glm::vec2::*axis;
+  std::size_t offset;  ///< bytes from the hand's beginning
   float bound;
+
+  float in(const Hand& hand) const {
+    return *reinterpret_cast<const float*>(reinterpret_cast<const std::byte*>(&hand) + offset);
+  }
 };
 
 std::optional<Place> place_of(Input input, const Envelope& envelope) {
   const auto [reach, speed, acceleration] = envelope;
-  constexpr auto x = &glm::vec2::x, y = &glm::vec2::y;
+  constexpr std::size_t x = 0, y = sizeof(float);
   switch (input) {
-    case Input::x: return Place{&Hand::position, x, reach};
-    case Input::y: return Place{&Hand::position, y, reach};
-    case Input::velocity_x: return Place{&Hand::velocity, x, speed};
-    case Input::velocity_y: return Place{&Hand::velocity, y, speed};
-    case Input::acceleration_x: return Place{&Hand::acceleration, x, acceleration};
-    case Input::acceleration_y: return Place{&Hand::acceleration, y, acceleration};
-    case Input::raw_velocity_x: return Place{&Hand::raw_velocity, x, speed};
-    case Input::raw_velocity_y: return Place{&Hand::raw_velocity, y, speed};
-    case Input::raw_acceleration_x: return Place{&Hand::raw_acceleration, x, acceleration};
-    case Input::raw_acceleration_y: return Place{&Hand::raw_acceleration, y, acceleration};
-    case Input::workspace_x: return Place{&Hand::workspace, x, reach};
-    case Input::workspace_y: return Place{&Hand::workspace, y, reach};
+    case Input::x: return Place{offsetof(Hand, position) + x, reach};
+    case Input::y: return Place{offsetof(Hand, position) + y, reach};
+    case Input::velocity_x: return Place{offsetof(Hand, velocity) + x, speed};
+    case Input::velocity_y: return Place{offsetof(Hand, velocity) + y, speed};
+    case Input::acceleration_x: return Place{offsetof(Hand, acceleration) + x, acceleration};
+    case Input::acceleration_y: return Place{offsetof(Hand, acceleration) + y, acceleration};
+    case Input::raw_velocity_x: return Place{offsetof(Hand, raw_velocity) + x, speed};
+    case Input::raw_velocity_y: return Place{offsetof(Hand, raw_velocity) + y, speed};
+    case Input::raw_acceleration_x: return Place{offsetof(Hand, raw_acceleration) + x, acceleration};
+    case Input::raw_acceleration_y: return Place{offsetof(Hand, raw_acceleration) + y, acceleration};
+    case Input::workspace_x: return Place{offsetof(Hand, workspace) + x, reach};
+    case Input::workspace_y: return Place{offsetof(Hand, workspace) + y, reach};
+    case Input::shape_edge: return Place{offsetof(Hand, edge), reach};
+    case Input::shape_edge_x: return Place{offsetof(Hand, edge_slope) + x, 1};
+    case Input::shape_edge_y: return Place{offsetof(Hand, edge_slope) + y, 1};
     default: return std::nullopt;
   }
 }
@@ -57,7 +63,7 @@ float pressed(bool button) { return button ? 1.0f : 0.0f; }
 
 void place_input(Input input, std::span<const Hand> hands, const Envelope& envelope, float* values) noexcept {
   if (const auto place = place_of(input, envelope)) {
-    for (const Hand& hand : hands) *values++ = within(hand.*place->quantity.*place->axis, place->bound);
+    for (const Hand& hand : hands) *values++ = within(place->in(hand), place->bound);
   } else if (input == Input::time) {
     for (const Hand& hand : hands) *values++ = seconds(hand.time);
   } else {
@@ -66,12 +72,10 @@ void place_input(Input input, std::span<const Hand> hands, const Envelope& envel
 }
 
 HandReader::HandReader(std::span<const Input> inputs, const Envelope& envelope) {
-  const Hand hand;
   for (const Input input : inputs) {
     if (const auto place = place_of(input, envelope)) {
-      const auto* component = reinterpret_cast<const std::byte*>(&(hand.*place->quantity.*place->axis));
-      components_.push_back({static_cast<std::uint16_t>(component - reinterpret_cast<const std::byte*>(&hand)),
-                             static_cast<RegisterNumber>(input), place->bound});
+      components_.push_back(
+          {static_cast<std::uint16_t>(place->offset), static_cast<RegisterNumber>(input), place->bound});
     } else {
       (input == Input::time ? time_ : button_) = true;
     }

@@ -28,7 +28,9 @@ std::vector<Hand> hands(std::mt19937& random, std::size_t count) {
     hand.time = 1e-3 * static_cast<double>(random() % 100000);
     hand.button = random() % 2 == 0;
     for (glm::vec2* pair : {&hand.position, &hand.workspace}) *pair = {place(random), place(random)};
-    for (glm::vec2* pair : {&hand.velocity, &hand.acceleration, &hand.raw_velocity, &hand.raw_acceleration}) {
+    hand.edge = random() % 2 == 0 ? 0 : place(random);
+    for (glm::vec2* pair :
+         {&hand.velocity, &hand.acceleration, &hand.raw_velocity, &hand.raw_acceleration, &hand.edge_slope}) {
       *pair = {speed(random), speed(random)};
     }
     for (glm::vec2* pair : {&hand.position, &hand.velocity, &hand.acceleration, &hand.raw_velocity,

@@ -157,7 +157,17 @@ TEST(Machine, HandIsHeldInTheEnvelope) {
     held(along(Input::raw_velocity_x), &Hand::raw_velocity, axis, speed);
     held(along(Input::raw_acceleration_x), &Hand::raw_acceleration, axis, jolt);
     held(along(Input::workspace_x), &Hand::workspace, axis, reach);
+    held(along(Input::shape_edge_x), &Hand::edge_slope, axis, 1);
   }
+}
+
+TEST(Machine, TheEdgeOfAShapeArrivesWithinReach) {
+  EXPECT_EQ(seen(Input::shape_edge, {}), 0.0f);
+  EXPECT_EQ(seen(Input::shape_edge, {.edge = 0.0125f}), 0.0125f);
+  EXPECT_EQ(seen(Input::shape_edge, {.edge = -0.0125f}), -0.0125f);
+  EXPECT_EQ(seen(Input::shape_edge, {.edge = std::numeric_limits<float>::min()}), std::numeric_limits<float>::min());
+  EXPECT_EQ(seen(Input::shape_edge, {.edge = 1e30f}), seen(Input::x, {.position = {1e30f, 0}}));
+  EXPECT_EQ(seen(Input::shape_edge, {.edge = std::nanf("")}), 0.0f);
 }
 
 TEST(Machine, TimeAndButtonArriveAsFiniteNumbers) {

@@ -70,8 +70,8 @@ TEST(VerificationOfMemory, NextValues) {
   }
   EXPECT_EQ(refusal_after([](auto& p) { p.states[0].next = 46; }),
             "tick takes the next value of state wear from register 46, which no earlier instruction writes");
-  EXPECT_EQ(refusal_after([](auto& p) { p.states[0].next = 19; }),
-            "tick takes the next value of state wear from input 19, which tick does not have");
+  EXPECT_EQ(refusal_after([](auto& p) { p.states[0].next = 22; }),
+            "tick takes the next value of state wear from input 22, which tick does not have");
 }
 
 TEST(VerificationOfMemory, StatesHaveNamesAndRanges) {
@@ -153,8 +153,8 @@ TEST(VerificationOfMemory, WritesAreDefined) {
   EXPECT_EQ(refusal_after([](auto& p) { p.writes[1].grid = 2; }), "write 1 goes to grid 2, but the program has 2");
   EXPECT_EQ(refusal_after([](auto& p) { p.writes[0].u = 46; }),
             "tick takes the column of write 0 from register 46, which no earlier instruction writes");
-  EXPECT_EQ(refusal_after([](auto& p) { p.writes[0].v = 19; }),
-            "tick takes the row of write 0 from input 19, which tick does not have");
+  EXPECT_EQ(refusal_after([](auto& p) { p.writes[0].v = 22; }),
+            "tick takes the row of write 0 from input 22, which tick does not have");
   EXPECT_EQ(refusal_after([](auto& p) { p.writes[0].value = 49; }),
             "tick takes the value of write 0 from register 49, but the program has 49");
   PatchProgram p = example::program();

@@ -304,6 +304,12 @@ const Step* FloatEvaluation::derivative(const Step* of, int axis) {
       const auto place = static_cast<std::uint32_t>(axis == 0 ? Input::x : Input::y);
       const auto on_workspace = static_cast<std::uint32_t>(axis == 0 ? Input::workspace_x : Input::workspace_y);
       if (of->index == place || of->index == on_workspace) known = constant(1);
+      const auto slope = static_cast<std::uint32_t>(axis == 0 ? Input::shape_edge_x : Input::shape_edge_y);
+      if (of->index == static_cast<std::uint32_t>(Input::shape_edge))
+        known = keep({.kind = Step::Kind::input,
+                      .value = entering((*inputs_)[slope]),
+                      .changes = Changes::with_hand,
+                      .index = slope});
       break;
     }
     case Step::Kind::component: {

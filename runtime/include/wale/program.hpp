@@ -13,7 +13,8 @@ namespace wale {
 
 /// The hand as a patch program sees it, in m, m/s and m/s^2. All values are allowed here; a program sees only finite
 /// ones: position and workspace within plus and minus the workspace's diameter, velocities within the device's speed
-/// limit, accelerations within a change by that speed in one tick, time from 0 on, and 0 for not-a-number.
+/// limit, accelerations within a change by that speed in one tick, time from 0 on, distances to an edge within the
+/// workspace's diameter, their slopes within 1, and 0 for not-a-number.
 struct Hand {
   glm::vec2 position{0.0f};          ///< from the patch's centre
   glm::vec2 velocity{0.0f};          ///< filtered
@@ -23,6 +24,8 @@ struct Hand {
   glm::vec2 workspace{0.0f};         ///< position from the workspace's centre
   double time = 0;                   ///< s since the stage began to run
   bool button = false;               ///< the button is pressed
+  glm::vec2 edge_slope{0.0f};        ///< how `edge` changes along x and y
+  float edge = 0;                    ///< distance to the edge of the patch's own shape; 0 if it is a rectangle
 };
 
 /// A command: newtons along x and y. For a program that vibrates a pad (`PatchProgram::vibrates`) the same two numbers

@@ -81,7 +81,10 @@ constexpr Instruction decode(std::uint64_t word) {
 /// acceleration are filtered as the device declares; the raw ones are plain differences of positions. `workspace_x` and
 /// `workspace_y` are the hand's position from the workspace's centre, m. `time` is in s since the stage began to run,
 /// `seconds_per_tick` is the device's period, `button` is 1 while it is pressed and else 0. `probe` is the size of the
-/// carrier whose feel a percept's prediction is asked for (for roughness, a lateral amplitude in N).
+/// carrier whose feel a percept's prediction is asked for (for roughness, a lateral amplitude in N). `shape_edge` is
+/// the hand's distance to the edge of the patch's own shape, m, and the other two are its change along x and y, from -1
+/// to
+/// 1. All three are 0 on a patch that is a rectangle: its edges follow from its size.
 enum class Input : RegisterNumber {
   x = 0,
   y = 1,
@@ -102,6 +105,9 @@ enum class Input : RegisterNumber {
   time = 16,
   button = 17,
   seconds_per_tick = 18,
+  shape_edge = 19,
+  shape_edge_x = 20,
+  shape_edge_y = 21,
 };
 
 /// Registers 0 .. 31 are inputs, named or reserved; constants begin at 32.
@@ -120,7 +126,8 @@ struct InputFacts {
 inline constexpr auto input_table = [] {
   std::array<InputFacts, first_constant> table{};
   const auto at = [&table](Input input) -> InputFacts& { return table[static_cast<RegisterNumber>(input)]; };
-  for (const Input place : {Input::x, Input::y}) at(place) = {.changes = true, .picture = true, .tick = true};
+  for (const Input place : {Input::x, Input::y, Input::shape_edge, Input::shape_edge_x, Input::shape_edge_y})
+    at(place) = {.changes = true, .picture = true, .tick = true};
   for (const Input motion :
        {Input::velocity_x, Input::velocity_y, Input::acceleration_x, Input::acceleration_y, Input::raw_velocity_x,
         Input::raw_velocity_y, Input::raw_acceleration_x, Input::raw_acceleration_y, Input::workspace_x,
