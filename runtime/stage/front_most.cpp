@@ -44,7 +44,7 @@ std::uint32_t open_from(std::vector<std::uint32_t>& next_open, std::size_t row, 
 
 }  // namespace
 
-/// Of equal rectangles, keeps only the front one; the hand can feel no other.
+/// Of equal outlines, keeps only the front one; the hand can feel no other.
 void FrontMost::drop_repeated(std::vector<Entry>& front_first) {
   const auto hash = [](const PatchOutline& each) {
     std::size_t mixed = 0;
@@ -53,7 +53,8 @@ void FrontMost::drop_repeated(std::vector<Entry>& front_first) {
     return mixed;
   };
   const auto equal = [](const PatchOutline& one, const PatchOutline& other) {
-    return one.position == other.position && one.width == other.width && one.height == other.height;
+    return one.position == other.position && one.width == other.width && one.height == other.height &&
+           one.shape == other.shape;
   };
   std::unordered_set<PatchOutline, decltype(hash), decltype(equal)> seen(2 * front_first.size(), hash, equal);
   std::erase_if(front_first, [&seen](const Entry& entry) { return !seen.insert(entry.outline).second; });
@@ -113,6 +114,12 @@ bool FrontMost::list(std::span<const Entry> front_first) {
     const bool to = cell(inner_high, axis) > cell_number;
     return from && to;
   };
+  const auto shape_covers = [this](const PatchOutline& outline, std::uint32_t column, std::uint32_t row) {
+    if (outline.shape.is_rectangle()) return true;
+    const glm::dvec2 cell = 1.0 / cells_per_metre_, middle = low_ + (glm::dvec2(column, row) + 0.5) * cell;
+    return outline.shape.covers(glm::vec2(middle - glm::dvec2(outline.position)),
+                                static_cast<float>(0.5 * std::hypot(cell.x, cell.y)));
+  };
   for (std::uint32_t place = 0; place < front_first.size(); ++place) {
     const PatchOutline& outline = front_first[place].outline;
     const Extent x(outline.position.x, outline.width), y(outline.position.y, outline.height);
@@ -124,7 +131,8 @@ bool FrontMost::list(std::span<const Entry> front_first) {
            column = open_from(next_open, row * links, column + 1)) {
         if (placed.size() == most) return false;
         placed.emplace_back(row * side_ + column, place);
-        if (whole_row && covers(x.inner_low, x.inner_high, column, 0)) next_open[row * links + column] = column + 1;
+        if (whole_row && covers(x.inner_low, x.inner_high, column, 0) && shape_covers(outline, column, row))
+          next_open[row * links + column] = column + 1;
       }
     }
   }
@@ -133,15 +141,30 @@ bool FrontMost::list(std::span<const Entry> front_first) {
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   entries_.resize(placed.size());
   std::vector<std::uint32_t> end(first_.begin(), first_.end() - 1);
-  for (const auto& [cell_number, place] : placed) entries_[end[cell_number]++] = front_first[place];
+  std::vector<std::uint32_t> shape_of(front_first.size(), none);
+  shapes_.clear();
+  for (std::size_t place = 0; place < front_first.size(); ++place) {
+    if (front_first[place].outline.shape.is_rectangle()) continue;
+    shape_of[place] = static_cast<std::uint32_t>(shapes_.size());
+    shapes_.push_back(front_first[place].outline.shape);
+  }
+  for (const auto& [cell_number, place] : placed) {
+    const PatchOutline& outline = front_first[place].outline;
+    entries_[end[cell_number]++] = {outline.position, outline.width, outline.height, front_first[place].number,
+                                    shape_of[place]};
+  }
   return true;
 }
 
 std::uint32_t FrontMost::at(glm::dvec2 point) const noexcept {
   const std::size_t index = std::size_t{cell(point.y, 1)} * side_ + cell(point.x, 0);
-  const Entry* const end = entries_.data() + first_[index + 1];
-  for (const Entry* entry = entries_.data() + first_[index]; entry != end; ++entry)
-    if (entry->outline.contains(glm::vec2(point - glm::dvec2(entry->outline.position)))) return entry->number;
+  const Listed* const end = entries_.data() + first_[index + 1];
+  for (const Listed* entry = entries_.data() + first_[index]; entry != end; ++entry) {
+    const glm::vec2 hand(point - glm::dvec2(entry->position));
+    if (PatchOutline::holds(entry->width, entry->height, hand) &&
+        (entry->shape == none || shapes_[entry->shape].contains(hand)))
+      return entry->number;
+  }
   return none;
 }
 

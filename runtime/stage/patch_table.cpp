@@ -64,6 +64,7 @@ void PatchTable::free_slot(std::uint32_t number) {
   slot.ready.reset();
   slot.older.reset();
   slot.memory.reset();
+  slot.shape = slot.stretched = Shape();
   slot.since = 0;
   slot.taken = slot.touched = slot.renewed = slot.loose = slot.sampled = false;
   free_.push_back(number);
@@ -328,14 +329,19 @@ void PatchTable::arrange(std::uint32_t number, const Placement& next, const std:
     slot.withdrawn = revision_ + 1;
     return;
   }
-  arrangement_.put(
-      {.bank = bank,
-       .memory = slot.memory,
-       .outline = {next.position, bank->bank.size().width, bank->bank.size().height, next.layer, next.order},
-       .number = number,
-       .generation = slot.generation,
-       .change = slot.change,
-       .potential_range = bank->potential_range(sampled)});
+  const glm::vec2 size(bank->bank.size().width, bank->bank.size().height);
+  if (!(slot.shape == next.shape) || slot.stretched.size() != size) {
+    slot.shape = next.shape;
+    slot.stretched = next.shape.stretched(size);
+  }
+  arrangement_.put({.bank = bank,
+                    .memory = slot.memory,
+                    .outline = {next.position, size.x, size.y, next.layer, next.order, slot.stretched},
+                    .number = number,
+                    .generation = slot.generation,
+                    .change = slot.change,
+                    .potential_range = bank->potential_range(
+                        sampled && (next.shape.is_rectangle() || !reads_shape_edge(next.program)))});
 }
 
 void PatchTable::record(const Slot& slot, std::uint32_t number, const Placement& next, bool changed, bool renewed,

@@ -145,7 +145,8 @@ class PatchTable {
     std::optional<Placement> felt;  // as published; its program, parameters and size may be older
     std::shared_ptr<const PreparedBank> bank;  // as published
     std::shared_ptr<Memory> memory;
-    bool sampled = false;  // the published bound is the sampled one
+    bool sampled = false;    // the published bound is the sampled one
+    Shape shape, stretched;  // as placed, and to the published size
     std::uint64_t change = 0;
     std::uint32_t withdrawn = 0;
   };

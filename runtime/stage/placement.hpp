@@ -10,6 +10,7 @@
 #include "runtime/stage/bank_cache.hpp"
 #include "runtime/stage/front_most.hpp"
 #include "wale/program.hpp"
+#include "wale/shape.hpp"
 
 namespace wale {
 
@@ -22,13 +23,22 @@ struct Placement {
   float layer = 0;
   std::uint64_t order = 0;  ///< of its arrival in its layer
   bool enabled = true;
+  Shape shape;  ///< of its own size; a placed patch has it stretched
 
-  Placement(const Program& placed, glm::vec2 where, PatchSize how_large, float how_far_in_front)
+  Placement(const Program& placed, glm::vec2 where, PatchSize how_large, float how_far_in_front, Shape which_part = {})
       : program(placed),
         parameters(placed.default_parameters()),
         size(how_large),
         position(where),
-        layer(how_far_in_front) {}
+        layer(how_far_in_front),
+        shape(std::move(which_part)) {}
+
+  /// The size of a patch that is given none.
+  static PatchSize own_size(const Program& program, const Shape& shape) {
+    PatchSize size = program.default_size();
+    if (!shape.is_rectangle()) size.width = shape.size().x, size.height = shape.size().y;
+    return size;
+  }
 
   /// Takes another program. A size that was the old program's own becomes the new one's own. Parameters of the same
   /// name and unit keep their values if they were not at their defaults.
@@ -41,7 +51,7 @@ struct Placement {
       if (parameters[*before] == program.description().parameters[*before].value) continue;  // it was never set
       values[i] = std::clamp(parameters[*before], known[i].low, known[i].high);
     }
-    if (size == program.default_size()) size = replacing.default_size();
+    if (size == own_size(program, shape)) size = own_size(replacing, shape);
     parameters = std::move(values);
     program = replacing;
   }

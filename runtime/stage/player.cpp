@@ -1,6 +1,7 @@
 #include "runtime/stage/player.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace wale {
@@ -94,6 +95,11 @@ void Player::serve(const Beat& beat) noexcept {
   Force wanted(0);
   if (found) {
     hand.position = glm::vec2(position - glm::dvec2(found->outline.position));
+    if (const Shape& shape = found->outline.shape; !shape.is_rectangle()) {
+      const EdgeDistance edge = shape.edge(hand.position);
+      hand.edge = std::max(edge.metres, std::numeric_limits<float>::min());  // 0 would be a rectangle
+      hand.edge_slope = edge.slope;
+    }
     wanted = feel(*found, hand);
   }
   // Another memory cannot have the address of this one: it is made before the control side gets this one back.

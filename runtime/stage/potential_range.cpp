@@ -158,6 +158,10 @@ std::optional<double> farthest_along(const Bank& bank, bool along_x, const std::
   return farthest;
 }
 
+bool is_of_a_shape(Input input) {
+  return input == Input::shape_edge || input == Input::shape_edge_x || input == Input::shape_edge_y;
+}
+
 /// N along an axis.
 double most_force(const Bank& bank) {
   double most = 0;
@@ -178,8 +182,12 @@ bool has_sampled_range(const Program& program) {
   return description.states.empty() && description.grids.empty() &&
          std::ranges::all_of(program.decoded().tick_inputs, [](Input input) {
            return input == Input::x || input == Input::y || input == Input::velocity_x || input == Input::velocity_y ||
-                  input == Input::raw_velocity_x || input == Input::raw_velocity_y;
+                  input == Input::raw_velocity_x || input == Input::raw_velocity_y || is_of_a_shape(input);
          });
+}
+
+bool reads_shape_edge(const Program& program) {
+  return std::ranges::any_of(program.decoded().tick_inputs, is_of_a_shape);
 }
 
 std::optional<double> potential_range(const Bank& bank, const std::atomic<bool>* stop) {

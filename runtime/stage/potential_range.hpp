@@ -16,6 +16,9 @@ double trivial_potential_range(const Bank& bank);
 /// the potential also changes while the hand is at rest.
 bool has_sampled_range(const Program& program);
 
+/// Whether its force depends on the edge of the patch's own shape. Then a sampled range holds for rectangles only.
+bool reads_shape_edge(const Program& program);
+
 /// J, an upper bound of the range of a bank's potential, from its lowest to its highest point: the most energy that its
 /// force can give a hand.
 ///
@@ -25,8 +28,9 @@ bool has_sampled_range(const Program& program);
 /// for bit, are computed once: those for which all that the tick computes without the position along the line, and then
 /// joins with it, is equal. Without `has_sampled_range` it is the trivial bound.
 ///
-/// Allocates, and takes as long as 32768 ticks in a batch if all lines differ; for a thread that prepares banks. It
-/// runs on the calling thread alone. When `stop` becomes true, it gives nothing, within the time of 512 ticks.
+/// The patch counts as a rectangle. Allocates, and takes as long as 32768 ticks in a batch if all lines differ; for a
+/// thread that prepares banks. It runs on the calling thread alone. When `stop` becomes true, it gives nothing, within
+/// the time of 512 ticks.
 std::optional<double> potential_range(const Bank& bank, const std::atomic<bool>* stop);
 double potential_range(const Bank& bank);
 

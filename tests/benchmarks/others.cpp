@@ -40,7 +40,8 @@ double timed(std::size_t repetitions, double count, Work&& work) {
   return median(all);
 }
 
-void front_most(std::size_t count) {
+/// `shaped`: ellipses, polygons of 12 corners and masks of 64 by 64 cells instead of rectangles.
+void front_most(std::size_t count, bool shaped = false) {
   std::mt19937 random(1995);
   std::uniform_real_distribution<float> place(-0.1f, 0.1f);
   const float side = 0.4f / std::sqrt(static_cast<float>(count));  // each point under four on average
@@ -48,6 +49,17 @@ void front_most(std::size_t count) {
   std::vector<PatchOutline> patches(count);
   for (PatchOutline& each : patches) {
     each = {{place(random), place(random)}, size(random), size(random), static_cast<float>(random() % 100)};
+  }
+  if (shaped) {
+    std::vector<glm::vec2> star;
+    for (int i = 0; i < 12; ++i)
+      star.emplace_back((i % 2 == 0 ? 0.01 : 0.006) * std::cos(0.5236 * i),
+                        (i % 2 == 0 ? 0.01 : 0.006) * std::sin(0.5236 * i));
+    std::vector<std::uint8_t> bits(64 * 64);
+    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = std::hypot(i % 64 - 31.5, i / 64 - 31.5) < 30 || i % 7 == 0;
+    const Shape kinds[] = {*Shape::ellipse(0.01f, 0.01f), *Shape::polygon(star), *Shape::mask(bits, 64, 64, 0.001f)};
+    for (std::size_t i = 0; i < count; ++i)
+      patches[i].shape = kinds[i % 3].stretched({patches[i].width, patches[i].height});
   }
   double built = 0;
   {
@@ -70,8 +82,9 @@ void front_most(std::size_t count) {
     sink = moved;
   };
   const double slow = timed(41, 4096, [&] { walk(moving); }), fast = timed(41, 4096, [&] { walk(anywhere); });
-  std::printf("front_most_%zu_moving %.1f\nfront_most_%zu_random %.1f\nfront_most_%zu_built_ms %.1f\n", count, slow,
-              count, fast, count, built);
+  const char* const kind = shaped ? "_shapes" : "";
+  std::printf("front_most_%zu%s_moving %.1f\nfront_most_%zu%s_random %.1f\nfront_most_%zu%s_built_ms %.1f\n", count,
+              kind, slow, count, kind, fast, count, kind, built);
 }
 
 /// One of a hundred thousand patches moves, others with it or not: what the control side does about it, us.
@@ -197,6 +210,7 @@ int main(int count, char**) {
   front_most(10);
   front_most(1000);
   front_most(100'000);
+  front_most(100'000, true);
   move(10, 1);
   move(100'000, 1);
   move(100'000, 100);

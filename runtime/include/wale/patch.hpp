@@ -9,6 +9,7 @@
 
 #include "wale/memory.hpp"
 #include "wale/program.hpp"
+#include "wale/shape.hpp"
 
 namespace wale {
 
@@ -17,9 +18,11 @@ struct StageState;
 /// Where a patch goes, and how large it is.
 struct PatchOptions {
   glm::vec2 at{0.0f};                  ///< m from the workspace's centre, of the patch's centre; finite
-  std::optional<PatchSize> size = {};  ///< m; the program's own if none is given. Width and height are positive, the
-                                       ///< rim is not negative, all are finite
+  std::optional<PatchSize> size = {};  ///< m; if none is given, that of the shape with the program's rim, or for a
+                                       ///< rectangle the program's own. Width and height are positive, the rim is not
+                                       ///< negative, all are finite
   float layer = 0;                     ///< where patches overlap, the hand feels the one with the greatest; finite
+  Shape shape = {};                    ///< the part of its rectangle that it covers, stretched to its size
 };
 
 /// A layer for a patch.
@@ -55,7 +58,7 @@ class Patch {
   /// Moves the patch's centre, m from the workspace's centre. A hand that is still on it does not enter anew; the
   /// energy that moving gives to the hand counts as the program's own.
   Result<> move(glm::vec2 to);
-  /// Full width and height, and rim, in m.
+  /// Full width and height, and rim, in m. A shape is stretched with it.
   Result<> resize(PatchSize size);
   /// Another program. The patch keeps its place and layer; where it had its program's own size, it gets the new
   /// program's. A parameter that is not at its default keeps its value if the new program has one of the same name and
