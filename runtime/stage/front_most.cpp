@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace wale {
@@ -142,11 +143,14 @@ bool FrontMost::list(std::span<const Entry> front_first) {
   entries_.resize(placed.size());
   std::vector<std::uint32_t> end(first_.begin(), first_.end() - 1);
   std::vector<std::uint32_t> shape_of(front_first.size(), none);
+  std::unordered_map<const void*, std::uint32_t> number_of;
   shapes_.clear();
   for (std::size_t place = 0; place < front_first.size(); ++place) {
     if (front_first[place].outline.shape.is_rectangle()) continue;
-    shape_of[place] = static_cast<std::uint32_t>(shapes_.size());
-    shapes_.push_back(front_first[place].outline.shape);
+    const Shape shape = front_first[place].outline.shape.unstretched();
+    const auto [known, is_new] = number_of.try_emplace(shape.identity(), static_cast<std::uint32_t>(shapes_.size()));
+    if (is_new) shapes_.push_back(shape);
+    shape_of[place] = known->second;
   }
   for (const auto& [cell_number, place] : placed) {
     const PatchOutline& outline = front_first[place].outline;
@@ -162,7 +166,7 @@ std::uint32_t FrontMost::at(glm::dvec2 point) const noexcept {
   for (const Listed* entry = entries_.data() + first_[index]; entry != end; ++entry) {
     const glm::vec2 hand(point - glm::dvec2(entry->position));
     if (PatchOutline::holds(entry->width, entry->height, hand) &&
-        (entry->shape == none || shapes_[entry->shape].contains(hand)))
+        (entry->shape == none || shapes_[entry->shape].contains(hand, {entry->width, entry->height})))
       return entry->number;
   }
   return none;

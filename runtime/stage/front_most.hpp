@@ -78,7 +78,7 @@ class FrontMost {
   glm::dvec2 low_{0.0}, cells_per_metre_{0.0};
   std::vector<std::uint32_t> first_;  ///< each cell's first entry, row by row, and then the number of entries
   std::vector<Listed> entries_;
-  std::vector<Shape> shapes_;
+  std::vector<Shape> shapes_;  ///< unstretched, each once: the same few stay in the processor's caches
 };
 
 }  // namespace wale

@@ -65,7 +65,7 @@ Result<Shape> Shape::ellipse(float half_width, float half_height) {
   if (!is_length(half_width) || !is_length(half_height))
     return malformed("shape", "the half axes of an ellipse must be above 0 and at most 10 m");
   return Shape(std::make_shared<const ShapeForm>(
-      ShapeForm{EllipseForm(half_width, half_height), glm::vec2(2 * half_width, 2 * half_height)}));
+      ShapeForm{EllipseForm(half_width, half_height), glm::vec2(2 * half_width, 2 * half_height), nullptr}));
 }
 
 Result<Shape> Shape::polygon(std::span<const glm::vec2> corners) {
@@ -82,7 +82,7 @@ Result<Shape> Shape::polygon(std::span<const glm::vec2> corners) {
     exact.emplace_back(corner);
   }
   if (std::string why = why_no_polygon(exact); !why.empty()) return malformed("shape", std::move(why));
-  return Shape(std::make_shared<const ShapeForm>(ShapeForm{PolygonForm(std::move(exact)), 2.0f * half}));
+  return Shape(std::make_shared<const ShapeForm>(ShapeForm{PolygonForm(std::move(exact)), 2.0f * half, nullptr}));
 }
 
 Result<Shape> Shape::mask(std::span<const std::uint8_t> bits, std::size_t columns, std::size_t rows, float side) {
@@ -99,24 +99,34 @@ Result<Shape> Shape::mask(std::span<const std::uint8_t> bits, std::size_t column
   if (std::ranges::none_of(bits, [](std::uint8_t bit) { return bit != 0; }))
     return malformed("shape", "expected a mask with a bit that is set, found none");
   MaskForm form(std::make_shared<const MaskCells>(bits, columns, rows), glm::dvec2(side));
-  return Shape(std::make_shared<const ShapeForm>(ShapeForm{std::move(form), size}));
+  return Shape(std::make_shared<const ShapeForm>(ShapeForm{std::move(form), size, nullptr}));
 }
 
 glm::vec2 Shape::size() const noexcept { return form_ ? form_->size : glm::vec2(0.0f); }
 
 Shape Shape::stretched(glm::vec2 size) const {
   if (!form_ || size == form_->size || !(size.x > 0 && size.y > 0)) return *this;
-  const glm::dvec2 factors = glm::dvec2(size) / glm::dvec2(form_->size);
-  return Shape(std::visit(
-      [&](const auto& form) {
-        return std::make_shared<const ShapeForm>(ShapeForm{form.stretched(factors), size});
-      },
-      form_->form));
+  const std::shared_ptr<const ShapeForm>& from = form_->origin ? form_->origin : form_;
+  const glm::dvec2 factors = glm::dvec2(size) / glm::dvec2(from->size);
+  const auto stretch = [&](const auto& form) {
+    return std::make_shared<const ShapeForm>(ShapeForm{form.stretched(factors), size, from});
+  };
+  return Shape(std::visit(stretch, from->form));
 }
 
 EdgeDistance Shape::edge(glm::vec2 point) const noexcept {
   return form_ ? edge_of(*form_, glm::dvec2(point)) : EdgeDistance{};
 }
+
+bool Shape::form_contains(glm::vec2 at, glm::vec2 size) const noexcept {
+  const ShapeForm& from = form_->origin ? *form_->origin : *form_;
+  const glm::dvec2 point = glm::dvec2(at) * (glm::dvec2(from.size) / glm::dvec2(size));
+  if (const auto* ellipse = std::get_if<EllipseForm>(&from.form)) return ellipse->contains(point);
+  if (const auto* polygon = std::get_if<PolygonForm>(&from.form)) return polygon->contains(point);
+  return std::get_if<MaskForm>(&from.form)->contains(point);
+}
+
+Shape Shape::unstretched() const noexcept { return form_ && form_->origin ? Shape(form_->origin) : *this; }
 
 bool Shape::covers(glm::vec2 centre, float radius) const noexcept {
   if (!form_) return true;

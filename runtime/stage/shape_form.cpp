@@ -19,6 +19,10 @@ EdgeDistance distance(double metres, glm::dvec2 slope) noexcept {
 
 }  // namespace
 
+bool EllipseForm::contains(glm::dvec2 point) const noexcept {
+  return square(point.x / half_.x) + square(point.y / half_.y) <= 1;
+}
+
 EdgeDistance EllipseForm::edge(glm::dvec2 point) const noexcept {
   // In the first quadrant with the major axis along x. The nearest point q of the ellipse is where its normal meets the
   // point p: p - q is a multiple of (q.x / a^2, q.y / b^2), so q = (a^2 p.x / (s + e), b^2 p.y / s) with e = a^2 - b^2,
@@ -45,13 +49,12 @@ EdgeDistance EllipseForm::edge(glm::dvec2 point) const noexcept {
     nearest = {a * share, b * std::sqrt(1 - square(share))};
   }
   const double metres = std::sqrt(square(x - nearest.x) + square(y - nearest.y));
-  const bool inside = square(x / a) + square(y / b) <= 1;
   glm::dvec2 inward(-nearest.x / square(a), -nearest.y / square(b));
   inward /= std::sqrt(square(inward.x) + square(inward.y));
   if (!wide) std::swap(inward.x, inward.y);
   if (point.x < 0) inward.x = -inward.x;
   if (point.y < 0) inward.y = -inward.y;
-  return distance(inside ? metres : -metres, inward);
+  return distance(contains(point) ? metres : -metres, inward);
 }
 
 PolygonForm::PolygonForm(std::vector<glm::dvec2> corners) : corners_(std::move(corners)) {
@@ -73,7 +76,7 @@ PolygonForm PolygonForm::stretched(glm::dvec2 factors) const {
 }
 
 /// Whether a ray to the right crosses the edge an odd number of times.
-bool PolygonForm::holds(glm::dvec2 point) const noexcept {
+bool PolygonForm::contains(glm::dvec2 point) const noexcept {
   bool inside = false;
   glm::dvec2 from = corners_.back();
   for (const glm::dvec2 to : corners_) {
@@ -99,8 +102,8 @@ EdgeDistance PolygonForm::edge(glm::dvec2 point) const noexcept {
     inward = side.inward;
   }
   const double metres = std::sqrt(least);
-  const double sign = holds(point) ? 1 : -1;
-  if (metres <= on_the_edge) return distance(std::max(sign * metres, 0.0), inward);
+  const double sign = contains(point) ? 1 : -1;
+  if (metres <= on_the_edge) return distance(sign * metres, inward);
   return distance(sign * metres, away * (sign / metres));
 }
 
@@ -120,17 +123,27 @@ MaskCells::MaskCells(std::span<const std::uint8_t> bits, std::size_t columns, st
   }
 }
 
+std::pair<std::size_t, std::size_t> MaskForm::cell_at(glm::dvec2 point) const noexcept {
+  const auto within = [](double at, double side, std::size_t count) {
+    const double cells = at / side + 0.5 * static_cast<double>(count);
+    return cells > 0 ? std::min(static_cast<std::size_t>(std::min(cells, 1e6)), count - 1) : std::size_t{0};
+  };
+  return {within(point.x, cell_.x, cells_->wide), within(point.y, cell_.y, cells_->high)};
+}
+
+bool MaskForm::contains(glm::dvec2 point) const noexcept {
+  const auto [column, row] = cell_at(point);
+  return cells_->cell(column, row).is_set;
+}
+
 EdgeDistance MaskForm::edge(glm::dvec2 point) const noexcept {
   const MaskCells& all = *cells_;
   const double left = -0.5 * static_cast<double>(all.wide) * cell_.x,
                low = -0.5 * static_cast<double>(all.high) * cell_.y;
   const auto x_of = [&](std::size_t column) { return left + static_cast<double>(column) * cell_.x; };
   const auto y_of = [&](std::size_t row) { return low + static_cast<double>(row) * cell_.y; };
-  const auto within = [](double cells, std::size_t count) {
-    return cells > 0 ? std::min(static_cast<std::size_t>(std::min(cells, 1e6)), count - 1) : std::size_t{0};
-  };
-  const std::size_t column = within((point.x - left) / cell_.x, all.wide),
-                    row = within((point.y - low) / cell_.y, all.high);
+  const auto at = cell_at(point);
+  const std::size_t column = at.first, row = at.second;  // clang 14 captures no structured bindings
   const bool inside = all.cell(column, row).is_set;
   double least = std::numeric_limits<double>::infinity();
   glm::dvec2 away(0.0), outward(0.0);

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,14 +13,15 @@
 
 namespace wale {
 
-/// Computes with doubles, by operations that IEEE 754 rounds alike everywhere. All calls of `edge` are real-time, as
-/// that of `Shape`.
+/// Computes with doubles, by operations that IEEE 754 rounds alike everywhere. `edge` and `contains` are real-time,
+/// as those of `Shape`.
 class EllipseForm {
  public:
   /// Half axes, m, positive.
   EllipseForm(double half_width, double half_height) : half_(half_width, half_height) {}
 
   EdgeDistance edge(glm::dvec2 point) const noexcept;
+  bool contains(glm::dvec2 point) const noexcept;
   EllipseForm stretched(glm::dvec2 factors) const { return {half_.x * factors.x, half_.y * factors.y}; }
 
  private:
@@ -32,6 +34,7 @@ class PolygonForm {
   explicit PolygonForm(std::vector<glm::dvec2> corners);
 
   EdgeDistance edge(glm::dvec2 point) const noexcept;
+  bool contains(glm::dvec2 point) const noexcept;
   PolygonForm stretched(glm::dvec2 factors) const;
 
  private:
@@ -40,7 +43,6 @@ class PolygonForm {
     double inverse_square;   ///< 1 / length^2
     glm::dvec2 inward;       ///< unit vector
   };
-  bool holds(glm::dvec2 point) const noexcept;
 
   std::vector<glm::dvec2> corners_;
   std::vector<Side> sides_;
@@ -67,18 +69,23 @@ class MaskForm {
   MaskForm(std::shared_ptr<const MaskCells> cells, glm::dvec2 cell) : cells_(std::move(cells)), cell_(cell) {}
 
   EdgeDistance edge(glm::dvec2 point) const noexcept;
+  bool contains(glm::dvec2 point) const noexcept;
   MaskForm stretched(glm::dvec2 factors) const {
     return {cells_, glm::dvec2(cell_.x * factors.x, cell_.y * factors.y)};
   }
 
  private:
+  /// The column and row of the cell at a point, or of the nearest one.
+  std::pair<std::size_t, std::size_t> cell_at(glm::dvec2 point) const noexcept;
+
   std::shared_ptr<const MaskCells> cells_;
   glm::dvec2 cell_;
 };
 
 struct ShapeForm {
   std::variant<EllipseForm, PolygonForm, MaskForm> form;
-  glm::vec2 size;  ///< m
+  glm::vec2 size;                           ///< m
+  std::shared_ptr<const ShapeForm> origin;  ///< what it was stretched from, if it was
 };
 
 }  // namespace wale

@@ -266,6 +266,26 @@ TEST(Shapes, StretchedOnesHaveTheirSizeAndDistances) {
   EXPECT_EQ(ellipse.stretched({0, 1}), ellipse);
 }
 
+TEST(Shapes, WhatAStretchedOneContainsIsKnownWithoutStretching) {
+  Places places(10);
+  int inside = 0;
+  for (const Shape& shape : some_shapes(places, 5)) {
+    const glm::vec2 size(places.metres(0.01f, 0.1f), places.metres(0.01f, 0.1f));
+    const Shape stretched = shape.stretched({0.5f, 0.25f}).stretched(size);
+    EXPECT_EQ(stretched.unstretched(), shape);
+    for (int i = 0; i < 200; ++i) {
+      const glm::vec2 point = places.in(size);
+      EXPECT_EQ(shape.contains(point, size), stretched.contains(point));
+      const float metres = stretched.edge(point).metres;
+      if (std::abs(metres) > 1e-9f) {
+        EXPECT_EQ(shape.contains(point, size), metres > 0);
+      }
+      inside += metres > 0;
+    }
+  }
+  EXPECT_GT(inside, 500);
+}
+
 TEST(Shapes, WhatIsNoShapeIsRefused) {
   const auto why = [](const Result<Shape>& made) { return made ? "" : made.error().sentence; };
   const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();

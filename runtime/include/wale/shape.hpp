@@ -60,15 +60,23 @@ class Shape {
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw. Its work is bounded: it looks
   /// at each side of a polygon, and at the rows of a mask that are not further than the edge.
   EdgeDistance edge(glm::vec2 point) const noexcept;
-  /// Whether a point belongs to it; its edge does. Real-time as `edge`.
-  bool contains(glm::vec2 point) const noexcept { return is_rectangle() || edge(point).metres >= 0; }
+  /// Whether a point belongs to it: whether its distance is positive. Points on the edge itself may belong to it or
+  /// not. Real-time as `edge`, and faster.
+  bool contains(glm::vec2 point) const noexcept { return is_rectangle() || form_contains(point, size()); }
+  /// Whether a point belongs to this shape stretched to a size: as `stretched(size).contains(point)`, bit for bit.
+  bool contains(glm::vec2 point, glm::vec2 size) const noexcept { return is_rectangle() || form_contains(point, size); }
+  /// The shape that this one was stretched from; else this one. Shapes that were stretched from one share it.
+  Shape unstretched() const noexcept;
   /// Whether all points of a disc certainly belong to it. Real-time as `edge`.
   bool covers(glm::vec2 centre, float radius) const noexcept;
 
+  /// The same for shapes that compare equal, and for no others that exist at the time.
+  const void* identity() const noexcept { return form_.get(); }
   /// Whether both are the same value: copies of one, or both rectangles.
   friend bool operator==(const Shape&, const Shape&) = default;
 
  private:
+  bool form_contains(glm::vec2 point, glm::vec2 size) const noexcept;
   explicit Shape(std::shared_ptr<const ShapeForm> form) : form_(std::move(form)) {}
   std::shared_ptr<const ShapeForm> form_;
 };
