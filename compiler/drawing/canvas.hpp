@@ -84,7 +84,7 @@ class Canvas {
   virtual bool has_text() const = 0;
   /// The page as pixels.
   virtual Drawing pixels() const = 0;
-  /// The page as an SVG file, in which letters are shapes.
+  /// The page as an SVG file, in which letters are shapes. The same drawing gives the same bytes.
   virtual std::vector<std::byte> svg() const = 0;
 
  private:

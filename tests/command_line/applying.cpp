@@ -87,7 +87,7 @@ TEST(Applying, WordsThatMakeNoSenseAreMisuse) {
   ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
   ASSERT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "0.1", "--record", run}).status, 0);
   fs::create_symlink("q.wav", folder / "link.csv");
-  expect_misuse({{{"preview", corduroy, "-o", folder / "p.svg"}, "error[W0801]"},
+  expect_misuse({{{"preview", corduroy, "-o", folder / "p.docx"}, "error[W0801]"},
                  {{"compare", corduroy + ":", "denim"}, "error[W0801]"},
                  {{"describe", corduroy + ":corduroy", "--material", "other"}, "error[W0801]"},
                  {{"build", program, "-o", folder / "again.wpp"}, "error[W0801]"},

@@ -278,7 +278,27 @@ TEST(Page, AnSvgHasThePagesSizeAndItsLines) {
   EXPECT_NE(svg.find("width=\"300px\" height=\"200px\""), std::string::npos) << svg.substr(0, 300);
   EXPECT_NE(svg.find("M 10 20 L 110 20"), std::string::npos) << svg;
   EXPECT_EQ(svg.find("<image"), std::string::npos);
-  EXPECT_EQ(bytes, *encode_page(*page, "page.SVG"));
+}
+
+TEST(Page, TheSameDrawingGivesTheSameSvg) {
+  const auto drawn = [] {
+    const auto page = *new_canvas(100, 100, {1, 1, 1});
+    page->place_squares({10, 10, 50, 50}, std::vector<Colour>(16, Colour{1, 0, 0}), 4);
+    page->place_squares({50, 50, 90, 90}, std::vector<Colour>(16, Colour{0, 0, 1}), 4);
+    page->write({10, 90}, "wale", {});
+    const auto bytes = *encode_page(*page, "page.SVG");
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  const std::string first = drawn();
+  EXPECT_EQ(first, drawn());
+  // Whatever is referred to is there.
+  std::size_t references = 0;
+  for (std::size_t at = first.find('#'); at != std::string::npos; at = first.find('#', at + 1)) {
+    const std::string name = first.substr(at + 1, first.find_first_of("\")", at) - at - 1);
+    EXPECT_NE(first.find("id=\"" + name + "\""), std::string::npos) << name;
+    ++references;
+  }
+  EXPECT_GE(references, 2u);
 }
 
 TEST(Page, LinesCoverTheirWidthAndDashesLeaveGaps) {

@@ -156,7 +156,7 @@ TEST(RecordingAsCsv, HasTheColumnsOfARecordAndMore) {
             "t (s),x (m),y (m),vx (m/s),vy (m/s),force x (N),force y (N),interaction x (N),interaction y (N),"
             "lateness (s),skipped (periods),inside,counts x,counts y,program force x (N),program force y (N),"
             "commanded force x (N),commanded force y (N),patch,revision,contact,button,guards\n"
-            "0,0,0,0,0,0,-0,0,0,0,0,0,0,0,0,0,0,0,,1,good,0,\n"
+            "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,1,good,0,\n"
             "0.01,0.1143,-0.05715,0.5,0,0.75,0,,,0.00025,8,1,2048,-1024,1.25,0,1,0,3,1,stale,1,slew + stale\n");
   const auto trace = read_trace(out.str());
   ASSERT_TRUE(trace);

@@ -3,8 +3,10 @@
 #include <pango/pangocairo.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "compiler/drawing/cairo/functions.hpp"
 #include "schema/utf8.hpp"
@@ -50,6 +52,34 @@ std::string printable(std::string_view text) {
 bool has_fonts() {
   const FcFontSet* fonts = FcConfigGetFonts(FcConfigGetCurrent(), FcSetSystem);
   return fonts && fonts->nfont > 0;
+}
+
+/// An SVG file whose parts are numbered in their order. Cairo numbers some of them by all that the process has drawn,
+/// so that the same page would not have the same bytes.
+std::string numbered_in_order(const std::string& svg) {
+  const auto name_at = [&](std::size_t from) {
+    std::size_t end = from;
+    while (end < svg.size() && (std::isalnum(static_cast<unsigned char>(svg[end])) || svg[end] == '-')) ++end;
+    return svg.substr(from, end - from);
+  };
+  constexpr std::string_view defined = "id=\"";
+  std::map<std::string, std::string> names;
+  std::map<std::string, int> counts;
+  for (std::size_t at = svg.find(defined); at != std::string::npos; at = svg.find(defined, at + 1)) {
+    const std::string name = name_at(at + defined.size());
+    const std::string kind = name.substr(0, name.find_first_of("0123456789"));
+    if (!names.contains(name)) names[name] = kind + std::to_string(++counts[kind]);
+  }
+  std::string result;
+  for (std::size_t i = 0; i < svg.size(); ++i) {
+    result += svg[i];
+    if (svg[i] != '#' && !std::string_view(result).ends_with(defined)) continue;
+    const std::string name = name_at(i + 1);
+    const auto known = names.find(name);
+    if (known == names.end()) continue;
+    result += known->second, i += name.size();
+  }
+  return result;
 }
 
 class CairoCanvas final : public Canvas {
@@ -129,18 +159,18 @@ class CairoCanvas final : public Canvas {
   }
 
   std::vector<std::byte> svg() const override {
-    std::vector<std::byte> file;
+    std::string file;
     const auto append = [](void* to, const unsigned char* bytes, unsigned count) {
-      const auto* first = reinterpret_cast<const std::byte*>(bytes);
-      static_cast<std::vector<std::byte>*>(to)->insert(static_cast<std::vector<std::byte>*>(to)->end(), first,
-                                                       first + count);
+      static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), count);
       return CAIRO_STATUS_SUCCESS;
     };
     const Surface surface(cairo_svg_surface_create_for_stream(append, &file, width_, height_));
     cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
     paint_on(surface.get());
     cairo_surface_finish(surface.get());
-    return file;
+    const std::string ordered = numbered_in_order(file);
+    const auto* first = reinterpret_cast<const std::byte*>(ordered.data());
+    return {first, first + ordered.size()};
   }
 
  private:

@@ -69,6 +69,7 @@ class Code(enum.IntEnum):
     close_levels = 423  # named levels that people can hardly tell apart
     cut_patch = 424  # a patch wider than the device's workspace
     delivered_otherwise = 425  # a level that the finished program does not have
+    pushes_away = 426  # a force that drives a hand away from where it rests
     jumping_height = 430  # a height that jumps, which no force can follow
     beyond_devices = 431  # a force far beyond what any device gives
     never_pushes = 432  # a material whose force is zero everywhere
