@@ -19,7 +19,6 @@ constexpr double least_gain = 1e-4;     // of what is left, by a step worth goin
 constexpr int tries = 5;
 constexpr double least_pivot = 1e-6;
 constexpr std::size_t rough_places = 300;  // of a jump, that are tried
-constexpr std::size_t turning_places = 1600;   // to turn a jump by
 
 glm::dvec2 turned(glm::dvec2 way, double by) {
   by = std::clamp(by, -most_turn, most_turn);
@@ -176,35 +175,33 @@ void ObstacleFit::move(std::span<const double> by) {
 }
 
 void ObstacleFit::move_jumps(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
-  const std::size_t step_to_few = std::max<std::size_t>(1, places.size() / turning_places),
-                    rough = std::max<std::size_t>(1, places.size() / step_to_few / rough_places);
+  const std::size_t rough = std::max<std::size_t>(1, places.size() / rough_places);
   const auto best_along = [&](const std::vector<glm::dvec2>& without, glm::dvec2 way, glm::dvec2 of, BendKind kind,
-                              bool roughly) {
-    std::vector<PlaceOnLine> line;
-    for (std::size_t i = 0; i < places.size(); i += roughly ? step_to_few : 1)
-      line.push_back({glm::dot(places[i], way), glm::dot(without[i], of)});
-    return best_bend(std::move(line), kind, roughly ? rough : 1);
+                              std::size_t every) {
+    std::vector<PlaceOnLine> line(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) line[i] = {glm::dot(places[i], way), glm::dot(without[i], of)};
+    return best_bend(std::move(line), kind, every);
   };
   for (StaticStep& each : found.steps) {
     if (each.width > 0 || each.change == glm::dvec2(0)) continue;
     std::vector<glm::dvec2> without = rest(places, forces);
     for (std::size_t i = 0; i < places.size(); ++i) without[i] += each.at(places[i]);
     const glm::dvec2 of = glm::normalize(each.change);
-    Bend best = best_along(without, each.way, of, BendKind::jumps, true);
+    Bend best = best_along(without, each.way, of, BendKind::jumps, rough);
     for (double step = 0.02; step > 5e-4; step *= 0.5)
       for (const double by : {step, -step}) {
         const glm::dvec2 way = turned(each.way, by);
-        const Bend other = best_along(without, way, of, BendKind::jumps, true);
+        const Bend other = best_along(without, way, of, BendKind::jumps, rough);
         if (other.left < best.left) best = other, each.way = way;
       }
-    best = best_along(without, each.way, of, BendKind::jumps, false);
+    best = best_along(without, each.way, of, BendKind::jumps, 1);
     if (best.left < HUGE_VAL) each.offset = best.at;
   }
   for (Wall& each : found.walls) {
     if (each.preload == 0 || each.round()) continue;
     std::vector<glm::dvec2> without = rest(places, forces);
     for (std::size_t i = 0; i < places.size(); ++i) without[i] += each.at(places[i]);
-    const Bend best = best_along(without, each.inward, each.inward, BendKind::bends_and_jumps, false);
+    const Bend best = best_along(without, each.inward, each.inward, BendKind::bends_and_jumps, 1);
     if (best.left < HUGE_VAL) each.offset = best.at;
   }
 }
