@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
 
 #include "compiler/check/check_workspace.hpp"
@@ -15,8 +16,8 @@ namespace {
 using Corner = std::array<double, 2>;
 
 constexpr std::size_t fewest_corners = 3, most_corners = 64;
-/// The brightness from which on a sample of a mask is inside.
-constexpr float light = 0.5f;
+/// The code from which on a sample of a mask is inside: half of full brightness.
+constexpr std::uint16_t light = 32768;
 
 const std::vector<std::string> shape_words = {"rectangle", "ellipse", "polygon", "mask"};
 constexpr const char* example_of_polygon = "write, for example, `polygon(-20 mm, 0 mm, 20 mm, 0 mm, 0 mm, 30 mm)`";
@@ -169,7 +170,7 @@ class ShapeChecker {
                         .row = scale * picture.pixels_per_row,
                         .inside = {}};
     outline.inside.reserve(table.heights.size());
-    for (const float height : table.heights) outline.inside.push_back(height >= light);
+    for (const std::uint16_t height : table.heights) outline.inside.push_back(height >= light);
     if (std::ranges::find(outline.inside, true) == outline.inside.end())
       return refuse(Code::unusable_shape, span, "this mask has no inside: it is dark everywhere",
                     "make the picture light where the patch is, and dark elsewhere");

@@ -62,6 +62,31 @@ TEST(WorkspacesOnTheCommandLine, AreFeltTogether) {
   EXPECT_TRUE(contains(felt.err, "`away` is felt as the rectangle around its shape (ellipse)")) << felt.err;
 }
 
+/// A grey picture of 40 x 20 pixels: `grey` in its right half, black in its left one.
+std::string half(char grey) {
+  std::string picture = "P5\n40 20\n255\n";
+  for (int row = 0; row < 20; ++row) picture += std::string(20, '\0') + std::string(20, grey);
+  return picture;
+}
+
+TEST(WorkspacesOnTheCommandLine, AMaskIsWhereItsPictureIsLight) {
+  const Desk desk;
+  desk.folder.write("half.pgm", half('\x80'));
+  desk.folder.write("dark.pgm", half('\x7f'));
+  const auto masked = [&](const std::string& verb, const std::string& file, const std::string& at) {
+    return wale(
+        {verb, desk.folder.write("mask.wale", "wale 1\nworkspace desk {\n  patch a = denim { at " + at +
+                                                  ", 0 mm; shape mask(\"" + file + "\", scale: 1 mm/px) }\n}\n")});
+  };
+  const Outcome good = masked("describe", "half.pgm", "0 mm");
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_TRUE(contains(good.out, "40 mm x 20 mm mask half.pgm")) << good.out;
+  EXPECT_TRUE(contains(masked("check", "dark.pgm", "0 mm").out, "W0314"));
+  // Only the light half counts: to the left of the centre the dark one may lie beyond the edge, 114.3 mm away.
+  EXPECT_FALSE(contains(masked("check", "half.pgm", "-100 mm").out, "W0427"));
+  EXPECT_TRUE(contains(masked("check", "half.pgm", "100 mm").out, "W0427"));
+}
+
 TEST(WorkspacesOnTheCommandLine, AnUnknownNameIsWrongUsage) {
   const Desk desk;
   for (const char* verb : {"describe", "feel"}) {
