@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compiler/compile.hpp"
+#include "compiler/compile_workspace.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
 #include "compiler/solve/level_scale.hpp"
 #include "compiler/text/other_file.hpp"
@@ -34,6 +35,8 @@ Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<st
     compile_material(module, material.name, default_device, sources, source, *resolver, of_material);
     for (const auto& diagnostic : of_material.all()) diagnostics.report(diagnostic);
   }
+  for (const auto& workspace : module.workspaces)
+    compile_workspace(workspace, module, default_device, sources, source, *resolver, diagnostics);
   return diagnostics;
 }
 

@@ -334,7 +334,13 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
                                         const SourceSet& sources, SourceId source, Resolver& resolver,
                                         Diagnostics& diagnostics) {
   const CheckedMaterial* material = chosen_material(module, name, sources, source, diagnostics);
-  if (!material) return std::nullopt;
+  return material ? compile_material(*material, module, device, sources, source, resolver, diagnostics) : std::nullopt;
+}
+
+std::optional<Program> compile_material(const CheckedMaterial& checked, const CheckedModule& module,
+                                        const std::string& device, const SourceSet& sources, SourceId source,
+                                        Resolver& resolver, Diagnostics& diagnostics) {
+  const CheckedMaterial* material = &checked;
   diagnostics.renew_budget();
   diagnostics.allow_text(sources[source].text.size());
   const std::size_t said = diagnostics.all().size();

@@ -34,6 +34,11 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
                                         const std::string& device, const SourceSet& sources, SourceId source,
                                         Resolver& resolver, Diagnostics& diagnostics);
 
+/// The same of a material that has no name in the file, such as that of a patch of a workspace.
+std::optional<Program> compile_material(const CheckedMaterial& material, const CheckedModule& module,
+                                        const std::string& device, const SourceSet& sources, SourceId source,
+                                        Resolver& resolver, Diagnostics& diagnostics);
+
 /// Compiles a text, all stages.
 std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material,
                                const std::string& device, Resolver& resolver, Diagnostics& diagnostics);

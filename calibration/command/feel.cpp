@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/command/devices_here.hpp"
+#include "calibration/command/feel_run.hpp"
 #include "calibration/command/interrupt.hpp"
 #include "calibration/command/trusted_here.hpp"
 #include "calibration/feel/asking_person.hpp"
@@ -35,223 +35,6 @@
 
 namespace wale::command {
 namespace {
-
-constexpr double usual_seconds = 5;
-/// s; of a watched or recorded run, which may be long, only the last part is measured.
-constexpr double measured_seconds = 600;
-
-struct FeelOptions {
-  Choice choice;
-  std::vector<std::string> settings;
-  std::vector<std::string> trusted;  ///< files whose declarations may scale a real device
-  std::string device;                ///< empty: `auto`
-  std::string built_for;             ///< empty: the device that is felt on
-  std::optional<std::string> hand;   ///< how a simulated person moves
-  std::string transport;             ///< of a real device; empty: its driver chooses
-  std::string record;
-  std::optional<double> seconds, max_force;
-  bool virtual_time = false, json = false, watch = false;
-  std::string against;
-  bool blind = false;
-  std::optional<std::uint64_t> trials, seed;
-};
-
-void say(const std::string& what) { print_error("wale: {}\n", what); }
-
-/// A material to feel, with its parameters as set.
-Result<BlindMaterial> material_to_feel(const Program& program, const std::vector<std::string>& settings) {
-  auto parameters = chosen_parameters(program, settings);
-  if (!parameters) return parameters.error();
-  return BlindMaterial{program, *std::move(parameters)};
-}
-
-/// A material, and the device that it is built for and felt on.
-struct PreparedRun {
-  DeviceToFeel device;
-  Choice built;  ///< of the material, with that device
-  BlindMaterial material;
-};
-
-/// Checks that `name`, if it is not empty, is a device to build for. Error: W0601.
-Result<> can_be_built_for(const std::string& name, const std::vector<DeclaredDevice>& known) {
-  std::vector<std::string> names;
-  for (const DeclaredDevice& each : known) names.push_back(each.profile.name);
-  if (name.empty() || std::ranges::find(names, name) != names.end()) return {};
-  const auto near = nearest_spelling(name, names);
-  return Error{Code::unknown_device,
-               fmt::format("no device is called `{}`", name),
-               near ? fmt::format("did you mean `{}`?", *near) : "`wale devices` lists them",
-               {.name = "--built-for", .text = name}};
-}
-
-/// Checks that no file of `files` keeps a device to itself that an option names. Error: W0215.
-Result<> are_exported(const FeelOptions& options, const std::vector<DeclaredDevice>& known,
-                      const std::vector<DeviceFile>& files) {
-  constexpr std::string_view prefix = "simulated:";
-  const std::string asked = options.device.starts_with(prefix) ? options.device.substr(prefix.size()) : options.device;
-  for (const auto& [option, name] : {std::pair{"--device", asked}, {"--built-for", options.built_for}}) {
-    const auto is_named = [&name = name](const DeclaredDevice& each) { return each.profile.name == name; };
-    if (std::ranges::any_of(known, is_named)) continue;
-    if (auto hidden = private_device(name, files, option)) return *std::move(hidden);
-  }
-  return {};
-}
-
-/// An option that cannot apply to a run.
-struct Inapplicable {
-  const char* option;
-  bool is_so;
-  std::string why;  ///< it cannot apply
-  const char* mend;
-};
-
-/// Checks that none of them is so. Error: W0801, which means wrong usage.
-Result<> all_apply(std::initializer_list<Inapplicable> options) {
-  for (const auto& [option, is_so, why, mend] : options)
-    if (is_so) return Error{Code::malformed_value, why, mend, {.name = option}};
-  return {};
-}
-
-/// Checks that options about the file apply to it.
-Result<> apply_to_file(const FeelOptions& options, const OpenedFile& opened) {
-  return all_apply({{"--watch", options.watch && !opened.is_on_disk,
-                     fmt::format("expected a file on disk, found `{}`, which is only inside wale", opened.name),
-                     "leave out --watch, or save the material in a file of your own"}});
-}
-
-/// Checks that options about the device apply to the chosen one.
-Result<> apply_to_device(const FeelOptions& options, const ChosenDevice& chosen) {
-  return all_apply(
-      {{"--transport", !options.transport.empty() && !chosen.plugged, "expected a real device, found a simulated one",
-        "leave out --transport, or name a real device with --device"}});
-}
-
-/// Checks that options about forces and hands apply to the program.
-Result<> apply_to_program(const FeelOptions& options, const PatchProgram& program) {
-  return all_apply(
-      {{"--max-force", options.max_force && program.vibrates(),
-        fmt::format("`{}` only vibrates: it has no force to limit", program.device.name), "leave out --max-force"},
-       {"--hand", options.hand && !program.device.has_position(),
-        fmt::format("`{}` does not measure the hand's position, so no hand moves on it", program.device.name),
-        "leave out --hand"}});
-}
-
-/// Whether a person asks for a device that may be a real one, and names it.
-bool may_name_a_real_device(const FeelOptions& options) {
-  if (options.virtual_time || options.hand || options.device.empty() || options.device == "auto") return false;
-  if (options.device.starts_with("simulated")) return false;
-  const DeviceDeclaration* shipped = common_modules()->declarations.devices.find(options.device);
-  return shipped == nullptr || !shipped->wiring.usb.empty() || shipped->wiring.is_generic;
-}
-
-/// What this person trusts. An error in the owner's own file is only warned of where the run may do without it.
-Result<TrustedDeclarations> trusted_for(const FeelOptions& options) {
-  auto trusted = trusted_here(options.trusted);
-  if (!trusted) return trusted;
-  if (trusted->owners_problem && may_name_a_real_device(options)) return *std::move(trusted->owners_problem);
-  warn_of_unused(*trusted);
-  return trusted;
-}
-
-/// The devices that a file knows.
-struct KnownDevices {
-  std::vector<DeclaredDevice> devices;
-  std::string only_in_program;  ///< the one among them that only the patch program brings; may be empty
-};
-
-KnownDevices known_to(const OpenedFile& opened, const Choice& choice) {
-  if (opened.module) return {declared_devices(opened.module->declarations()), {}};
-  KnownDevices known{devices_here(choice.folders, choice.devices), {}};
-  const DeviceProfile& own = opened.program->description().device;
-  const auto is_own = [&](const DeclaredDevice& each) { return each.profile.name == own.name; };
-  if (std::ranges::any_of(known.devices, is_own)) return known;
-  known.devices.push_back({.profile = own});
-  known.only_in_program = own.name;
-  return known;
-}
-
-/// Opens and checks the file, chooses the device among those that the file knows, and compiles the material for it.
-OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop) {
-  const auto trusted = trusted_for(options);
-  if (!trusted) return refuse(trusted.error());
-  Choice built = options.choice;
-  built.device.clear(), built.device_option.clear();           // it is not known yet
-  built.devices = trusted->files, built.knows_owners = false;  // they are among these
-  built.shares_options = !options.against.empty();
-  auto opened = open(built);
-  if (!opened) return opened.status();
-  if (const auto fit = apply_to_file(options, *opened); !fit) return refuse(fit.error());
-  if (const auto same = is_as_named(*opened, {}, options.choice); !same) return refuse(same.error());
-  if (options.hand) options.choice.inputs->push_back(*options.hand);
-  const auto [known, only_in_program] = known_to(*opened, built);
-  if (const auto exported = are_exported(options, known, trusted->checked); !exported) return refuse(exported.error());
-  if (const auto is_known = can_be_built_for(options.built_for, known); !is_known) return refuse(is_known.error());
-  const bool asks = !options.device.empty();
-  auto device =
-      device_to_feel({.spelling = asks ? options.device : "auto",
-                      .built_for = opened->program ? opened->program->description().device.name : options.built_for,
-                      .transport = options.transport,
-                      .only_simulated = options.virtual_time || options.hand,
-                      .only_in_program = only_in_program},
-                     known, trusted->devices, options.seconds, say, stop);
-  if (!device) return refuse(device.error());
-  const ChosenDevice& chosen = device->chosen;
-  if (trusted->owners_problem && chosen.plugged) return refuse(*trusted->owners_problem);
-  if (const auto fit = apply_to_device(options, chosen); !fit) return refuse(fit.error());
-  if (!chosen.said.empty() && (asks || chosen.is_worth_saying)) say(chosen.said);
-
-  built.device = chosen.declared ? chosen.declared->profile.name : options.choice.device;
-  if (opened->module) check_levels(opened->module->declarations(), opened->source, built.device, opened->diagnostics);
-  const auto programs = programs_of(*opened, built, false);
-  if (!programs) return programs.status();
-  if (const auto fit = apply_to_program(options, programs->front().description()); !fit) return refuse(fit.error());
-  auto material = material_to_feel(programs->front(), options.settings);
-  if (!material) return refuse(material.error());
-  return PreparedRun{*std::move(device), std::move(built), *std::move(material)};
-}
-
-OrStatus<FeltDevice> open_prepared(const FeelOptions& options, const PreparedRun& run, const std::atomic<bool>& stop) {
-  const HandDeclaration* person = declared_everywhere()->declarations.hands.find("normal");
-  FeltOptions how{.virtual_time = options.virtual_time,
-                  .transport = options.transport,
-                  .most_newton = options.max_force.value_or(HUGE_VAL)};
-  if (options.hand) how.hand = *options.hand;
-  auto device = open_to_feel(run.device, run.material.program.description(), *person, how, say, stop);
-  if (!device) return refuse(device.error());
-  return *std::move(device);
-}
-
-/// The recording to make of the run, if the person asked for one.
-std::optional<RecordTo> recording_of(const FeelOptions& options, const RunManner& manner) {
-  if (!has_ending(options.record, ".wrec")) return std::nullopt;
-  return RecordTo{options.record, fmt::format("{}, {}", manner.device, manner.hand)};
-}
-
-/// How the stage runs, and what it records.
-StageOptions stage_options(const FeelOptions& options, const RunManner& manner) {
-  StageOptions how = felt_stage_options(options.max_force.value_or(HUGE_VAL));
-  how.record = recording_of(options, manner);
-  return how;
-}
-
-RunOptions run_options(const FeelOptions& options, const std::atomic<bool>& stop) {
-  const bool is_recording = has_ending(options.record, ".wrec"), is_table = !options.record.empty() && !is_recording;
-  return {.seconds = options.seconds.value_or(usual_seconds),
-          .virtual_time = options.virtual_time,
-          .stop = &stop,
-          .kept_seconds = !is_table && (is_recording || options.watch) ? measured_seconds : HUGE_VAL};
-}
-
-/// Opens the table of a run before it, so that no run is lost to a table that cannot be written. Nothing if the person
-/// asked for none.
-Result<std::optional<OutputFile>> table_of(const FeelOptions& options) {
-  std::optional<OutputFile> table;
-  if (options.record.empty() || has_ending(options.record, ".wrec")) return table;
-  auto opened = OutputFile::open(options.record, *options.choice.inputs);
-  if (!opened) return opened.error();
-  table = *std::move(opened);
-  return table;
-}
 
 /// Writes the table and the report of a finished run of so many versions of the file, the report also where the table
 /// fails. Returns the exit status.
@@ -290,7 +73,8 @@ double seconds_of_run(const FeelOptions& options, const PreparedRun& prepared, c
 int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   const auto prepared_run = prepared(options, stop);
   if (!prepared_run) return prepared_run.status();
-  const auto& [device, built, material] = *prepared_run;
+  const Choice& built = prepared_run->built;
+  const BlindMaterial& material = prepared_run->material;
   const PatchProgram& program = material.program.description();
   auto table = table_of(options);
   if (!table) return refuse(table.error());
@@ -414,7 +198,9 @@ int feel(const FeelOptions& options) {
                         "give its length, as in `--seconds \"5 s\"`, or leave out --virtual-time",
                         {.name = "--seconds"}});
   const std::atomic<bool>& stop = stop_on_signals();
-  return status_after_signals(options.blind ? feel_blind(options, stop) : feel_one(options, stop));
+  return status_after_signals(options.blind               ? feel_blind(options, stop)
+                              : options.workspace.empty() ? feel_one(options, stop)
+                                                          : feel_workspace(options, stop));
 }
 
 void offer_blind(CLI::App& verb, FeelOptions& options, CLI::Option* record) {
@@ -446,6 +232,12 @@ Run declare_feel(CLI::App& verb) {
                        "simulation of it (default: the one that it is felt on; sandpaper where that is a simulation "
                        "without a name)"});
   offer_settings(verb, options->settings);
+  auto* workspace = must_say(verb.add_option("--workspace", options->workspace,
+                                             "a workspace of the file, with all its patches, instead of a material")
+                                 ->type_name("NAME"),
+                             "the name of a workspace")
+                        ->excludes("--material")
+                        ->excludes("--set");
   verb.add_option(
           "--device", options->device,
           "where to feel it: auto (default), the best joystick plugged in, else a simulated one; simulated; "
@@ -482,9 +274,11 @@ Run declare_feel(CLI::App& verb) {
                       "recording)")
           ->type_name("FILE");
   offer_blind(verb, *options, record);
+  workspace->excludes("--blind")->excludes("--against");
   verb.add_flag("--watch", options->watch,
                 "puts each saved version of the file in your hand at once; until Ctrl-C, or for --seconds")
       ->excludes("--blind")
+      ->excludes(workspace)
       ->excludes(virtual_time);
   virtual_time->excludes("--blind");  // nobody feels it
   offer_json(verb, options->json, "the report as a JSON object");

@@ -1,7 +1,10 @@
 #include "compiler/check/check.hpp"
 
+#include <algorithm>
+
 #include "compiler/check/check_material.hpp"
 #include "compiler/check/check_names.hpp"
+#include "compiler/check/check_workspace.hpp"
 #include "compiler/modules/library_index.hpp"
 
 namespace wale {
@@ -40,6 +43,11 @@ const CheckedMaterial* CheckedModule::material(const std::string& name) const {
   return nullptr;
 }
 
+const CheckedWorkspace* CheckedModule::workspace(const std::string& name) const {
+  const auto found = std::ranges::find(workspaces, name, &CheckedWorkspace::name);
+  return found == workspaces.end() ? nullptr : &*found;
+}
+
 CheckedModule check(ModuleSet modules, const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
   CheckedModule checked;
   checked.modules = std::move(modules);
@@ -59,6 +67,11 @@ CheckedModule check(ModuleSet modules, const SourceSet& sources, Resolver& resol
       if (const auto* declared = checked.declarations().materials.find(node->name.text);
           declared && declared->node == node)
         checked.materials.push_back(check_material(*declared, surroundings, whole));
+  for (const auto& declaration : own->declarations)
+    if (const auto* node = std::get_if<WorkspaceDecl>(&declaration))
+      if (const auto* declared = checked.declarations().workspaces.find(node->name.text);
+          declared && declared->node == node)
+        checked.workspaces.push_back(check_workspace(*declared, surroundings, whole));
   if (whole && !diagnostics.has_errors() && !all.modules.empty()) warn_of_unused_declarations(all, surroundings);
   return checked;
 }

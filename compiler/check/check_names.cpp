@@ -143,6 +143,14 @@ class UsedNames {
                   if (const auto* memory = std::get_if<MemoryStatement>(&statement.what)) add(memory->dimension);
                 }
               },
+              [&](const WorkspaceDecl& node) {
+                for (const PlacedStatement& placed : node.placed)
+                  std::visit(
+                      [&](const auto& each) {
+                        for (const auto& setting : each.settings) add(setting);
+                      },
+                      placed);
+              },
               [](const auto&) {},
           },
           declaration);

@@ -47,6 +47,7 @@ bool is_misuse(const Error& error) {
     case Code::unknown_device:
     case Code::private_name:
     case Code::unknown_material:
+    case Code::unknown_workspace:
     case Code::unknown_name:
     case Code::other_device:
     case Code::unknown_setting: return true;

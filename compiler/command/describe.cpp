@@ -11,6 +11,7 @@
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/describe/describe_module.hpp"
+#include "compiler/describe/describe_workspace.hpp"
 #include "compiler/describe/fates.hpp"
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/modules/load_modules.hpp"
@@ -21,8 +22,72 @@ namespace {
 struct DescribeOptions {
   Choice choice;  ///< the device may be `all`
   std::vector<std::string> settings;
+  std::string workspace;  ///< only this one; empty for all of the file
   bool exports = false, json = false;
 };
+
+/// The workspaces of a file that were asked for. Errors: W0609; W0801 for a patch program.
+Result<std::vector<const CheckedWorkspace*>> chosen_workspaces(const OpenedFile& opened, const std::string& name) {
+  if (!opened.module)
+    return Error{.code = Code::malformed_value,
+                 .sentence = fmt::format("expected a Wale file, found `{}`, a patch program", opened.name),
+                 .mend = "name the Wale file that declares the workspace",
+                 .place = {.name = "--workspace"}};
+  if (!name.empty()) {
+    auto found = find_workspace(*opened.module, name, opened.name);
+    if (!found) return found.error();
+    return std::vector{*found};
+  }
+  std::vector<const CheckedWorkspace*> all;
+  for (const CheckedWorkspace& each : opened.module->workspaces) all.push_back(&each);
+  return all;
+}
+
+/// Describes workspaces of a file. Empty after errors, which are printed.
+std::optional<std::vector<WorkspaceDescription>> described_workspaces(
+    const OpenedFile& opened, const std::vector<const CheckedWorkspace*>& chosen, const DescribeOptions& options) {
+  const FileRequest request = options.choice.recording_request();
+  const auto declarations = declarations_of(opened, options.choice);
+  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
+  std::vector<WorkspaceDescription> descriptions;
+  Diagnostics found;
+  for (const CheckedWorkspace* workspace : chosen) {
+    const auto laid =
+        compile_workspace(*workspace, *opened.module, request.device, opened.sources, opened.source, *resolver, found);
+    if (!laid) break;
+    descriptions.push_back(describe_workspace(*workspace, *laid, request.device, *declarations));
+  }
+  print_diagnostics(stderr, found, opened.sources);
+  return descriptions.size() == chosen.size() ? std::optional(std::move(descriptions)) : std::nullopt;
+}
+
+/// Prints the workspaces of a file. With an option that names one, or without a material, they are all that is printed.
+/// Nothing if there are none.
+std::optional<int> describe_workspaces(OpenedFile& opened, const DescribeOptions& options) {
+  const bool is_asked = !options.workspace.empty();
+  const bool alone = is_asked || (opened.module && opened.module->materials.empty());
+  if (options.exports || (!is_asked && (!opened.module || opened.module->workspaces.empty() ||
+                                        !options.choice.material.empty() || !opened.material.empty())))
+    return std::nullopt;
+  if (!alone && options.json) return std::nullopt;  // one JSON value: that of the materials
+  const auto chosen = chosen_workspaces(opened, options.workspace);
+  if (!chosen) return refuse(chosen.error());
+  if (!options.settings.empty() && alone)
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = "a workspace has no parameters of its own",
+                        .mend = "leave out --set, or give the value in the file: `patch board = oak(line: 4 mm)`",
+                        .place = {.name = "--set"}});
+  if (alone) print_diagnostics(stderr, opened.diagnostics, opened.sources);  // otherwise they are printed already
+  const auto described = described_workspaces(opened, *chosen, options);
+  if (!described) return refused;
+  if (options.json) {
+    print_out(workspaces_json(*described));
+    return done;
+  }
+  for (std::size_t i = 0; i < described->size(); ++i)
+    print_out((i == 0 && alone ? "" : "\n") + workspace_text((*described)[i]));
+  return done;
+}
 
 /// The fates of a material on one device. Settings of parameters that its program has are added to `used`, since a
 /// percept that is lost on a device has no parameter there. Errors: those of a wrong setting.
@@ -122,6 +187,10 @@ int describe(const DescribeOptions& options) {
                             "expected a Wale file, found `{}`, a patch program, which exports nothing", opened->name),
                         .mend = "leave out --exports, or name the Wale file that it was built from",
                         .place = {.name = "--exports"}});
+  const bool only_workspaces = !options.workspace.empty() || (opened->module && opened->module->materials.empty() &&
+                                                              !opened->module->workspaces.empty());
+  if (only_workspaces)
+    if (const auto status = describe_workspaces(*opened, options)) return *status;
   if (const auto status = describe_exports(*opened, options)) return *status;
   const auto programs = programs_of(*opened, options.choice, true);
   if (!programs) return programs.status();
@@ -140,7 +209,7 @@ int describe(const DescribeOptions& options) {
   }
   for (std::size_t i = 0; i < descriptions.size(); ++i)
     print_out((i == 0 ? "" : "\n") + description_text(descriptions[i]));
-  return done;
+  return describe_workspaces(*opened, options).value_or(done);
 }
 
 Run declare_describe(CLI::App& verb) {
@@ -154,7 +223,11 @@ Run declare_describe(CLI::App& verb) {
       ->excludes("--material")
       ->excludes("--device")
       ->excludes("--set");
-  offer_json(verb, options->json, "an object for one material, an array for several");
+  must_say(verb.add_option("--workspace", options->workspace, "only this workspace of the file")->type_name("NAME"),
+           "the name of a workspace")
+      ->excludes("--material")
+      ->excludes("--exports");
+  offer_json(verb, options->json, "an object for one material or workspace, an array for several");
   verb.footer("for example: wale describe corduroy --set wale=4mm;  wale describe my.wale --device all");
   return [options] { return describe(*options); };
 }

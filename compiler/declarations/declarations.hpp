@@ -169,6 +169,7 @@ struct Declarations {
   Names<DeviceDeclaration> devices;
   Names<HandDeclaration> hands;
   Names<Declared<MaterialDecl>> materials;
+  Names<Declared<WorkspaceDecl>> workspaces;  ///< of the file itself: no other file can name them
   /// Materials of the library that this file names without declaring or importing them, by the byte at which the name
   /// begins. Null if none was found, which has been reported.
   std::map<std::uint32_t, const Declared<MaterialDecl>*> library_materials;

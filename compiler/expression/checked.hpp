@@ -142,14 +142,60 @@ struct CheckedMaterial {
       doubts;  ///< of a value or an argument that was hardly meant, as reported: W0308, W0312, W0313
 };
 
+/// The outline of a workspace's patch. Lengths are in m, from the patch's centre; x goes to the right and y up.
+struct RectangleOutline {};
+struct EllipseOutline {};
+struct PolygonOutline {
+  std::vector<std::array<double, 2>> corners;  ///< in order, either way round; no edge crosses another
+};
+struct MaskOutline {
+  std::string file;
+  std::size_t columns = 0, rows = 0;
+  double column = 0, row = 0;  ///< m, of one sample
+  std::vector<bool> inside;    ///< row by row from the top, `columns` in each
+};
+using Outline = std::variant<RectangleOutline, EllipseOutline, PolygonOutline, MaskOutline>;
+
+/// A range of a slider that a person has marked: from here to here it still felt like `says`.
+struct SliderMark {
+  std::string slider;               ///< a parameter or a percept of the material
+  bool is_percept = false;          ///< its range is one of levels
+  std::optional<double> low, high;  ///< SI; at least one of them
+  std::string unit;                 ///< in which its ends are written
+  std::string says;                 ///< may be empty
+  Span span;
+};
+
+/// A patch of a workspace.
+struct CheckedPatch {
+  CheckedMaterial material;     ///< named as the patch is; its `patch` is the size that the workspace gives
+  std::string made_of;          ///< the material as written, "denim(roughness: 0.3)"
+  std::array<double, 2> at{};   ///< m from the workspace's centre, of the patch's centre
+  std::optional<Span> at_span;  ///< of the setting, if it is written
+  Outline outline;
+  std::optional<double> rim;  ///< m; the device's if none is given
+  std::vector<SliderMark> marks;
+};
+
+/// The patches of a workspace, the last in front.
+struct CheckedWorkspace {
+  std::string name;
+  std::string documentation;
+  Span span;
+  std::vector<CheckedPatch> patches;
+};
+
 /// A checked file with all modules that it refers to. The modules are kept because declarations point into them.
 struct CheckedModule {
   ModuleSet modules;
   std::vector<CheckedMaterial> materials;  ///< those of the file itself, in the order written
+  std::vector<CheckedWorkspace> workspaces;
 
   const Declarations& declarations() const { return modules.declarations(); }
   /// The material with that name, or with an empty name the first one of the file; null if there is none.
   const CheckedMaterial* material(const std::string& name) const;
+  /// The workspace with that name; null if there is none.
+  const CheckedWorkspace* workspace(const std::string& name) const;
 };
 
 }  // namespace wale

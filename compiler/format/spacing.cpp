@@ -71,6 +71,9 @@ Roles roles_of(const SyntaxTree& tree) {
     if (const auto* function = std::get_if<FunctionDecl>(&declaration)) roles.called.insert(function->name.span.begin);
     if (const auto* record = std::get_if<RecordDecl>(&declaration)) add_keys(record->settings);
     if (const auto* material = std::get_if<MaterialDecl>(&declaration)) add_keys(material->representative);
+    if (const auto* workspace = std::get_if<WorkspaceDecl>(&declaration))
+      for (const PlacedStatement& placed : workspace->placed)
+        std::visit([&](const auto& each) { add_keys(each.settings); }, placed);
   }
   return roles;
 }

@@ -122,6 +122,12 @@ class Declarer {
           node.name.text, {.what = {&tree_, &node, &declarations_}, .declared = node.name.span, .exported = true});
   }
 
+  void operator()(const WorkspaceDecl& node) {
+    if (!twice(declarations_.workspaces, node.name, "workspace"))
+      declarations_.workspaces.add(
+          node.name.text, {.what = {&tree_, &node, &declarations_}, .declared = node.name.span, .exported = false});
+  }
+
  private:
   /// `mass * length / time^2`: names of dimensions, multiplied, divided and raised to whole powers.
   std::optional<Dimension> dimension_of(ExprId expr) {

@@ -225,14 +225,30 @@ class ModuleLoader {
     return true;
   }
 
-  /// Finds the library materials that a file's materials are made from but that it neither declares nor imports.
+  /// Finds the library materials that a file's materials and patches are made from but that it neither declares nor
+  /// imports.
   void find_materials(Module& module) {
-    for (const Declaration& declaration : module.tree.declarations)
+    const auto find = [&](const std::vector<Word>& words, std::string_view asking) {
+      for (const Word& word : words)
+        if (!module.declarations.materials.contains(word.text))
+          module.declarations.library_materials[word.span.begin] = find_in_library(module, asking, word);
+    };
+    for (const Declaration& declaration : module.tree.declarations) {
       if (const auto* material = std::get_if<MaterialDecl>(&declaration))
-        for (const Word& word : made_from(*material, module.tree))
-          if (!module.declarations.materials.contains(word.text))
-            module.declarations.library_materials[word.span.begin] =
-                find_in_library(module, std::string(material->name.text), word);
+        find(made_from(*material, module.tree), material->name.text);
+      const auto* workspace = std::get_if<WorkspaceDecl>(&declaration);
+      if (!workspace) continue;
+      // A patch may have the name of the material that it is of.
+      for (const PlacedStatement& placed : workspace->placed) {
+        if (const auto* patch = std::get_if<PlacedPatch>(&placed)) {
+          find(made_from(patch->material, module.tree), "");
+          continue;
+        }
+        for (const Setting& setting : std::get<PlacedPicture>(placed).settings)
+          for (const SettingItem& item : setting.items)
+            if (setting.key.text == "colour" && item.equals) find(made_from(*item.equals, module.tree), "");
+      }
+    }
   }
 
   /// The material that a word means. Materials of the file itself take precedence over imported ones, and those over

@@ -50,4 +50,10 @@ std::vector<Word> made_from(const MaterialDecl& material, const SyntaxTree& tree
   return names;
 }
 
+std::vector<Word> made_from(ExprId expr, const SyntaxTree& tree) {
+  std::vector<Word> names;
+  add_names(expr, tree, names);
+  return names;
+}
+
 }  // namespace wale

@@ -16,4 +16,7 @@ std::optional<Word> liked_by(const Setting& setting, const SyntaxTree& tree);
 /// name materials is not known here.
 std::vector<Word> made_from(const MaterialDecl& material, const SyntaxTree& tree);
 
+/// The same of an expression that stands for a material: `X(…)`, `0.5 X + 30 % X`.
+std::vector<Word> made_from(ExprId expr, const SyntaxTree& tree);
+
 }  // namespace wale

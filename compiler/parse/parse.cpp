@@ -21,7 +21,7 @@ const std::vector<std::string> record_words = {"percept", "map",    "threshold",
 
 const std::vector<std::string> declaration_words = {"material", "percept", "map",       "threshold", "rule",
                                                     "class",    "device",  "levels",    "hand",      "function",
-                                                    "let",      "unit",    "dimension", "import"};
+                                                    "let",      "unit",    "dimension", "import",    "workspace"};
 
 bool holds(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -170,12 +170,13 @@ void Parser::declaration() {
   const Span exporting = span_of(here());
   if (exported) {
     advance();
-    if (is_word(at_, "material") || is_word(at_, "import")) {
-      const bool material = is_word(at_, "material");
+    if (is_word(at_, "material") || is_word(at_, "import") || is_word(at_, "workspace")) {
+      const bool material = is_word(at_, "material"), import = is_word(at_, "import");
       complain_at(Code::unexpected_token, exporting,
                   material ? "a material needs no `export`: every file that imports this one may use it"
-                           : "an import cannot be exported",
-                  "", "`export`", material ? "leave `export` out" : "let the files that need it import it too");
+                  : import ? "an import cannot be exported"
+                           : "a workspace cannot be exported: no other file names it",
+                  "", "`export`", import ? "let the files that need it import it too" : "leave `export` out");
     }
   }
   std::string_view keyword = here().kind == TokenKind::name ? spelling(here()) : "";
@@ -212,7 +213,7 @@ void Parser::declaration() {
     }
     complain_at(Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
                 "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, "
-                "`class`, `device`, `levels` or `hand`",
+                "`class`, `device`, `levels`, `hand` or `workspace`",
                 shown(here()), std::move(help),
                 borrowed && *borrowed == "let" && !meant ? std::vector{replace(span_of(here()), *borrowed)}
                 : meant                                  ? respell_here(declaration_words)
@@ -229,6 +230,7 @@ void Parser::declaration() {
     keyword = input_.rewrite(*meant);
   }
   if (keyword == "material") return material();
+  if (keyword == "workspace") return workspace();
   if (is_record(keyword)) return record(exported);
   if (keyword == "import") import_module();
   if (keyword == "dimension") dimension(exported);

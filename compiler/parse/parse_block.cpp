@@ -291,6 +291,8 @@ void Parser::open_block() {
 /// Whether the block was evidently meant to end before this token although the `}` is missing.
 bool Parser::ends_block_by_mistake(bool in_section) const {
   if (here().kind == TokenKind::end || begins_declaration(at_)) return true;
+  if (in_placed_ && is_word(at_, "patch") && kind(at_ + 1) == TokenKind::name && kind(at_ + 2) == TokenKind::equals)
+    return true;
   return in_section && here().kind == TokenKind::name && kind(at_ + 1) == TokenKind::left_brace &&
          holds(sections, spelling(here()));
 }

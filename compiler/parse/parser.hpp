@@ -67,6 +67,13 @@ class Parser {
 
   bool borrowed_origin();
 
+  // parse_workspace.cpp
+  void workspace();
+  PlacedStatement placed_statement();
+  PlacedPatch placed_patch();
+  PlacedPicture placed_picture();
+  std::vector<Setting> placed_settings();
+
   // parse_block.cpp: blocks in braces
   Setting setting();
   [[noreturn]] void next_setting();
@@ -251,6 +258,7 @@ class Parser {
   bool in_setting_ = false;                   ///< words of evidence end a unit: `0.3 kg assumed`
   bool in_force_ = false;                     ///< `limit` ends a unit: `k * 5 mm limit 2 N`
   bool in_range_ = false;   ///< `soft`, `cell` and `to` end a unit: `in 1 mm .. 5 mm soft 2 mm .. 3 mm`
+  bool in_placed_ = false;  ///< in the block of a patch of a workspace: `patch NAME =` begins the next patch
   bool in_origin_ = false;  ///< of a material: `= 0.5 corduroy(wale: 1 mm) + 0.5 denim`
 };
 

@@ -113,6 +113,23 @@ class TreePrinter {
     settings(1, record.settings);
     result_ += ")";
   }
+  void operator()(const WorkspaceDecl& workspace) {
+    line(0, documented(workspace.documentation) + "(workspace " + text_of(workspace.name));
+    for (const PlacedStatement& placed : workspace.placed) {
+      if (const auto* patch = std::get_if<PlacedPatch>(&placed)) {
+        const MaterialDecl& material = patch->material;
+        line(1, documented(material.documentation) + "(patch " + text_of(material.name) + " = " +
+                    expr(*material.derived_from));
+        settings(2, patch->settings);
+      } else {
+        const auto& picture = std::get<PlacedPicture>(placed);
+        line(1, "(patches from " + expr(picture.picture));
+        settings(2, picture.settings);
+      }
+      result_ += ")";
+    }
+    result_ += ")";
+  }
   void operator()(const MaterialDecl& material) {
     line(0, documented(material.documentation) + "(material " + text_of(material.name));
     if (material.derived_from) result_ += " = " + expr(*material.derived_from);

@@ -247,7 +247,32 @@ struct MaterialDecl {
   Span span;
 };
 
-using Declaration = std::variant<Import, DimensionDecl, UnitDecl, Constant, FunctionDecl, RecordDecl, MaterialDecl>;
+/// `patch cloth = denim(roughness: 0.3) { at 40 mm, 0 mm; size 60 mm, 90 mm }` in a workspace. It is a material with
+/// the patch's name, made from the expression, and a block that says where it lies.
+struct PlacedPatch {
+  MaterialDecl material;
+  std::vector<Setting> settings;
+};
+
+/// `patches from picture("map.png", scale: 0.3 mm/px) { colour "#c04020" = brick }` in a workspace.
+struct PlacedPicture {
+  ExprId picture;
+  std::vector<Setting> settings;
+  Span span;
+};
+
+using PlacedStatement = std::variant<PlacedPatch, PlacedPicture>;
+
+/// `workspace NAME { … }`: patches that lie side by side or on one another, the last in front.
+struct WorkspaceDecl {
+  Word name;
+  std::vector<PlacedStatement> placed;
+  std::string_view documentation;
+  Span span;
+};
+
+using Declaration =
+    std::variant<Import, DimensionDecl, UnitDecl, Constant, FunctionDecl, RecordDecl, MaterialDecl, WorkspaceDecl>;
 
 /// One parsed file. Expressions are in `exprs` and named by index; `expr_spans` has their spans.
 struct SyntaxTree {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "compiler/compile.hpp"
+#include "compiler/compile_workspace.hpp"
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/format/format.hpp"
 #include "compiler/parse/parse.hpp"
@@ -65,6 +66,8 @@ void check_and_compile(const std::string& text) {
   const char* devices[] = {wale::default_device, "touch_pad", "gamepad"};
   if (turn < 3 && !diagnostics.has_errors() && !module.materials.empty())
     compile_material(module, module.materials.front().name, devices[turn], sources, source, resolver, diagnostics);
+  if (turn < 3 && !diagnostics.has_errors() && !module.workspaces.empty())
+    compile_workspace(module.workspaces.front(), module, devices[turn], sources, source, resolver, diagnostics);
   render_json(diagnostics, sources);
   for (const wale::Diagnostic& each : diagnostics.all()) render_text(each, sources, true);
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "compiler/compile.hpp"
+#include "compiler/compile_workspace.hpp"
 #include "compiler/diagnostics/explain.hpp"
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/solve/level_scale.hpp"
@@ -35,7 +36,7 @@ const std::map<std::string, std::string> not_as_one_file = {
 bool is_of_wale_text(Code code) {
   return code < Code::absent_device && code != Code::unwritable_file && code != Code::damaged_file &&
          code != Code::newer_file && code != Code::output_is_input && code != Code::refused_program &&
-         code != Code::other_device && code != Code::other_figures;
+         code != Code::other_device && code != Code::other_figures && code != Code::unknown_workspace;
 }
 
 struct Example {
@@ -98,6 +99,12 @@ Outcome outcome_of(const std::string& text, bool needs_material) {
     Diagnostics of_material;
     compile_material(module, name, default_device, sources, source, resolver, of_material);
     all.insert(all.end(), of_material.all().begin(), of_material.all().end());
+  }
+  for (const auto& workspace : module.workspaces) {
+    if (diagnostics.has_errors()) break;
+    Diagnostics of_workspace;
+    compile_workspace(workspace, module, default_device, sources, source, resolver, of_workspace);
+    all.insert(all.end(), of_workspace.all().begin(), of_workspace.all().end());
   }
   Outcome outcome;
   for (const auto& each : all) {

@@ -25,6 +25,7 @@
 #include <set>
 
 #include "compiler/compile.hpp"
+#include "compiler/compile_workspace.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/solve/level_scale.hpp"
@@ -138,12 +139,17 @@ std::vector<Diagnostic> checked(SourceSet& sources, SourceId source) {
   const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
   if (!diagnostics.has_errors()) check_levels(module.declarations(), source, default_device, diagnostics);
   std::vector<Diagnostic> all = diagnostics.all();
-  if (!diagnostics.has_errors())
-    for (const auto& material : module.materials) {
-      Diagnostics of_material;
-      compile_material(module, material.name, default_device, sources, source, *resolver, of_material);
-      all.insert(all.end(), of_material.all().begin(), of_material.all().end());
-    }
+  if (diagnostics.has_errors()) return all;
+  for (const auto& material : module.materials) {
+    Diagnostics of_material;
+    compile_material(module, material.name, default_device, sources, source, *resolver, of_material);
+    all.insert(all.end(), of_material.all().begin(), of_material.all().end());
+  }
+  for (const auto& workspace : module.workspaces) {
+    Diagnostics of_workspace;
+    compile_workspace(workspace, module, default_device, sources, source, *resolver, of_workspace);
+    all.insert(all.end(), of_workspace.all().begin(), of_workspace.all().end());
+  }
   return all;
 }
 
@@ -242,6 +248,7 @@ TEST(DiagnosticCodes, EachHasACase) {
       {"W0606", "of no Wale text: the verifier, tests/machine"},
       {"W0607", "of no Wale text: stages and devices, tests/runtime and tests/usb_mock"},
       {"W0608", "of no Wale text: programs on plugged devices, tests/device and tests/usb_mock"},
+      {"W0609", "the workspace is named on the command line: tests/command_line/workspaces.cpp"},
   };
   std::set<std::string> codes;
 #define WALE_CODE(number, name, severity, title) codes.insert(code_name(Code::name));

@@ -34,6 +34,9 @@ class Grammar::Recogniser {
     Ends ends;
     if ((name == "setting" || name == "percept") && begins_declaration(at)) {
       // "No statement in a block begins as a declaration does, with `material NAME =` or `function NAME (`."
+    } else if (name == "placement" && is(at, "DOTTED") && input_[at].text == "patch" && matches("NAME", at + 1, {}) &&
+               is(at + 2, "=")) {
+      // "No placement begins as a patch does, with `patch NAME =`."
     } else if (name == "suffix") {
       ends = read_suffix(at, context);
     } else if (name == "value" && is(at, "DOTTED") && !begins_value(at + 1)) {

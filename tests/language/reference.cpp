@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "compiler/compile.hpp"
+#include "compiler/compile_workspace.hpp"
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/solve/level_scale.hpp"
 
@@ -112,12 +113,14 @@ TEST(Reference, ItsExamplesCompile) {
     Diagnostics diagnostics;
     const SourceId source = sources.add("example.wale", block.text);
     const CheckedModule module = check_source(sources, source, resolver, diagnostics);
-    EXPECT_FALSE(module.materials.empty()) << "line " << block.line;
+    EXPECT_FALSE(module.materials.empty() && module.workspaces.empty()) << "line " << block.line;
     check_levels(module.declarations(), source, default_device, diagnostics);
     for (const auto& material : module.materials) {
       compile_material(module, material.name, default_device, sources, source, resolver, diagnostics);
       ++compiled;
     }
+    for (const auto& workspace : module.workspaces)
+      compile_workspace(workspace, module, default_device, sources, source, resolver, diagnostics);
     EXPECT_EQ(rendered(diagnostics, sources), "") << "line " << block.line;
   }
   EXPECT_GE(compiled, 6);

@@ -1,0 +1,157 @@
+#include "compiler/compile_workspace.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include "compiler/diagnostics/advice.hpp"
+#include "compiler/text/readable.hpp"
+#include "schema/spelling.hpp"
+
+namespace wale {
+namespace {
+
+using Point = std::array<double, 2>;
+
+/// m; of a patch that does not give its own. Neighbours fade into one another over no more than this.
+constexpr double usual_rim = 1e-3;
+/// The rim takes no more than this share of a patch's shorter side.
+constexpr double widest_rim = 0.25;
+/// m; a proposed place is a multiple of it.
+constexpr double place_step = 1e-4;
+
+/// Points of the outline (m, from the patch's centre) of which one is the farthest from any place outside of it: all
+/// its corners, and for an ellipse enough points that none is missed by more than a micrometre.
+std::vector<Point> farthest_points(const CheckedPatch& patch, const PatchSize& size) {
+  const double right = 0.5 * size.width, top = 0.5 * size.height;
+  if (const auto* polygon = std::get_if<PolygonOutline>(&patch.outline)) return polygon->corners;
+  std::vector<Point> points;
+  if (std::holds_alternative<EllipseOutline>(patch.outline)) {
+    constexpr int steps = 1440;
+    for (int i = 0; i < steps; ++i) {
+      const double angle = 2 * std::numbers::pi * i / steps;
+      points.push_back({right * std::cos(angle), top * std::sin(angle)});
+    }
+    return points;
+  }
+  if (const auto* mask = std::get_if<MaskOutline>(&patch.outline)) {
+    for (std::size_t row = 0; row < mask->rows; ++row) {
+      const auto begin = mask->inside.begin() + static_cast<std::ptrdiff_t>(row * mask->columns);
+      const auto end = begin + static_cast<std::ptrdiff_t>(mask->columns);
+      const auto first = std::find(begin, end, true);
+      if (first == end) continue;
+      const auto last = std::find(std::make_reverse_iterator(end), std::make_reverse_iterator(first), true).base();
+      const double half_width = 0.5 * mask->column * static_cast<double>(mask->columns);
+      const double half_height = 0.5 * mask->row * static_cast<double>(mask->rows);
+      for (const auto column : {first - begin, last - begin})
+        for (const std::size_t edge : {row, row + 1})
+          points.push_back({mask->column * static_cast<double>(column) - half_width,
+                            half_height - mask->row * static_cast<double>(edge)});
+    }
+    return points;
+  }
+  return {{right, top}, {right, -top}, {-right, top}, {-right, -top}};
+}
+
+/// The distance of the farthest point from the workspace's centre, m.
+double reach_of(const std::vector<Point>& points, const Point& at) {
+  double reach = 0;
+  for (const Point& each : points) reach = std::max(reach, std::hypot(at[0] + each[0], at[1] + each[1]));
+  return reach;
+}
+
+/// The place nearest to `at`, on the way to the centre, at which no point is farther than `radius`; empty if there is
+/// none. It is rounded towards the centre.
+std::optional<Point> place_within(const std::vector<Point>& points, const Point& at, double radius) {
+  if (reach_of(points, {0, 0}) > radius) return std::nullopt;
+  double inside = 0, outside = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double share = 0.5 * (inside + outside);
+    (reach_of(points, {share * at[0], share * at[1]}) <= radius ? inside : outside) = share;
+  }
+  Point place;
+  for (std::size_t side = 0; side < 2; ++side) place[side] = place_step * std::trunc(inside * at[side] / place_step);
+  // Rounding may turn the way a little.
+  return reach_of(points, place) <= radius ? std::optional(place) : std::optional(Point{0, 0});
+}
+
+void warn_of_reach(const CheckedPatch& patch, const PatchSize& size, const DeviceProfile& device,
+                   Diagnostics& diagnostics) {
+  const double radius = 0.5 * device.workspace_diameter;
+  // A patch wider than the workspace is told so (W0424).
+  const auto& asked = patch.material.patch;
+  if (!device.has_position() || (asked && std::max((*asked)[0], (*asked)[1]) > device.workspace_diameter)) return;
+  const auto points = farthest_points(patch, size);
+  const double beyond = reach_of(points, patch.at) - radius;
+  constexpr double told = 1e-6;  // m; sizes are rounded to floats
+  if (beyond <= told) return;
+  const auto place = place_within(points, patch.at, radius);
+  Advice advice = place ? Advice(typeable("`at {:.4g} mm, {:.4g} mm` is within reach", 1e3 * (*place)[0] + 0.0,
+                                          1e3 * (*place)[1] + 0.0))
+                        : Advice("its corners are out of reach at every place; make it smaller");
+  if (place && patch.at_span)
+    advice = std::move(advice).fix(
+        replace(*patch.at_span, typeable("at {:.4g} mm, {:.4g} mm", 1e3 * (*place)[0] + 0.0, 1e3 * (*place)[1] + 0.0),
+                {}, false));
+  diagnostics.report(
+      std::move(advice)
+          .fact("high", 1e3 * device.workspace_diameter, "mm")
+          .about(Code::beyond_reach, patch.at_span ? *patch.at_span : patch.material.span,
+                 readable("`{}` lies up to {:.3g} mm beyond the reach of `{}`, whose workspace is {:.4g} mm across",
+                          patch.material.name, 1e3 * beyond, device.name, 1e3 * device.workspace_diameter)));
+}
+
+/// The size on the stage: the program's, with the rim of a workspace.
+PatchSize size_of(const CheckedPatch& patch, const Program& program) {
+  PatchSize size = program.default_size();
+  const double shorter = std::min(size.width, size.height);
+  size.rim = static_cast<float>(patch.rim.value_or(std::min(usual_rim, widest_rim * shorter)));
+  return size;
+}
+
+}  // namespace
+
+std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& workspace, const CheckedModule& module,
+                                                        const std::string& device, const SourceSet& sources,
+                                                        SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
+  const DeviceDeclaration* declared = module.declarations().devices.find(device);
+  std::map<std::tuple<std::string, double, double>, std::shared_ptr<const Program>> known;
+  std::vector<LaidPatch> laid;
+  bool good = true;
+  for (const CheckedPatch& patch : workspace.patches) {
+    const auto size = patch.material.patch.value_or(std::array{0.0, 0.0});
+    const auto [program, is_new] = known.try_emplace({patch.made_of, size[0], size[1]});
+    if (is_new) {
+      Diagnostics of_patch;
+      auto compiled = compile_material(patch.material, module, device, sources, source, resolver, of_patch);
+      for (const Diagnostic& each : of_patch.all()) diagnostics.report(each);
+      if (compiled) program->second = std::make_shared<const Program>(*std::move(compiled));
+    }
+    good = good && program->second;
+    if (!program->second) continue;
+    laid.push_back({&patch, program->second, size_of(patch, *program->second)});
+    if (declared) warn_of_reach(patch, laid.back().size, declared->profile, diagnostics);
+  }
+  return good ? std::optional(std::move(laid)) : std::nullopt;
+}
+
+Result<const CheckedWorkspace*> find_workspace(const CheckedModule& module, const std::string& name,
+                                               const std::string& file) {
+  if (const CheckedWorkspace* workspace = module.workspace(name)) return workspace;
+  std::vector<std::string> candidates;
+  for (const CheckedWorkspace& each : module.workspaces) candidates.push_back(each.name);
+  const auto near = nearest_spelling(name, candidates);
+  return Error{.code = Code::unknown_workspace,
+               .sentence = fmt::format("`{}` has no workspace `{}`", file, name),
+               .mend = near                 ? fmt::format("did you mean `{}`?", *near)
+                       : candidates.empty() ? std::string("add one, as in `workspace desk { patch board = oak }`")
+                                            : fmt::format("it has `{}`", fmt::join(candidates, "`, `")),
+               .place = {.name = "--workspace", .text = name}};
+}
+
+}  // namespace wale

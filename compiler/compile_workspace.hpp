@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/compile.hpp"
+
+namespace wale {
+
+/// A patch of a workspace with its finished program. Patches of the same material and size share one.
+struct LaidPatch {
+  const CheckedPatch* patch;
+  std::shared_ptr<const Program> program;
+  PatchSize size;  ///< m: as the workspace, the material or the device gives it, and no wider than the device reaches
+};
+
+/// Compiles the patches of a workspace for a device, in the order written. Warns of those that the device does not
+/// reach (W0427). Empty after errors, which are reported.
+std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& workspace, const CheckedModule& module,
+                                                        const std::string& device, const SourceSet& sources,
+                                                        SourceId source, Resolver& resolver, Diagnostics& diagnostics);
+
+/// The workspace that the option `--workspace` names; W0609 if there is none, whose mend has the nearest name or all of
+/// them. `file` is the file's name in the error.
+Result<const CheckedWorkspace*> find_workspace(const CheckedModule& module, const std::string& name,
+                                               const std::string& file);
+
+}  // namespace wale

@@ -1,0 +1,100 @@
+// Workspaces on the command line: check, describe, feel.
+#include <gtest/gtest.h>
+
+#include "tests/command_line/running.hpp"
+
+namespace wale::command_line::workspaces_test {
+namespace {
+
+/// Two materials side by side, on the way of a hand along x: rough on the left, smooth on the right.
+constexpr const char* two =
+    "wale 1\n"
+    "/// Side by side.\n"
+    "workspace desk {\n"
+    "  patch left = denim(roughness: 0.6) { at -20 mm, 0 mm; size 40 mm, 40 mm }\n"
+    "  patch right = denim(roughness: 0.2) { at 20 mm, 0 mm; size 40 mm, 40 mm; mark yarn, low 1 mm, \"denim\" }\n"
+    "  patch away = oak { at 0 mm, 60 mm; size 40 mm, 30 mm; shape ellipse }\n"
+    "}\n";
+
+struct Desk {
+  TemporaryFolder folder;
+  std::string file = folder.write("desk.wale", two);
+};
+
+TEST(WorkspacesOnTheCommandLine, AreCheckedAndFormatted) {
+  const Desk desk;
+  const Outcome checked = wale({"check", desk.file});
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_EQ(wale({"format", desk.file}).status, 0);
+  EXPECT_TRUE(contains(bytes_of(desk.file), "    at   -20 mm, 0 mm\n")) << bytes_of(desk.file);
+}
+
+TEST(WorkspacesOnTheCommandLine, AreDescribedPatchByPatch) {
+  const Desk desk;
+  const Outcome told = wale({"describe", desk.file});
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_TRUE(contains(told.out, "workspace desk on sandpaper: 3 patches, the last in front\n  Side by side.\n"))
+      << told.out;
+  EXPECT_TRUE(contains(told.out, "  left   at -20 mm, 0 mm; 40 mm x 40 mm rectangle, rim 1 mm\n")) << told.out;
+  EXPECT_TRUE(contains(told.out, "denim(roughness: 0.6): roughness 0.6")) << told.out;
+  EXPECT_TRUE(contains(told.out, "marked: yarn, low 1 mm, \"denim\"\n")) << told.out;
+  EXPECT_TRUE(contains(told.out, "40 mm x 30 mm ellipse")) << told.out;
+  const auto json = wale({"describe", desk.file, "--workspace", "desk", "--json"}).json();
+  EXPECT_EQ(json["patches"].size(), 3u);
+  EXPECT_NEAR(json["patches"][0]["x_m"].get<double>(), -0.02, 1e-9);
+  EXPECT_NEAR(json["patches"][1]["marks"][0]["low_si"].get<double>(), 1e-3, 1e-9);
+}
+
+TEST(WorkspacesOnTheCommandLine, AreFeltTogether) {
+  const Desk desk;
+  // A trace from the left patch to the right one, at 50 mm/s.
+  std::string trace = "t (s),x (m),y (m)\n";
+  for (int i = 0; i <= 60; ++i) trace += std::to_string(0.01 * i) + "," + std::to_string(-0.015 + 5e-4 * i) + ",0\n";
+  const Outcome felt = wale({"feel", desk.file, "--workspace", "desk", "--virtual-time", "--seconds", "0.6", "--hand",
+                             desk.folder.write("hand.csv", trace), "--json"});
+  ASSERT_EQ(felt.status, 0) << felt.err;
+  const auto json = felt.json();
+  EXPECT_EQ(json["patches"][0]["entries"], 1);
+  EXPECT_EQ(json["patches"][1]["entries"], 1);
+  EXPECT_EQ(json["patches"][2]["entries"], 0);
+  EXPECT_NEAR(json["patches"][0]["seconds"].get<double>(), 0.3, 0.1);
+  EXPECT_GT(json["patches"][0]["rms_newton"].get<double>(), 1.5 * json["patches"][1]["rms_newton"].get<double>());
+  EXPECT_TRUE(contains(felt.err, "`away` is felt as the rectangle around its shape (ellipse)")) << felt.err;
+}
+
+/// A grey picture of 40 x 20 pixels: `grey` in its right half, black in its left one.
+std::string half(char grey) {
+  std::string picture = "P5\n40 20\n255\n";
+  for (int row = 0; row < 20; ++row) picture += std::string(20, '\0') + std::string(20, grey);
+  return picture;
+}
+
+TEST(WorkspacesOnTheCommandLine, AMaskIsWhereItsPictureIsLight) {
+  const Desk desk;
+  desk.folder.write("half.pgm", half('\x80'));
+  desk.folder.write("dark.pgm", half('\x7f'));
+  const auto masked = [&](const std::string& verb, const std::string& file, const std::string& at) {
+    return wale(
+        {verb, desk.folder.write("mask.wale", "wale 1\nworkspace desk {\n  patch a = denim { at " + at +
+                                                  ", 0 mm; shape mask(\"" + file + "\", scale: 1 mm/px) }\n}\n")});
+  };
+  const Outcome good = masked("describe", "half.pgm", "0 mm");
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_TRUE(contains(good.out, "40 mm x 20 mm mask half.pgm")) << good.out;
+  EXPECT_TRUE(contains(masked("check", "dark.pgm", "0 mm").out, "W0314"));
+  // Only the light half counts: to the left of the centre the dark one may lie beyond the edge, 114.3 mm away.
+  EXPECT_FALSE(contains(masked("check", "half.pgm", "-100 mm").out, "W0427"));
+  EXPECT_TRUE(contains(masked("check", "half.pgm", "100 mm").out, "W0427"));
+}
+
+TEST(WorkspacesOnTheCommandLine, AnUnknownNameIsWrongUsage) {
+  const Desk desk;
+  for (const char* verb : {"describe", "feel"}) {
+    const Outcome outcome = wale({verb, desk.file, "--workspace", "desc"});
+    EXPECT_EQ(outcome.status, 2) << verb;
+    EXPECT_TRUE(contains(outcome.err, "W0609") && contains(outcome.err, "did you mean `desk`?")) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace wale::command_line::workspaces_test
