@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/text/readable.hpp"
@@ -114,6 +115,23 @@ PatchSize size_of(const CheckedPatch& patch, const Program& program) {
   return size;
 }
 
+glm::vec2 point_of(const Point& at) { return {static_cast<float>(at[0]), static_cast<float>(at[1])}; }
+
+Result<Shape> shape_of(const Outline& outline, const PatchSize& size) {
+  if (std::holds_alternative<EllipseOutline>(outline)) return Shape::ellipse(0.5f * size.width, 0.5f * size.height);
+  if (const auto* polygon = std::get_if<PolygonOutline>(&outline)) {
+    std::vector<glm::vec2> corners;
+    for (const Point& corner : polygon->corners) corners.push_back(point_of(corner));
+    return Shape::polygon(corners);
+  }
+  if (const auto* mask = std::get_if<MaskOutline>(&outline)) {
+    const std::vector<std::uint8_t> bits(mask->inside.begin(), mask->inside.end());
+    const auto shape = Shape::mask(bits, mask->columns, mask->rows, static_cast<float>(mask->column));
+    return shape ? Result<Shape>(shape->stretched({size.width, size.height})) : shape.error();
+  }
+  return Shape();
+}
+
 }  // namespace
 
 std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& workspace, const CheckedModule& module,
@@ -134,10 +152,37 @@ std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& 
     }
     good = good && program->second;
     if (!program->second) continue;
-    laid.push_back({&patch, program->second, size_of(patch, *program->second)});
+    const PatchSize laid_size = size_of(patch, *program->second);
+    auto shape = shape_of(patch.outline, laid_size);
+    if (!shape) {
+      diagnostics.report(
+          Advice("take a smaller picture").about(Code::unusable_shape, patch.material.span, shape.error().sentence));
+      good = false;
+      continue;
+    }
+    laid.push_back({&patch, program->second, laid_size, *std::move(shape)});
     if (declared) warn_of_reach(patch, laid.back().size, declared->profile, diagnostics);
   }
   return good ? std::optional(std::move(laid)) : std::nullopt;
+}
+
+Workspace workspace_of(const CheckedWorkspace& workspace, const std::vector<LaidPatch>& laid) {
+  Workspace made{workspace.name, workspace.documentation, {}};
+  const auto end_of = [](const std::optional<double>& end) {
+    return end ? std::optional(static_cast<float>(*end)) : std::nullopt;
+  };
+  for (const LaidPatch& each : laid) {
+    const CheckedPatch& patch = *each.patch;
+    WorkspacePatch& to = made.patches.emplace_back(WorkspacePatch{
+        patch.material.name,
+        patch.made_of,
+        *each.program,
+        {.at = point_of(patch.at), .size = each.size, .layer = 0, .shape = each.shape},
+    });
+    for (const SliderMark& mark : patch.marks)
+      to.marks.push_back({mark.slider, mark.is_percept, end_of(mark.low), end_of(mark.high), mark.says});
+  }
+  return made;
 }
 
 Result<const CheckedWorkspace*> find_workspace(const CheckedModule& module, const std::string& name,

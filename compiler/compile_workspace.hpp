@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiler/compile.hpp"
+#include "wale/workspace.hpp"
 
 namespace wale {
 
@@ -14,13 +15,17 @@ struct LaidPatch {
   const CheckedPatch* patch;
   std::shared_ptr<const Program> program;
   PatchSize size;  ///< m: as the workspace, the material or the device gives it, and no wider than the device reaches
+  Shape shape;
 };
 
 /// Compiles the patches of a workspace for a device, in the order written. Warns of those that the device does not
-/// reach (W0427). Empty after errors, which are reported.
+/// reach (W0427). Empty after errors, which are reported (W0314: a mask with more cells than a stage takes).
 std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& workspace, const CheckedModule& module,
                                                         const std::string& device, const SourceSet& sources,
                                                         SourceId source, Resolver& resolver, Diagnostics& diagnostics);
+
+/// What is written into a workspace file, and put on a stage.
+Workspace workspace_of(const CheckedWorkspace& workspace, const std::vector<LaidPatch>& laid);
 
 /// The workspace that the option `--workspace` names; W0609 if there is none, whose mend has the nearest name or all of
 /// them. `file` is the file's name in the error.

@@ -66,6 +66,13 @@ class ByteReader {
     return code;
   }
 
+  /// The next bytes as they are.
+  std::span<const std::byte> bytes(std::size_t size) {
+    need(size);
+    position_ += size;
+    return bytes_.subspan(position_ - size, size);
+  }
+
   std::size_t remaining() const { return bytes_.size() - position_; }
 
   /// Fails at the present byte. The sentence is the part's name, then `parts`.

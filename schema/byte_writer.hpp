@@ -41,10 +41,24 @@ class ByteWriter {
   }
   void pad() { bytes_.resize(align(bytes_.size())); }
 
+  /// The same in a row: `out << x << y`.
+  ByteWriter& operator<<(std::uint8_t value) { return number(value), *this; }
+  ByteWriter& operator<<(std::uint32_t value) { return number(value), *this; }
+  ByteWriter& operator<<(std::uint64_t value) { return number(value), *this; }
+  ByteWriter& operator<<(float value) { return f32(value), *this; }
+  ByteWriter& operator<<(double value) { return f64(value), *this; }
+  ByteWriter& operator<<(std::string_view value) { return text(value), *this; }
+  ByteWriter& operator<<(std::span<const std::byte> value) { return bytes(value), *this; }
+
   std::vector<std::byte>& result() { return bytes_; }
+  const std::vector<std::byte>& result() const { return bytes_; }
 
  private:
   std::vector<std::byte> bytes_;
 };
 
 }  // namespace wale::patch_program_format
+
+namespace wale {
+using patch_program_format::ByteWriter;
+}

@@ -32,6 +32,7 @@ endfunction()
 
 # Pages for programmers, and programs to begin from.
 install(FILES ${PROJECT_SOURCE_DIR}/runtime/C_INTERFACE.md ${PROJECT_SOURCE_DIR}/runtime/record/RECORDING.md
+              ${PROJECT_SOURCE_DIR}/runtime/workspace/WORKSPACE_FILE.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development
         FILES_MATCHING PATTERN *.cpp PATTERN *.c PATTERN *.py PATTERN *.md PATTERN CMakeLists.txt)

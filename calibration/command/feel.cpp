@@ -198,9 +198,9 @@ int feel(const FeelOptions& options) {
                         "give its length, as in `--seconds \"5 s\"`, or leave out --virtual-time",
                         {.name = "--seconds"}});
   const std::atomic<bool>& stop = stop_on_signals();
-  return status_after_signals(options.blind               ? feel_blind(options, stop)
-                              : options.workspace.empty() ? feel_one(options, stop)
-                                                          : feel_workspace(options, stop));
+  return status_after_signals(options.blind && !is_workspace_file(options)               ? feel_blind(options, stop)
+                              : is_workspace_file(options) || !options.workspace.empty() ? feel_workspace(options, stop)
+                                                                                         : feel_one(options, stop));
 }
 
 void offer_blind(CLI::App& verb, FeelOptions& options, CLI::Option* record) {

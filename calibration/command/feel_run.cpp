@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <span>
 #include <utility>
 
 #include "calibration/command/devices_here.hpp"
@@ -14,6 +15,7 @@
 #include "compiler/declarations/declared_devices.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/solve/level_scale.hpp"
+#include "schema/regular_file.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale::command {
@@ -117,9 +119,12 @@ KnownDevices known_to(const OpenedFile& opened, const Choice& choice) {
   return known;
 }
 
+/// Bytes; 4096 programs of 4 MB would be more than any stage needs.
+constexpr std::size_t largest_workspace_file = std::size_t{1} << 30;
+
 /// Compiles the workspace that was named. Errors: W0609; W0801 for a patch program, and for a workspace without
 /// patches.
-OrStatus<WorkspaceToFeel> workspace_of(const OpenedFile& opened, const FeelOptions& options, const Choice& built) {
+OrStatus<Workspace> workspace_in(const OpenedFile& opened, const FeelOptions& options, const Choice& built) {
   if (!opened.module)
     return refuse(Error{Code::malformed_value,
                         fmt::format("expected a Wale file, found `{}`, a patch program", opened.name),
@@ -139,7 +144,7 @@ OrStatus<WorkspaceToFeel> workspace_of(const OpenedFile& opened, const FeelOptio
                         fmt::format("`{}` has no patch to feel", options.workspace),
                         "put one into it, as in `patch board = oak`",
                         {.name = "--workspace"}});
-  return workspace_to_feel(**found, *laid);
+  return workspace_of(**found, *laid);
 }
 
 /// The recording to make of the run, if the person asked for one.
@@ -148,7 +153,42 @@ std::optional<RecordTo> recording_of(const FeelOptions& options, const RunManner
   return RecordTo{options.record, fmt::format("{}, {}", manner.device, manner.hand)};
 }
 
+/// A workspace file, and its first program in place of the material of other files.
+struct OpenedWorkspace {
+  OpenedFile file;
+  Workspace workspace;
+};
+
+/// Reads a workspace file. Errors: `unreadable_file`, those of `Workspace::load`, and of options that are for the text
+/// of a material.
+Result<OpenedWorkspace> opened_workspace(const FeelOptions& options) {
+  const std::string& name = options.choice.file;
+  constexpr std::string_view why = "a workspace file holds finished programs";
+  if (auto fit = all_apply({{"--workspace", !options.workspace.empty(), std::string(why), "leave out --workspace"},
+                            {"--material", !options.choice.material.empty(), std::string(why), "leave out --material"},
+                            {"--set", !options.settings.empty(), std::string(why), "leave out --set"},
+                            {"--watch", options.watch, std::string(why), "leave out --watch"},
+                            {"--blind", options.blind, std::string(why), "leave out --blind"},
+                            {"--against", !options.against.empty(), std::string(why), "leave out --against"}});
+      !fit)
+    return std::move(fit).error();
+  const auto bytes = read_regular_file(name, largest_workspace_file);
+  auto workspace = bytes ? Workspace::load(std::as_bytes(std::span(*bytes))) : bytes.error();
+  if (workspace && workspace->patches.empty())
+    return Error{Code::malformed_value, "it has no patch to feel", "", {.name = name}};
+  if (!workspace) {
+    Error error = std::move(workspace).error();
+    error.place.name = name;
+    return error;
+  }
+  OpenedWorkspace opened{{.name = name, .program = workspace->patches.front().program}, {}};
+  opened.workspace = *std::move(workspace);
+  return opened;
+}
+
 }  // namespace
+
+bool is_workspace_file(const FeelOptions& options) { return has_ending(options.choice.file, ".wws"); }
 
 void say(const std::string& what) { print_error("wale: {}\n", what); }
 
@@ -165,7 +205,16 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
   built.device.clear(), built.device_option.clear();           // it is not known yet
   built.devices = trusted->files, built.knows_owners = false;  // they are among these
   built.shares_options = !options.against.empty();
-  auto opened = open(built);
+  Workspace workspace;
+  OrStatus<OpenedFile> opened = done;
+  if (is_workspace_file(options)) {
+    auto ready = opened_workspace(options);
+    if (!ready) return refuse(ready.error());
+    opened = std::move(ready->file);
+    workspace = std::move(ready->workspace);
+  } else {
+    opened = open(built);
+  }
   if (!opened) return opened.status();
   if (const auto fit = apply_to_file(options, *opened); !fit) return refuse(fit.error());
   if (const auto same = is_as_named(*opened, {}, options.choice); !same) return refuse(same.error());
@@ -189,9 +238,8 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
 
   built.device = chosen.declared ? chosen.declared->profile.name : options.choice.device;
   if (opened->module) check_levels(opened->module->declarations(), opened->source, built.device, opened->diagnostics);
-  WorkspaceToFeel workspace;
   std::optional<BlindMaterial> material;
-  if (options.workspace.empty()) {
+  if (options.workspace.empty() && workspace.patches.empty()) {
     const auto programs = programs_of(*opened, built, false);
     if (!programs) return programs.status();
     if (const auto fit = apply_to_program(options, programs->front().description()); !fit) return refuse(fit.error());
@@ -199,9 +247,11 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
     if (!chosen) return refuse(chosen.error());
     material = *std::move(chosen);
   } else {
-    auto found = workspace_of(*opened, options, built);
-    if (!found) return found.status();
-    workspace = *std::move(found);
+    if (workspace.patches.empty()) {
+      auto found = workspace_in(*opened, options, built);
+      if (!found) return found.status();
+      workspace = *std::move(found);
+    }
     const Program& first = workspace.patches.front().program;
     if (const auto fit = apply_to_program(options, first.description()); !fit) return refuse(fit.error());
     material = BlindMaterial{first, first.default_parameters()};

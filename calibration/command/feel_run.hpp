@@ -42,7 +42,7 @@ struct PreparedRun {
   DeviceToFeel device;
   Choice built;               ///< of the material, with that device
   BlindMaterial material;     ///< of a workspace, that of its first patch
-  WorkspaceToFeel workspace;  ///< without patches if a material is felt
+  Workspace workspace;  ///< without patches if a material is felt
 };
 
 /// Opens and checks the file, chooses the device among those that the file knows, and compiles the material or the
@@ -65,6 +65,9 @@ RunOptions run_options(const FeelOptions& options, const std::atomic<bool>& stop
 /// Opens the table of a run before it, so that no run is lost to a table that cannot be written. Nothing if the person
 /// asked for none.
 Result<std::optional<OutputFile>> table_of(const FeelOptions& options);
+
+/// Whether the file to feel is a workspace file (.wws).
+bool is_workspace_file(const FeelOptions& options);
 
 /// Feels a workspace and reports which of its patches the hand was on. Returns the exit status.
 int feel_workspace(const FeelOptions& options, const std::atomic<bool>& stop);

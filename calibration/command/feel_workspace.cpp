@@ -13,11 +13,7 @@ namespace wale::command {
 int feel_workspace(const FeelOptions& options, const std::atomic<bool>& stop) {
   const auto prepared_run = prepared(options, stop);
   if (!prepared_run) return prepared_run.status();
-  const WorkspaceToFeel& workspace = prepared_run->workspace;
-  for (const PatchToFeel& each : workspace.patches)
-    if (!each.shape.empty())
-      say(fmt::format("`{}` is felt as the rectangle around its shape ({}): `wale feel` knows no other shape yet",
-                      each.name, each.shape));
+  const Workspace& workspace = prepared_run->workspace;
   auto table = table_of(options);
   if (!table) return refuse(table.error());
   auto felt = open_prepared(options, *prepared_run, stop);

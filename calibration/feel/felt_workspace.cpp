@@ -8,36 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "compiler/describe/describe_workspace.hpp"
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {
-
-WorkspaceToFeel workspace_to_feel(const CheckedWorkspace& workspace, const std::vector<LaidPatch>& laid) {
-  WorkspaceToFeel ready{workspace.name, {}};
-  for (const LaidPatch& each : laid) {
-    const CheckedPatch& patch = *each.patch;
-    const bool is_rectangle = std::holds_alternative<RectangleOutline>(patch.outline);
-    ready.patches.push_back(
-        {.name = patch.material.name,
-         .made_of = patch.made_of,
-         .program = *each.program,
-         .options = {.at = {static_cast<float>(patch.at[0]), static_cast<float>(patch.at[1])}, .size = each.size},
-         .shape = is_rectangle ? "" : outline_text(patch.outline)});
-  }
-  return ready;
-}
-
-Result<std::vector<Patch>> put_on(Stage& stage, const WorkspaceToFeel& workspace) {
-  std::vector<Patch> patches;
-  for (const PatchToFeel& each : workspace.patches) {
-    auto added = stage.add(each.program, each.options);
-    if (!added) return added.error();
-    patches.push_back(*added);
-  }
-  return patches;
-}
 
 VisitedPatches::VisitedPatches(Stage& stage, std::vector<Patch> patches) : stage_(stage), patches_(std::move(patches)) {
   stage_.on_contact([this](const ContactEvent& contact) {
@@ -45,7 +19,7 @@ VisitedPatches::VisitedPatches(Stage& stage, std::vector<Patch> patches) : stage
   });
 }
 
-WorkspaceReport VisitedPatches::report(const WorkspaceToFeel& workspace, const RunResult& run, RunManner manner) const {
+WorkspaceReport VisitedPatches::report(const Workspace& workspace, const RunResult& run, RunManner manner) const {
   const double tick = run.record.seconds_per_tick;
   WorkspaceReport report{.workspace = workspace.name,
                          .manner = std::move(manner),
@@ -54,7 +28,7 @@ WorkspaceReport VisitedPatches::report(const WorkspaceToFeel& workspace, const R
                          .ticks_run = run.ticks_run,
                          .ticks_missed = run.ticks_missed,
                          .patches = {}};
-  for (const PatchToFeel& each : workspace.patches) report.patches.push_back({.name = each.name});
+  for (const WorkspacePatch& each : workspace.patches) report.patches.push_back({.name = each.name});
   std::vector<double> squares(report.patches.size());
   std::size_t next = 0;
   std::optional<std::size_t> on;

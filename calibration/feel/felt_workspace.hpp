@@ -4,29 +4,10 @@
 #include <vector>
 
 #include "calibration/feel/felt_report.hpp"
-#include "compiler/compile_workspace.hpp"
 #include "wale/stage.hpp"
+#include "wale/workspace.hpp"
 
 namespace wale {
-
-/// A patch of a workspace, ready for a stage.
-struct PatchToFeel {
-  std::string name, made_of;
-  Program program;
-  PatchOptions options;
-  std::string shape;  ///< "ellipse"; empty for a rectangle
-};
-
-/// The patches of a workspace, the last in front.
-struct WorkspaceToFeel {
-  std::string name;
-  std::vector<PatchToFeel> patches;
-};
-
-WorkspaceToFeel workspace_to_feel(const CheckedWorkspace& workspace, const std::vector<LaidPatch>& laid);
-
-/// Puts all patches on a stage, in their order. Errors: those of `Stage::add`.
-Result<std::vector<Patch>> put_on(Stage& stage, const WorkspaceToFeel& workspace);
 
 /// A patch during a run.
 struct PatchVisits {
@@ -52,7 +33,7 @@ class VisitedPatches {
   VisitedPatches(Stage& stage, std::vector<Patch> patches);
   /// Takes the contacts so far; called often enough that none is dropped, and after the run.
   void poll() { dropped_ += stage_.poll(); }
-  WorkspaceReport report(const WorkspaceToFeel& workspace, const RunResult& run, RunManner manner) const;
+  WorkspaceReport report(const Workspace& workspace, const RunResult& run, RunManner manner) const;
 
  private:
   Stage& stage_;

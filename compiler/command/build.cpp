@@ -9,6 +9,8 @@
 #include "compiler/build_stage.hpp"
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
+#include "compiler/compile_workspace.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "compiler/text/readable.hpp"
 #include "schema/visible_text.hpp"
 
@@ -17,8 +19,9 @@ namespace {
 
 struct BuildOptions {
   Choice choice;
-  std::string out;    ///< a file, or with `all` a folder
-  std::string stage;  ///< stage to show instead of building; empty to build
+  std::string out;        ///< a file, or with `all` a folder
+  std::string stage;      ///< stage to show instead of building; empty to build
+  std::string workspace;  ///< to build instead of a material; empty for none
   bool all = false;
   std::vector<std::string> live;  ///< of the C++: parameters, `size` or `all`
 };
@@ -40,6 +43,29 @@ int build_one(const BuildOptions& options) {
       !written)
     return refuse(written.error());
   return done;
+}
+
+/// Builds a workspace of the file, with all its programs, to one file.
+int build_workspace(const BuildOptions& options) {
+  auto opened = open(options.choice);
+  if (!opened) return opened.status();
+  if (!opened->module)
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("expected a Wale file, found `{}`, a patch program", opened->name),
+                        .mend = "name the Wale file that declares the workspace",
+                        .place = {.name = "--workspace"}});
+  const auto found = find_workspace(*opened->module, options.workspace, opened->name);
+  if (!found) return refuse(found.error());
+  const FileRequest request = options.choice.recording_request();
+  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
+  const auto laid = compile_workspace(**found, *opened->module, request.device, opened->sources, opened->source,
+                                      *resolver, opened->diagnostics);
+  print_diagnostics(stderr, opened->diagnostics, opened->sources);
+  if (!laid) return refused;
+  const auto bytes = write_workspace(workspace_of(**found, *laid));
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto written = write_file(options.out, text, *options.choice.inputs);
+  return written ? done : refuse(written.error());
 }
 
 int show_stage(const BuildOptions& options) {
@@ -125,6 +151,7 @@ int build(const BuildOptions& options) {
               .mend = options.all ? "for example, `wale build my.wale --all -o programs`"
                                   : "for example, `wale build corduroy -o corduroy.wpp`",
               .place = {.name = "-o"}});
+  if (!options.workspace.empty()) return build_workspace(options);
   return options.all ? build_collection(options) : build_one(options);
 }
 
@@ -138,10 +165,17 @@ Run declare_build(CLI::App& verb) {
   verb.add_flag("--all", options->all,
                 "builds every material of the file, each to NAME.wpp in the folder; with --emit cpp, to NAME.hpp")
       ->excludes("--material");
+  must_say(verb.add_option("--workspace", options->workspace,
+                           "builds a workspace of the file with all its patches, to one file, NAME.wws")
+               ->type_name("NAME"),
+           "the name of a workspace")
+      ->excludes("--material")
+      ->excludes("--all");
   verb.add_option("--emit", options->stage,
                   "writes the output of a stage instead: tree (as parsed), checked, ir (its values), "
                   "listing (its instructions), cpp (a C++17 header for firmware)")
-      ->type_name("STAGE");
+      ->type_name("STAGE")
+      ->excludes("--workspace");
   verb.add_option("--live", options->live,
                   "with --emit cpp: the parameters that stay adjustable, separated by commas; size: the patch's size; "
                   "all: everything. The rest is computed when the header is written")

@@ -4,14 +4,18 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
+#include "compiler/compile_workspace.hpp"
+#include "compiler/describe/describe_workspace.hpp"
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/preview/preview.hpp"
+#include "compiler/preview/workspace_page.hpp"
 #include "compiler/text/readable.hpp"
 #include "compiler/typed_number.hpp"
 
@@ -22,6 +26,7 @@ struct PreviewOptions {
   Choice choice;
   std::vector<std::string> settings;
   std::string out;
+  std::string workspace;          ///< to draw instead of a material; empty for none
   std::string along;              ///< "x", "y" or an angle in degrees; empty: where the surface changes
   std::optional<Hand> at;         ///< of which only the place counts; by default the patch's centre
   std::optional<double> seconds;  ///< of the trace
@@ -57,6 +62,18 @@ Result<SectionChoice> section_of(const PreviewOptions& options, PatchSize size) 
   return section;
 }
 
+/// Writes a finished page, and says what it lacks.
+int write_page(const Canvas& page, const PreviewOptions& options) {
+  if (!page.has_text())
+    print_error("wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
+  const auto bytes = encode_page(page, options.out);
+  if (!bytes) return refuse(bytes.error());
+  const auto written =
+      write_file(options.out, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, *options.choice.inputs);
+  if (!written) return refuse(written.error());
+  return done;
+}
+
 int preview(const PreviewOptions& options) {
   auto opened = open(options.choice);
   if (!opened) return opened.status();
@@ -72,8 +89,6 @@ int preview(const PreviewOptions& options) {
   const auto drawing =
       draw_preview(bank, preview_text(bank, *declarations), *declarations, {*section, options.seconds});
   if (!drawing) return refuse(drawing.error());
-  if (!drawing->page->has_text())
-    print_error("wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
   const PatchProgram& described = program.description();
   if (const std::size_t coarseness = coarseness_of(described); coarseness > 1)
     print_error("wale: {}\n", coarseness_note(described.material, coarseness));
@@ -82,12 +97,41 @@ int preview(const PreviewOptions& options) {
         "wale: this program is so large that its surface is drawn in squares of {0} x {0} pixels, each of one "
         "sample\n",
         drawing->coarseness);
-  const auto bytes = encode_page(*drawing->page, options.out);
-  if (!bytes) return refuse(bytes.error());
-  const auto written =
-      write_file(options.out, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, *options.choice.inputs);
-  if (!written) return refuse(written.error());
-  return done;
+  return write_page(*drawing->page, options);
+}
+
+/// Draws a workspace of the file.
+int preview_workspace(const PreviewOptions& options) {
+  auto opened = open(options.choice);
+  if (!opened) return opened.status();
+  if (!opened->module)
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("expected a Wale file, found `{}`, a patch program", opened->name),
+                        .mend = "name the Wale file that declares the workspace",
+                        .place = {.name = "--workspace"}});
+  const auto found = find_workspace(*opened->module, options.workspace, opened->name);
+  if (!found) return refuse(found.error());
+  const FileRequest request = options.choice.recording_request();
+  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
+  const auto laid = compile_workspace(**found, *opened->module, request.device, opened->sources, opened->source,
+                                      *resolver, opened->diagnostics);
+  print_diagnostics(stderr, opened->diagnostics, opened->sources);
+  if (!laid) return refused;
+  const auto declarations = declarations_of(*opened, options.choice);
+  const WorkspaceDescription described = describe_workspace(**found, *laid, request.device, *declarations);
+  std::map<const Program*, std::optional<double>> felt;
+  std::vector<PatchWords> words;
+  for (std::size_t i = 0; i < laid->size(); ++i) {
+    const Program& program = *(*laid)[i].program;
+    const auto [level, is_new] = felt.try_emplace(&program);
+    if (is_new)
+      level->second =
+          preview_text(Bank(program, program.default_parameters(), program.default_size()), *declarations).felt;
+    words.push_back({described.patches[i].made_of, described.patches[i].feels, level->second});
+  }
+  const DeviceDeclaration* device = opened->module->declarations().devices.find(request.device);
+  const auto page = draw_workspace(workspace_of(**found, *laid), device->profile, words);
+  return page ? write_page(**page, options) : refuse(page.error());
 }
 
 Run declare_preview(CLI::App& verb) {
@@ -98,17 +142,25 @@ Run declare_preview(CLI::App& verb) {
       verb, options->out,
       "the picture to write, as in corduroy.png; also .svg, .jpg, .tif and the other formats that OpenImageIO writes")
       ->required();
+  auto* workspace = must_say(verb.add_option("--workspace", options->workspace,
+                                             "a workspace of the file from above, instead of a material")
+                                 ->type_name("NAME"),
+                             "the name of a workspace")
+                        ->excludes("--material")
+                        ->excludes("--set");
   must_say(verb.add_option("--along", options->along,
                            "the direction of the section: x, y, or an angle to the left of x in degrees, as in 30 "
                            "(default: the axis along which the surface changes)"),
-           "x, y or an angle");
+           "x, y or an angle")
+      ->excludes(workspace);
   offer_hand(verb, "--at", options->at,
              "a place on the section, from the patch's centre: \"10 mm, 5 mm\" (default: the centre)");
   offer_duration(verb, "--seconds", options->seconds, {.most = 60, .example = 3},
                  "how long the hand rubs before the picture is taken, and strokes for the spectrum (default: 1 s to 5 "
                  "s, and 2 s)");
+  for (const char* of_material : {"--at", "--seconds"}) workspace->excludes(of_material);
   verb.footer("for example: wale preview corduroy -o corduroy.png --along 30 --at \"10 mm, 5 mm\"");
-  return [options] { return preview(*options); };
+  return [options] { return options->workspace.empty() ? preview(*options) : preview_workspace(*options); };
 }
 
 }  // namespace

@@ -58,9 +58,8 @@ std::vector<float> hollowness(const Heights& heights, double reach, const ImageL
 
 }  // namespace
 
-void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Memory* memory, const Exhibit& exhibit,
-                 const ImageLibrary& images, int square) {
-  const int shown = static_cast<int>(std::lround(box.width() * Canvas::fineness)) / square;
+std::vector<Colour> relief_colours(const Bank& bank, const Memory* memory, const Exhibit& exhibit,
+                                   const ImageLibrary& images, int shown) {
   const Heights heights = heights_of(bank, memory, exhibit, shown);
 
   std::vector<float> slopes;
@@ -104,7 +103,13 @@ void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Mem
                                                : lit_by(lamp, heights.colours[heights.index(column + 1, row + 1)]));
     }
   }
-  canvas.place_squares(box, pixels, shown);
+  return pixels;
+}
+
+void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Memory* memory, const Exhibit& exhibit,
+                 const ImageLibrary& images, int square) {
+  const int shown = static_cast<int>(std::lround(box.width() * Canvas::fineness)) / square;
+  canvas.place_squares(box, relief_colours(bank, memory, exhibit, images, shown), shown);
 }
 
 }  // namespace wale

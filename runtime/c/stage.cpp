@@ -5,6 +5,7 @@
 
 #include "runtime/c/profile.hpp"
 #include "runtime/c/run.hpp"
+#include "runtime/c/shape.hpp"
 #include "runtime/c/sized.hpp"
 
 WaleStage::~WaleStage() {
@@ -45,6 +46,7 @@ Result<PatchOptions> read_options(const WalePatchOptions* options) {
   if (!given) return given.error();
   PatchOptions read{.at = {given->x, given->y}, .layer = given->layer};
   if (given->width != 0 || given->height != 0) read.size = PatchSize{given->width, given->height, given->rim};
+  if (given->shape != nullptr) read.shape = given->shape->shape;
   return read;
 }
 

@@ -1,6 +1,7 @@
 #include "runtime/record/event_reader.hpp"
 
 #include "runtime/record/profile_program.hpp"
+#include "runtime/shape/shape_bytes.hpp"
 #include "schema/sentence.hpp"
 
 namespace wale {
@@ -26,6 +27,8 @@ void EventReader::read_whole(const EventHeader& header, std::span<const std::byt
     read_header(in, payload);
   } else if (code == EventCode::program) {
     read_program(in, payload);
+  } else if (code == EventCode::shape) {
+    read_shape(in);
   } else {
     RecordedEvent event = read_event(code, in);
     event.ticks = header.ticks;
@@ -55,6 +58,15 @@ void EventReader::read_program(Bytes& in, std::span<const std::byte> payload) {
   contents_.programs.push_back({hash, bytes});
 }
 
+void EventReader::read_shape(Bytes& in) {
+  const ShapeFigures figures = wale::read_shape(in, most_mask_cells - mask_cells_);
+  in.finish();
+  if (const auto* mask = std::get_if<MaskFigures>(&figures)) mask_cells_ += mask->columns * mask->rows;
+  auto shape = shape_of(figures);
+  if (!shape) throw std::move(shape).error();
+  contents_.shapes.push_back(*std::move(shape));
+}
+
 std::uint32_t EventReader::program(Bytes& in) const {
   const std::uint32_t number = in.u32();
   if (number >= contents_.programs.size()) damaged("program ", number, " has not been recorded");
@@ -68,7 +80,8 @@ std::uint32_t EventReader::patch(Bytes& in) const {
 }
 
 void EventReader::read_flags(std::uint32_t flags, RecordedEvent& event) {
-  if (flags > (put_enabled | put_changed | put_renewed | put_sampled)) damaged("the flags of a patch are ", flags);
+  if (flags > (put_enabled | put_changed | put_renewed | put_sampled | put_shaped))
+    damaged("the flags of a patch are ", flags);
   event.enabled = (flags & put_enabled) != 0;
   event.changed = (flags & put_changed) != 0;
   event.renewed = (flags & put_renewed) != 0;
@@ -77,6 +90,7 @@ void EventReader::read_flags(std::uint32_t flags, RecordedEvent& event) {
 
 RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
   RecordedEvent event;
+  std::uint32_t flags = 0;
   const auto placement = [&] {
     event.program = program(in);
     for (int i = 0; i < 2; ++i) event.position[i] = in.f32();
@@ -118,9 +132,15 @@ RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
       event.layer = in.f32();
       if (!std::isfinite(event.layer)) damaged("the layer is not finite");
       event.order = in.u64();
-      read_flags(in.u32(), event);
+      flags = in.u32();
+      read_flags(flags, event);
       event.parameters.resize(in.count(sizeof(float), "parameters"));
       for (float& value : event.parameters) value = in.f32();
+      if ((flags & put_shaped) != 0) {
+        const std::uint32_t shape = in.u32();
+        if (shape >= contents_.shapes.size()) damaged("shape ", shape, " has not been recorded");
+        event.shape = contents_.shapes[shape];
+      }
       return event;
     case EventCode::remove:
       event.kind = RecordedEvent::Kind::remove;
@@ -142,7 +162,8 @@ RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
       contents_.said_ticks = in.u64();
       return event;
     case EventCode::header:
-    case EventCode::program: break;
+    case EventCode::program:
+    case EventCode::shape: break;
   }
   damaged("its kind ", static_cast<std::uint32_t>(code), " is unknown");
 }

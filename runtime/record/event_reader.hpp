@@ -27,6 +27,7 @@ class EventReader {
   void read_whole(const recording_format::EventHeader& header, std::span<const std::byte> payload);
   void read_header(Bytes& in, std::span<const std::byte> payload);
   void read_program(Bytes& in, std::span<const std::byte> payload);
+  void read_shape(Bytes& in);
   RecordedEvent read_event(recording_format::EventCode code, Bytes& in);
   std::uint32_t program(Bytes& in) const;
   std::uint32_t patch(Bytes& in) const;
@@ -35,6 +36,7 @@ class EventReader {
   RecordingContents& contents_;
   bool has_header_ = false;
   std::uint32_t revision_ = 0;
+  std::size_t mask_cells_ = 0;
 };
 
 }  // namespace wale

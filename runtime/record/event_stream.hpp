@@ -10,28 +10,6 @@
 
 namespace wale {
 
-/// The payload of an event, little-endian.
-class EventBytes {
- public:
-  template <class Number>
-  requires std::is_arithmetic_v<Number> EventBytes& operator<<(Number number) {
-    return *this << std::as_bytes(std::span(&number, 1));
-  }
-  EventBytes& operator<<(std::span<const std::byte> bytes) {
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-    return *this;
-  }
-  /// Appends the text's length in bytes as u32, then the text.
-  EventBytes& operator<<(std::string_view text) {
-    return *this << static_cast<std::uint32_t>(text.size()) << std::as_bytes(std::span(text));
-  }
-
-  std::span<const std::byte> bytes() const { return bytes_; }
-
- private:
-  std::vector<std::byte> bytes_;
-};
-
 /// The events of a recording, written one after the other across the chunks of events. One thread at a time may use it.
 class EventStream {
  public:

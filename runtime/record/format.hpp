@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "recordings are stored
 
 /// As in PNG: a byte that no text has, the name, then line ends and an end-of-file mark, which a text transfer changes.
 inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'R', 'C', '\r', '\n', 0x1a, '\n'};
-inline constexpr std::uint32_t version = 2, oldest_version = 1;
+inline constexpr std::uint32_t version = 3, oldest_version = 1;
 
 /// Bytes before the first chunk, and of a chunk. Each chunk begins at a page, for pages of 4 to 64 KiB.
 inline constexpr std::size_t first_chunk = 64 * 1024, chunk_size = 256 * 1024;
@@ -74,7 +74,7 @@ struct EventHeader {
 static_assert(sizeof(EventHeader) == 24);
 
 /// `header` is the stream's first event. `program` holds a program's bytes and comes before the first event that names
-/// it. The other codes match `RecordedEvent::Kind`.
+/// it, and so does `shape`. The other codes match `RecordedEvent::Kind`.
 enum class EventCode : std::uint32_t {
   header = 1,
   program = 2,
@@ -87,14 +87,18 @@ enum class EventCode : std::uint32_t {
   move = 9,
   put = 10,
   remove = 11,
-  bound = 12
+  bound = 12,
+  shape = 13
 };
 
 /// A stage has fewer patches than this. It bounds the memory that a malformed file can ask for.
 inline constexpr std::uint32_t most_patches = 1u << 22;
 
 /// The bits of a `put` event's flags.
-inline constexpr std::uint32_t put_enabled = 1, put_changed = 2, put_renewed = 4, put_sampled = 8;
+inline constexpr std::uint32_t put_enabled = 1, put_changed = 2, put_renewed = 4, put_sampled = 8, put_shaped = 16;
+
+/// Cells of all masks of a recording. It bounds the memory that a malformed file can ask for: a cell takes 6 bytes.
+inline constexpr std::size_t most_mask_cells = std::size_t{1} << 28;
 
 /// Events begin at multiples of this in their stream, so that no `size` and `check` lies across two chunks.
 inline constexpr std::size_t event_alignment = 8;

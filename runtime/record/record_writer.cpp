@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/record/profile_program.hpp"
+#include "runtime/shape/shape_bytes.hpp"
 
 namespace wale {
 
@@ -29,10 +30,10 @@ Result<std::unique_ptr<RecordWriter>> RecordWriter::begin(const std::string& pat
 Result<> RecordWriter::start(const RecordingHeader& header) {
   const Result<std::vector<std::byte>> profile = write_profile(header.device);
   if (!profile) return profile.error();
-  EventBytes bytes;
+  ByteWriter bytes;
   bytes << header.most_newton << static_cast<std::uint8_t>(header.virtual_time) << std::string_view(header.hand);
   bytes << static_cast<std::uint32_t>(profile->size()) << *profile;
-  if (auto appended = events_.append(EventCode::header, 0, bytes.bytes()); !appended) return appended;
+  if (auto appended = events_.append(EventCode::header, 0, bytes.result()); !appended) return appended;
   if (auto mapped = map_ahead(); !mapped) return mapped;
   if (waits_) return {};
   const double chunk_seconds = static_cast<double>(ticks_per_chunk) / header.device.rate;
@@ -131,9 +132,9 @@ std::optional<Error> RecordWriter::ended_early() const {
   return error;
 }
 
-void RecordWriter::note(EventCode kind, const EventBytes& payload) noexcept {
+void RecordWriter::note(EventCode kind, const ByteWriter& payload) noexcept {
   if (!whole_) return;
-  const auto appended = events_.append(kind, ticks_.load(std::memory_order_relaxed), payload.bytes());
+  const auto appended = events_.append(kind, ticks_.load(std::memory_order_relaxed), payload.result());
   if (appended) return;
   give_up(appended.error());
   whole_ = false;
@@ -146,44 +147,70 @@ std::uint32_t RecordWriter::number_of(const Program& program) {
   const std::vector<std::byte> bytes = write_patch_program(program.description());
   const std::uint64_t hash = hash_of(bytes);
   const auto [same, fresh] = by_hash_.try_emplace(hash, static_cast<std::uint32_t>(by_hash_.size()));
-  if (fresh) note(EventCode::program, EventBytes() << hash << std::span<const std::byte>(bytes));
+  if (fresh) note(EventCode::program, ByteWriter() << hash << std::span<const std::byte>(bytes));
   if (known_.size() == most_known) known_.clear();
   known_.try_emplace(&program.decoded(), program, same->second);
   return same->second;
 }
 
+std::uint32_t RecordWriter::number_of(const Shape& shape) {
+  const Shape whole = shape.unstretched();
+  const auto known = known_shapes_.find(whole.identity());
+  if (known != known_shapes_.end()) return known->second.second;
+  const ShapeFigures figures = figures_of(whole);
+  const ByteWriter bytes = bytes_of(figures);
+  const std::uint64_t hash = hash_of(bytes.result());
+  const auto [same, fresh] = shapes_by_hash_.try_emplace(hash, static_cast<std::uint32_t>(shapes_by_hash_.size()));
+  if (fresh) {
+    if (const auto* mask = std::get_if<MaskFigures>(&figures)) mask_cells_ += mask->columns * mask->rows;
+    if (mask_cells_ > most_mask_cells) {
+      give_up({.code = Code::unwritable_file, .sentence = "a recording holds masks of 268 435 456 cells in all"});
+      whole_ = false;
+      lost_.store(true, std::memory_order_relaxed);
+    }
+    note(EventCode::shape, bytes);
+  }
+  if (known_shapes_.size() == most_known) known_shapes_.clear();
+  known_shapes_.try_emplace(whole.identity(), whole, same->second);
+  return same->second;
+}
+
 void RecordWriter::put(const RecordedEvent& patch, const Program& program) noexcept {
   const std::uint32_t number = number_of(program);
-  const std::uint32_t flags = (patch.enabled ? put_enabled : 0) | (patch.changed ? put_changed : 0) |
-                              (patch.renewed ? put_renewed : 0) | (patch.sampled ? put_sampled : 0);
-  EventBytes bytes;
+  const bool shaped = !patch.shape.is_rectangle();
+  const std::uint32_t shape = shaped ? number_of(patch.shape) : 0;
+  const std::uint32_t flags = (shaped ? put_shaped : 0) | (patch.enabled ? put_enabled : 0) |
+                              (patch.changed ? put_changed : 0) | (patch.renewed ? put_renewed : 0) |
+                              (patch.sampled ? put_sampled : 0);
+  ByteWriter bytes;
   bytes << patch.patch << number << patch.position.x << patch.position.y << patch.size.width << patch.size.height
         << patch.size.rim << patch.layer << patch.order << flags << static_cast<std::uint32_t>(patch.parameters.size());
   for (const float value : patch.parameters) bytes << value;
+  if (shaped) bytes << shape;
   note(EventCode::put, bytes);
 }
 
 void RecordWriter::remove(std::size_t patch) noexcept {
-  note(EventCode::remove, EventBytes() << static_cast<std::uint32_t>(patch));
+  note(EventCode::remove, ByteWriter() << static_cast<std::uint32_t>(patch));
 }
 
 void RecordWriter::bound(std::size_t patch, bool sampled) noexcept {
-  note(EventCode::bound, EventBytes() << static_cast<std::uint32_t>(patch) << static_cast<std::uint8_t>(sampled));
+  note(EventCode::bound, ByteWriter() << static_cast<std::uint32_t>(patch) << static_cast<std::uint8_t>(sampled));
 }
 
 void RecordWriter::set(std::size_t patch, std::size_t parameter, float value) noexcept {
   note(EventCode::set,
-       EventBytes() << static_cast<std::uint32_t>(patch) << static_cast<std::uint32_t>(parameter) << value);
+       ByteWriter() << static_cast<std::uint32_t>(patch) << static_cast<std::uint32_t>(parameter) << value);
 }
 
 void RecordWriter::move(std::size_t patch, glm::vec2 position) noexcept {
-  note(EventCode::move, EventBytes() << static_cast<std::uint32_t>(patch) << position.x << position.y);
+  note(EventCode::move, ByteWriter() << static_cast<std::uint32_t>(patch) << position.x << position.y);
 }
 
-void RecordWriter::publish(std::uint32_t revision) noexcept { note(EventCode::publish, EventBytes() << revision); }
+void RecordWriter::publish(std::uint32_t revision) noexcept { note(EventCode::publish, ByteWriter() << revision); }
 
 void RecordWriter::end() noexcept {
-  if (!lost_.load(std::memory_order_relaxed)) note(EventCode::end, EventBytes() << ticks_.load());
+  if (!lost_.load(std::memory_order_relaxed)) note(EventCode::end, ByteWriter() << ticks_.load());
 }
 
 }  // namespace wale

@@ -15,6 +15,7 @@
 #include "runtime/record/chunk_file.hpp"
 #include "runtime/record/event_stream.hpp"
 #include "runtime/record/tick_sink.hpp"
+#include "schema/byte_writer.hpp"
 #include "wale/program.hpp"
 #include "wale/recording.hpp"
 
@@ -55,16 +56,17 @@ class RecordWriter final : public TickSink {
 
  private:
   static constexpr std::size_t chunks_ahead = 4;
-  static constexpr std::size_t most_known = 256;  // programs that are found without writing their bytes
+  static constexpr std::size_t most_known = 256;  // programs, and shapes, that are found without writing their bytes
 
   RecordWriter(std::unique_ptr<ChunkFile> file, bool ticks_may_wait)
       : file_(std::move(file)), events_(*file_), waits_(ticks_may_wait) {}
 
   /// Stores the header and the first chunks, and starts the thread that maps.
   Result<> start(const RecordingHeader& header);
-  void note(recording_format::EventCode kind, const EventBytes& payload) noexcept;
-  /// The number of a program. Its bytes are stored at its first use.
+  void note(recording_format::EventCode kind, const ByteWriter& payload) noexcept;
+  /// The number of a program, or of a shape. Its bytes are stored at its first use.
   std::uint32_t number_of(const Program& program);
+  std::uint32_t number_of(const Shape& shape);
   /// Maps the chunks that are missing ahead, and unmaps the full ones.
   Result<> map_ahead();
   void keep_ahead(double seconds);
@@ -77,6 +79,9 @@ class RecordWriter final : public TickSink {
   bool whole_ = true;  // every event so far is in the file; used by the control side only
   std::map<const DecodedProgram*, std::pair<Program, std::uint32_t>> known_;
   std::map<std::uint64_t, std::uint32_t> by_hash_;
+  std::map<const void*, std::pair<Shape, std::uint32_t>> known_shapes_;
+  std::map<std::uint64_t, std::uint32_t> shapes_by_hash_;
+  std::size_t mask_cells_ = 0;
 
   // Used by the real-time thread.
   std::byte* chunk_ = nullptr;

@@ -19,7 +19,8 @@ struct RecordingContents {
   std::vector<std::byte> events_bytes;  ///< all events one after the other
   RecordingHeader header;
   std::vector<RecordedEvent> events;
-  std::vector<RecordedProgram> programs;    ///< their bytes lie in `events_bytes`
+  std::vector<RecordedProgram> programs;  ///< their bytes lie in `events_bytes`
+  std::vector<Shape> shapes;
   std::optional<std::uint64_t> said_ticks;  ///< in the end event, if there is one
 
   std::span<const std::byte> bytes() const {

@@ -179,7 +179,7 @@ class Replaying final : public TickSink {
   }
 
   void put(const RecordedEvent& event) {
-    Placement placement(program(event.program), event.position, event.size, event.layer);
+    Placement placement(program(event.program), event.position, event.size, event.layer, event.shape);
     placement.parameters = parameters_of(event, placement.program);
     placement.order = event.order;
     placement.enabled = event.enabled;

@@ -361,7 +361,8 @@ void PatchTable::record(const Slot& slot, std::uint32_t number, const Placement&
                   .enabled = next.enabled,
                   .changed = changed,
                   .renewed = renewed,
-                  .sampled = sampled},
+                  .sampled = sampled,
+                  .shape = next.shape},
                  next.program);
     return;
   }

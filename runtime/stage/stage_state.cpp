@@ -73,8 +73,6 @@ Result<Placement> StageState::placement(const Program& program, const PatchOptio
   if (patch.size)
     if (auto good = check_size(*patch.size); !good) return std::move(good).error();
   if (auto good = check_layer(patch.layer); !good) return std::move(good).error();
-  if (!patch.shape.is_rectangle() && options.record)
-    return malformed("shape", "a recording holds rectangles only, so a stage that records takes no other shape");
   return Placement(program, patch.at, patch.size.value_or(Placement::own_size(program, patch.shape)), patch.layer,
                    patch.shape);
 }

@@ -184,6 +184,48 @@ static void stages(void) {
   CHECK(wale_stage_now(NULL, &now) == WALE_CODE_malformed_value);
 }
 
+static void shapes(void) {
+  WaleShape *ellipse = NULL, *polygon = NULL, *mask = NULL, *none = NULL;
+  const WaleVector corners[] = {{-0.01f, -0.01f}, {0.01f, -0.01f}, {-0.01f, 0.01f}};
+  const uint8_t cells[] = {1, 0, 0, 1, 1, 1};
+  CHECK_GOOD(wale_shape_ellipse(0.02f, 0.01f, &ellipse, &error));
+  CHECK_GOOD(wale_shape_polygon(corners, 3, &polygon, &error));
+  CHECK_GOOD(wale_shape_mask(cells, 3, 2, 0.01f, &mask, &error));
+  CHECK(wale_shape_size(ellipse).x == 0.04f && wale_shape_size(mask).y == 0.02f);
+  const WaleVector middle = {0, 0}, upper_right = {0.01f, 0.005f};
+  CHECK(fabs(wale_shape_edge(ellipse, middle) - 0.01) < 1e-6);
+  CHECK(fabs(wale_shape_edge(mask, upper_right) + 0.005) < 1e-6);
+  CHECK(fabs(wale_shape_edge(polygon, upper_right) + 0.0106066) < 1e-6);
+  CHECK_MALFORMED(wale_shape_ellipse(0, 1, &none, &error));
+  CHECK_MALFORMED(wale_shape_ellipse(NAN, 1, &none, &error));
+  CHECK_MALFORMED(wale_shape_ellipse(1, 1, NULL, &error));
+  CHECK_MALFORMED(wale_shape_polygon(NULL, 3, &none, &error));
+  CHECK_MALFORMED(wale_shape_polygon(corners, 2, &none, &error));
+  CHECK_MALFORMED(wale_shape_mask(NULL, 3, 2, 0.01f, &none, &error));
+  CHECK_MALFORMED(wale_shape_mask(cells, SIZE_MAX, 2, 0.01f, &none, &error));
+  CHECK_MALFORMED(wale_shape_mask(cells, 0, 0, 0.01f, &none, &error));
+  CHECK_MALFORMED(wale_shape_mask(cells + 1, 2, 1, 0.01f, &none, &error)); /* no cell is set */
+  CHECK(none == NULL && isnan(wale_shape_edge(NULL, middle)) && wale_shape_size(NULL).x == 0);
+
+  /* The hand rubs over 40 mm along x, and is on the ellipse for part of its way. */
+  WaleStage* stage = new_stage();
+  WalePatch* patch = NULL;
+  WalePatchOptions options = {.size = sizeof options, .width = 0.02f, .height = 0.02f, .shape = ellipse};
+  CHECK_GOOD(wale_stage_add(stage, corduroy, &options, &patch, &error));
+  wale_shape_free(ellipse), wale_shape_free(polygon), wale_shape_free(mask), wale_shape_free(NULL);
+  wale_shape_free(mask); /* freed already */
+  WaleRun* run = run_for(stage, 2);
+  WaleTick ticks[1800];
+  CHECK_GOOD(wale_run_ticks(run, 0, 1800, sizeof *ticks, ticks, &error));
+  for (int i = 0; i < 1800; ++i) {
+    const double x = ticks[i].position.x / 0.01, y = ticks[i].position.y / 0.01, from_edge = x * x + y * y - 1;
+    CHECK(fabs(from_edge) < 0.01 || ticks[i].inside == (from_edge < 0));
+  }
+  wale_run_free(run);
+  wale_patch_free(patch);
+  wale_stage_free(stage);
+}
+
 static void patches(void) {
   WaleStage* stage = new_stage();
   WalePatch *patch = NULL, *other = NULL;
@@ -303,6 +345,6 @@ static void edits(void) {
 }
 
 int stage_parts(void) {
-  run_parts((Part[]){devices, stages, patches, edits, NULL});
+  run_parts((Part[]){devices, stages, shapes, patches, edits, NULL});
   return failures;
 }

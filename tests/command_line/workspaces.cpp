@@ -1,6 +1,8 @@
 // Workspaces on the command line: check, describe, feel.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/command_line/running.hpp"
 
 namespace wale::command_line::workspaces_test {
@@ -20,6 +22,13 @@ struct Desk {
   TemporaryFolder folder;
   std::string file = folder.write("desk.wale", two);
 };
+
+/// A grey picture of 40 x 20 pixels: `grey` in its right half, black in its left one.
+std::string half(char grey) {
+  std::string picture = "P5\n40 20\n255\n";
+  for (int row = 0; row < 20; ++row) picture += std::string(20, '\0') + std::string(20, grey);
+  return picture;
+}
 
 TEST(WorkspacesOnTheCommandLine, AreCheckedAndFormatted) {
   const Desk desk;
@@ -59,14 +68,75 @@ TEST(WorkspacesOnTheCommandLine, AreFeltTogether) {
   EXPECT_EQ(json["patches"][2]["entries"], 0);
   EXPECT_NEAR(json["patches"][0]["seconds"].get<double>(), 0.3, 0.1);
   EXPECT_GT(json["patches"][0]["rms_newton"].get<double>(), 1.5 * json["patches"][1]["rms_newton"].get<double>());
-  EXPECT_TRUE(contains(felt.err, "`away` is felt as the rectangle around its shape (ellipse)")) << felt.err;
 }
 
-/// A grey picture of 40 x 20 pixels: `grey` in its right half, black in its left one.
-std::string half(char grey) {
-  std::string picture = "P5\n40 20\n255\n";
-  for (int row = 0; row < 20; ++row) picture += std::string(20, '\0') + std::string(20, grey);
-  return picture;
+TEST(WorkspacesOnTheCommandLine, ShapesAreFeltWhereTheyAre) {
+  const Desk desk;
+  // Half of the mask is light; an ellipse of 40 mm; a triangle to the right of the centre. The hand goes along a line
+  // from x = -60 to 60 mm at a height y, and is on each shape for a length that is known.
+  desk.folder.write("half.pgm", half('\xff'));
+  const std::string file = desk.folder.write(
+      "shapes.wale",
+      "wale 1\nworkspace shapes {\n"
+      "  patch mask = denim { at -40 mm, 0 mm; shape mask(\"half.pgm\", scale: 1 mm/px) }\n"  // from -40 to -20 mm
+      "  patch round = denim { at 0 mm, 0 mm; size 30 mm, 24 mm; shape ellipse }\n"
+      "  patch corner = denim { at 40 mm, 0 mm; shape polygon(-20 mm, -20 mm, 20 mm, -20 mm, -20 mm, 20 mm) }\n}\n");
+  const double height = 0.009;  // m
+  std::string trace = "t (s),x (m),y (m)\n";
+  for (int i = 0; i <= 120; ++i)
+    trace += std::to_string(0.01 * i) + "," + std::to_string(-0.06 + 1e-3 * i) + "," + std::to_string(height) + "\n";
+  const Outcome felt = wale({"feel", file, "--workspace", "shapes", "--virtual-time", "--seconds", "1.2", "--hand",
+                             desk.folder.write("hand.csv", trace), "--json"});
+  ASSERT_EQ(felt.status, 0) << felt.err;
+  const auto json = felt.json();
+  const double on_ellipse = 30 * std::sqrt(1 - std::pow(height / 0.012, 2));  // mm
+  const double expected[] = {20, on_ellipse, 40 - (1e3 * height + 20)};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(json["patches"][i]["entries"], 1) << i;
+    // At 100 mm/s; the handle follows the hand within some millimetres.
+    EXPECT_NEAR(json["patches"][i]["seconds"].get<double>(), expected[i] / 100, 0.04) << i;
+  }
+}
+
+TEST(WorkspacesOnTheCommandLine, AreBuiltToOneFileThatFeelsTheSame) {
+  const Desk desk;
+  const std::string built = desk.folder / "desk.wws";
+  const Outcome outcome = wale({"build", desk.file, "--workspace", "desk", "-o", built});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto felt = [](std::vector<std::string> words) {
+    words.insert(words.end(), {"--virtual-time", "--seconds", "1", "--json"});
+    const Outcome outcome = wale(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.json().at("patches").dump();
+  };
+  EXPECT_EQ(felt({"feel", built}), felt({"feel", desk.file, "--workspace", "desk"}));
+  const std::string again = desk.folder / "again.wws";
+  ASSERT_EQ(wale({"build", desk.file, "--workspace", "desk", "-o", again}).status, 0);
+  EXPECT_EQ(bytes_of(again), bytes_of(built));
+  std::string bytes = bytes_of(built);
+  bytes[bytes.size() / 2] ^= 1;
+  const Outcome damaged = wale({"feel", desk.folder.write("damaged.wws", bytes), "--virtual-time"});
+  EXPECT_EQ(damaged.status, 1);
+  EXPECT_TRUE(contains(damaged.err, "W0506")) << damaged.err;
+  EXPECT_EQ(wale({"feel", built, "--set", "yarn=1 mm"}).status, 2);
+  EXPECT_EQ(wale({"build", desk.file, "--workspace", "desc", "-o", again}).status, 2);
+}
+
+TEST(WorkspacesOnTheCommandLine, AreDrawnFromAbove) {
+  const Desk desk;
+  const auto drawn = [&](const std::string& name) {
+    const std::string file = desk.folder / name;
+    const Outcome outcome = wale({"preview", desk.file, "--workspace", "desk", "-o", file});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return bytes_of(file);
+  };
+  const std::string picture = drawn("desk.png");
+  EXPECT_EQ(picture.substr(1, 3), "PNG");
+  EXPECT_EQ(picture.substr(16, 8), std::string("\0\0\x06\x40\0\0\x04\xd8", 8)) << "1600 x 1240 pixels";
+  EXPECT_EQ(drawn("again.png"), picture);
+  EXPECT_TRUE(contains(drawn("desk.svg"), "<svg"));
+  EXPECT_EQ(wale({"preview", desk.file, "--workspace", "desc", "-o", desk.folder / "x.png"}).status, 2);
+  EXPECT_EQ(wale({"preview", desk.file, "--workspace", "desk", "--along", "y", "-o", desk.folder / "x.png"}).status, 2);
 }
 
 TEST(WorkspacesOnTheCommandLine, AMaskIsWhereItsPictureIsLight) {

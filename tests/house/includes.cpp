@@ -79,13 +79,18 @@ const std::vector<Rule>& rules() {
         "runtime/include/wale/memory.hpp",
         "runtime/include/wale/picture.hpp",
     };
+    // A workspace file is written by the compiler too.
+    std::vector<std::string> of_compiler = machine;
+    for (const char* each : {"runtime/shape/", "runtime/include/wale/shape.hpp", "runtime/include/wale/patch.hpp",
+                             "runtime/include/wale/workspace.hpp"})
+      of_compiler.emplace_back(each);
     return std::vector<Rule>{
         {"schema/include/", {}},
         {"schema/", {}},
         {"runtime/machine/", machine},
         {"runtime/include/", {"schema/include/"}},
         {"runtime/", {"schema/"}},
-        {"compiler/", machine},
+        {"compiler/", of_compiler},
         {"calibration/", {"schema/", "compiler/", "runtime/"}},
         {"library/include/", {"schema/include/", "runtime/include/"}},
         {"library/", {"schema/", "compiler/", "runtime/", "calibration/feel/trusted_declarations.hpp"}},

@@ -124,6 +124,25 @@ def test_patches(stage: wale.Stage, corduroy: wale.Program) -> None:
         assert code_of(gone) == wale.Code.wrong_moment
 
 
+def test_shapes(stage: wale.Stage, corduroy: wale.Program) -> None:
+    circle = wale.Shape.ellipse(0.01, 0.01)
+    assert circle.size == pytest.approx((0.02, 0.02)) and circle.edge((0.004, 0.003)) == pytest.approx(0.005)
+    triangle = wale.Shape.polygon([(-0.01, -0.01), (0.01, -0.01), (-0.01, 0.01)])
+    assert triangle.edge((-0.009, 0)) == pytest.approx(0.001) and triangle.edge((0.01, 0.01)) < 0
+    mask = wale.Shape.mask(np.array([[1, 0], [1, 1]]), 0.01)
+    assert mask.edge((0.005, 0.005)) == pytest.approx(-0.005) and mask.size == pytest.approx((0.02, 0.02))
+    for wrong in [lambda: wale.Shape.ellipse(0, 1), lambda: wale.Shape.polygon([(0, 0), (1, 0)]),
+                  lambda: wale.Shape.mask([[0]], 0.01)]:
+        assert code_of(wrong) == wale.Code.malformed_value
+    with pytest.raises(ValueError):
+        wale.Shape.polygon([0, 1, 2])
+    stage.add(corduroy, shape=circle)
+    ticks = stage.run(2, virtual_time=True).ticks
+    away = np.hypot(*ticks["position"].T)
+    sure = abs(away - 0.01) > 1e-4
+    assert (ticks["inside"].astype(bool) == (away < 0.01))[sure].all() and ticks["inside"].any()
+
+
 def test_an_edit_is_all_or_nothing(stage: wale.Stage, corduroy: wale.Program) -> None:
     with stage.edit() as edit:
         one, two = edit.add(corduroy), edit.add(corduroy, layer=1)

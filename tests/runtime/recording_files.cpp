@@ -256,10 +256,10 @@ TEST(RecordingFile, OtherFilesAreRefusedWithAReason) {
   std::vector<std::byte> newer = some_recording();
   FileHeader header;
   std::memcpy(&header, newer.data(), sizeof header);
-  header.version = 3;
+  header.version = version + 1;
   header.check = check_of(header);
   std::memcpy(newer.data(), &header, sizeof header);
-  EXPECT_EQ(refused(Recording::read(newer, "x")), "its format is 3, but this Wale reads only up to 2; update Wale");
+  EXPECT_EQ(refused(Recording::read(newer, "x")), "its format is 4, but this Wale reads only up to 3; update Wale");
   const TemporaryFolder folder;
   const auto missing = Recording::open(folder / "none.wrec");
   EXPECT_EQ(refused(missing), "the file cannot be read: no such file");

@@ -15,6 +15,7 @@ from wale.loop import Loop
 from wale.program import Parameter, Percept, Program
 from wale.recording import Recording, Replay
 from wale.run import Felt, ForceSize, Guards, Level, Now, Run, Times
+from wale.shape import Shape
 from wale.snapshot import Mark, Snapshot
 from wale.stage import Contact, Edit, Patch, Stage
 
@@ -23,6 +24,6 @@ __version__: str = _read(_lib.wale_version())
 __all__ = [
     "Code", "Contact", "ContactKind", "Device", "DeviceInfo", "DeviceKind", "Edit", "Error", "Felt", "ForceSize", "Future",
     "Guards", "Hand", "Level", "Library", "Loop", "Mark", "MarkKind", "Motion", "Now", "Parameter", "Patch", "Percept",
-    "Profile", "Program", "ReadingContact", "Recording", "Replay", "Run", "Snapshot", "Span", "Stage", "Times",
+    "Profile", "Program", "ReadingContact", "Recording", "Replay", "Run", "Shape", "Snapshot", "Span", "Stage", "Times",
     "batch", "devices", "open_device", "profile",
 ]

@@ -319,6 +319,13 @@ WaleCode wale_felt_measure(const WaleRun* run, const struct WalePatch* patch, co
 void wale_felt_free(WaleFelt* felt);
 WaleCode wale_felt_figures(const WaleFelt* felt, WaleFeltFigures* figures, WaleError** error);
 WaleCode wale_felt_level(const WaleFelt* felt, size_t index, WaleFeltLevel* level, WaleError** error);
+typedef struct WaleShape WaleShape;
+WaleCode wale_shape_ellipse(float half_width, float half_height, WaleShape** shape, WaleError** error);
+WaleCode wale_shape_polygon(const WaleVector* corners, size_t count, WaleShape** shape, WaleError** error);
+WaleCode wale_shape_mask(const uint8_t* cells, size_t columns, size_t rows, float side, WaleShape** shape, WaleError** error);
+void wale_shape_free(WaleShape* shape);
+WaleVector wale_shape_size(const WaleShape* shape);
+float wale_shape_edge(const WaleShape* shape, WaleVector point);
 typedef struct WaleStage WaleStage;
 typedef struct WalePatch WalePatch;
 typedef struct WaleEdit WaleEdit;
@@ -338,6 +345,7 @@ typedef struct WalePatchOptions {
   float width, height;
   float rim;
   float layer;
+  const WaleShape* shape;
 } WalePatchOptions;
 WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, WaleStage** stage, WaleError** error);
 WaleCode wale_stage_create_for(const WaleProfile* profile, const WaleStageOptions* options, WaleStage** stage, WaleError** error);

@@ -44,6 +44,7 @@ class Code(enum.IntEnum):
     unbounded_memory = 311  # a memory larger than a patch program may hold
     not_radians = 312  # an angle that does not seem to be in radians
     swapped_arguments = 313  # arguments that seem to be swapped
+    unusable_shape = 314  # a shape that crosses itself, or that has no inside
     open_amplitude = 401  # a lateral force without an amplitude
     several_open = 402  # several quantities left open for one percept
     percept_conflict = 403  # a percept that contradicts the physics
@@ -70,6 +71,7 @@ class Code(enum.IntEnum):
     cut_patch = 424  # a patch wider than the device's workspace
     delivered_otherwise = 425  # a level that the finished program does not have
     pushes_away = 426  # a force that drives a hand away from where it rests
+    beyond_reach = 427  # a patch of a workspace that the device does not reach
     jumping_height = 430  # a height that jumps, which no force can follow
     beyond_devices = 431  # a force far beyond what any device gives
     never_pushes = 432  # a material whose force is zero everywhere
@@ -91,6 +93,7 @@ class Code(enum.IntEnum):
     refused_program = 606  # a patch program that the verifier does not let run
     other_device = 607  # a program built for another device
     other_figures = 608  # a program built for other figures of the device than its declaration has
+    unknown_workspace = 609  # a workspace that the file does not have
     absent_device = 701  # a device that is not plugged in
     unusable_device = 702  # a device that is plugged in and cannot be used
     lost_device = 703  # a device that was lost while it was used

@@ -13,6 +13,7 @@ from wale.codes import ContactKind
 from wale.device import Device, Profile
 from wale.program import Program
 from wale.run import Now, Run, Vector, now_of, vector_of
+from wale.shape import Shape
 from wale.snapshot import Snapshot
 
 Size = Sequence[float]
@@ -32,9 +33,10 @@ class Contact:
     force: Vector
 
 
-def _placed(at: Vector, size: Size | None, layer: float) -> Any:
+def _placed(at: Vector, size: Size | None, layer: float, shape: Shape | None) -> Any:
     width, height, rim = size_in_full(size) if size is not None else (0.0, 0.0, 0.0)
-    return Arguments().struct("WalePatchOptions", x=at[0], y=at[1], width=width, height=height, rim=rim, layer=layer)
+    return Arguments().struct("WalePatchOptions", x=at[0], y=at[1], width=width, height=height, rim=rim, layer=layer,
+                              shape=None if shape is None else shape._pointer)
 
 
 class Patch(Handle):
@@ -96,8 +98,10 @@ class Edit(Handle):
     def __init__(self, pointer: Any) -> None:
         super().__init__(pointer, lib.wale_edit_free)
 
-    def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0) -> Patch:
-        return Patch(made(lib.wale_edit_add, "WalePatch", self._pointer, program._pointer, _placed(at, size, layer)))
+    def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0,
+            shape: Shape | None = None) -> Patch:
+        placed = _placed(at, size, layer, shape)
+        return Patch(made(lib.wale_edit_add, "WalePatch", self._pointer, program._pointer, placed))
 
     def set(self, patch: Patch, parameter: str, value: float) -> None:
         arguments = Arguments()
@@ -169,9 +173,14 @@ class Stage(Handle):
         self._hears: Any = ffi.new_handle(self._heard)
         self._receive: Callable[[Contact], None] | None = None
 
-    def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0) -> Patch:
-        """Puts a patch on the stage, in front of all others of its layer. `at`: m; `size`: m, with or without a rim."""
-        return Patch(made(lib.wale_stage_add, "WalePatch", self._pointer, program._pointer, _placed(at, size, layer)))
+    def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0,
+            shape: Shape | None = None) -> Patch:
+        """Puts a patch on the stage, in front of all others of its layer. `at`: m; `size`: m, with or without a rim.
+
+        `shape`: the part of its rectangle that it covers, stretched to its size.
+        """
+        placed = _placed(at, size, layer, shape)
+        return Patch(made(lib.wale_stage_add, "WalePatch", self._pointer, program._pointer, placed))
 
     def edit(self) -> Edit:
         """Begins an edit: `with stage.edit() as edit: edit.move(patch, (0.01, 0))`."""

@@ -13,6 +13,7 @@
 
 #include "wale/device.hpp"
 #include "wale/program.hpp"
+#include "wale/shape.hpp"
 #include "wale/record.hpp"
 
 namespace wale {
@@ -84,6 +85,7 @@ struct RecordedEvent {
   bool changed = true;      ///< its program, parameters or size changed, so the force slews
   bool renewed = true;      ///< it has a new memory, which succeeds the one before if there is one
   bool sampled = true;      ///< otherwise its energy has the trivial bound until `bound` says so
+  Shape shape;
 };
 
 /// A program of a recording.

@@ -75,6 +75,9 @@ class Shape {
   /// Whether both are the same value: copies of one, or both rectangles.
   friend bool operator==(const Shape&, const Shape&) = default;
 
+  /// For the runtime itself.
+  friend const ShapeForm* form_of(const Shape& shape) noexcept { return shape.form_.get(); }
+
  private:
   bool form_contains(glm::vec2 point, glm::vec2 size) const noexcept;
   explicit Shape(std::shared_ptr<const ShapeForm> form) : form_(std::move(form)) {}

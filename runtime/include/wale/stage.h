@@ -4,6 +4,7 @@
 #include "wale/device.h"
 #include "wale/program.h"
 #include "wale/run.h"
+#include "wale/shape.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -39,6 +40,8 @@ typedef struct WalePatchOptions {
   float width, height; /* m; both 0: the program's own size and rim; otherwise both positive */
   float rim;           /* m, not negative; it counts only with a width and a height */
   float layer;         /* where patches overlap, the hand feels the one with the greatest */
+  const WaleShape* shape; /* the part of its rectangle that it covers, stretched to its size; NULL: all of it. Without a width
+                             and a height the patch has the shape's */
 } WalePatchOptions;
 
 /* `device` is kept by the stage; a device serves one stage at a time. `options` may be NULL.

@@ -10,6 +10,7 @@
 #include "wale/program.h"
 #include "wale/recording.h"
 #include "wale/run.h"
+#include "wale/shape.h"
 #include "wale/snapshot.h"
 #include "wale/stage.h"
 

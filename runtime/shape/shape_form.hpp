@@ -22,6 +22,7 @@ class EllipseForm {
 
   EdgeDistance edge(glm::dvec2 point) const noexcept;
   bool contains(glm::dvec2 point) const noexcept;
+  glm::dvec2 half() const { return half_; }
   EllipseForm stretched(glm::dvec2 factors) const { return {half_.x * factors.x, half_.y * factors.y}; }
 
  private:
@@ -35,6 +36,7 @@ class PolygonForm {
 
   EdgeDistance edge(glm::dvec2 point) const noexcept;
   bool contains(glm::dvec2 point) const noexcept;
+  const std::vector<glm::dvec2>& corners() const { return corners_; }
   PolygonForm stretched(glm::dvec2 factors) const;
 
  private:
@@ -70,6 +72,8 @@ class MaskForm {
 
   EdgeDistance edge(glm::dvec2 point) const noexcept;
   bool contains(glm::dvec2 point) const noexcept;
+  const MaskCells& cells() const { return *cells_; }
+  glm::dvec2 cell_size() const { return cell_; }
   MaskForm stretched(glm::dvec2 factors) const {
     return {cells_, glm::dvec2(cell_.x * factors.x, cell_.y * factors.y)};
   }

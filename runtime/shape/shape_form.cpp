@@ -1,4 +1,4 @@
-#include "runtime/stage/shape_form.hpp"
+#include "runtime/shape/shape_form.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,50 @@
+"""What part of its rectangle a patch covers."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from wale._abi import Handle, ffi, lib, made
+from wale.run import Vector, vector_of
+
+
+class Shape(Handle):
+    """An ellipse, a polygon or the set cells of a mask, m from the patch's centre; y grows towards the top.
+
+    A patch of another size than the shape's stretches it. Errors: `malformed_value`.
+    """
+
+    def __init__(self, pointer: object) -> None:
+        super().__init__(pointer, lib.wale_shape_free)
+
+    @staticmethod
+    def ellipse(half_width: float, half_height: float) -> "Shape":
+        """Half axes, m."""
+        return Shape(made(lib.wale_shape_ellipse, "WaleShape", half_width, half_height))
+
+    @staticmethod
+    def polygon(corners: Sequence[Vector] | npt.NDArray[np.float64]) -> "Shape":
+        """3 to 256 corners, in either sense of rotation."""
+        points = np.ascontiguousarray(corners, dtype=np.float32)
+        if points.ndim != 2 or points.shape[1] != 2:
+            raise ValueError(f"expected corners x 2, found {points.shape}")
+        return Shape(made(lib.wale_shape_polygon, "WaleShape", ffi.from_buffer("WaleVector[]", points), len(points)))
+
+    @staticmethod
+    def mask(cells: npt.ArrayLike, side: float) -> "Shape":
+        """Cells that are true, rows x columns from the top left, each a square with this side, m."""
+        bits = np.ascontiguousarray(np.asarray(cells, dtype=bool), dtype=np.uint8)
+        if bits.ndim != 2:
+            raise ValueError(f"expected rows x columns, found {bits.shape}")
+        rows, columns = bits.shape
+        return Shape(made(lib.wale_shape_mask, "WaleShape", ffi.from_buffer("uint8_t[]", bits), columns, rows, side))
+
+    @property
+    def size(self) -> Vector:
+        """m: of the smallest rectangle around the patch's centre that holds it."""
+        return vector_of(lib.wale_shape_size(self._pointer))
+
+    def edge(self, point: Vector) -> float:
+        """The distance of a point to the edge, m: positive inside, negative outside."""
+        return float(lib.wale_shape_edge(self._pointer, {"x": point[0], "y": point[1]}))
