@@ -84,6 +84,7 @@ ForceReading times_as_strong(ForceReading found, double times) {
                        &opposing.friction_across,
                        &opposing.damping,
                        &opposing.damping_across,
+                       &opposing.limit,
                        &opposing.scatter,
                        &opposing.aside,
                        &found.breakaway,
@@ -104,6 +105,8 @@ ForceReading times_as_strong(ForceReading found, double times) {
                        &opposing.forward.y,
                        &opposing.backward.x,
                        &opposing.backward.y,
+                       &opposing.least_in_time,
+                       &opposing.most_in_time,
                        &opposing.least_by_place,
                        &opposing.most_by_place})
     *each *= times;

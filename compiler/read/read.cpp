@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <vector>
@@ -96,6 +97,24 @@ struct AtFirst {
   double uncertain = 0;  ///< so much at most: as it differs from place to place
 };
 
+/// What of a push is the same on all sides of the steps: none along an axis along which it turns about.
+glm::dvec2 alike_beside(const std::vector<StaticStep>& steps, glm::dvec2 push, glm::dvec2 half) {
+  if (steps.empty()) return push;
+  glm::dvec2 least{0};
+  for (const int axis : {0, 1}) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (int row = 0; row < places_a_side; ++row)
+      for (int column = 0; column < places_a_side; ++column) {
+        const glm::dvec2 place = half * ((glm::dvec2(column, row) + 0.5) / (0.5 * places_a_side) - 1.0);
+        double there = push[axis];
+        for (const StaticStep& each : steps) there += each.at(place)[axis];
+        low = std::min(low, there), high = std::max(high, there);
+      }
+    least[axis] = low > 0 ? low : high < 0 ? high : 0;
+  }
+  return least;
+}
+
 /// The linear part: a spring, and a constant push.
 void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) {
   const StaticForce& still = found.still;
@@ -111,7 +130,10 @@ void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) 
         {chance, misfit_of_relief * found.relief().amplitude, misfit_of_spring * std::abs(spring.greatest) * nearest,
          misfit_of_swing * std::max(found.sway.amplitude, found.vibration.amplitude),
          found.vibration.noise ? misfit_of_noise * found.vibration.amplitude : 0, at_first.uncertain});
-    const glm::dvec2 push = still.trend.mean - at_first.force;
+    // Where the device cuts it, the middle is pushed less than the law asks for.
+    const glm::dvec2 most(bank.program().description().device.most());
+    const glm::dvec2 push =
+        glm::clamp(alike_beside(still.obstacles.steps, still.trend.mean - at_first.force, half), -most, most);
     if (glm::length(push) >= std::max(least_force, certain)) found.constant = push;
   } else {
     found.stiffness = found.stiffness_across = even_stiffness(still, patch);
@@ -200,7 +222,11 @@ AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& f
   tick_all(bank, hands, forces);
   glm::dvec2 mean{0};
   for (std::size_t i = 1; i < forces.size(); ++i) mean += 0.125 * glm::dvec2(forces[i]);
-  const glm::dvec2 at_rest = glm::dvec2(forces[0]) - mean;
+  glm::dvec2 at_rest = glm::dvec2(forces[0]) - mean;
+  // What resists on one way only is a drag, and pushes no resting hand.
+  const glm::dvec2 one_way = found.opposing.one_way();
+  for (const int axis : {0, 1})
+    if (one_way[axis] != 0) at_rest[axis] = 0;
   if (glm::length(at_rest) > least_force) off.force += at_rest;
   return off;
 }
