@@ -166,8 +166,17 @@ std::optional<Feature> next_feature(std::span<const glm::dvec2> places, std::spa
   }
   Feature radial{.radial = true};
   const double round = fit_profile(radial, places, forces, coarse_bins);
-  const auto moved = [](Feature feature, int way, double step) {
-    feature.origin += step * glm::dvec2(way == 0 ? 1 : way == 1 ? -1 : 0, way == 2 ? 1 : way == 3 ? -1 : 0);
+  // A round force about a place far away is a straight one, and ever more so the farther it goes.
+  glm::dvec2 farthest{0};
+  for (const glm::dvec2& place : places) farthest = glm::max(farthest, 2.0 * glm::abs(place));
+  const auto moved = [farthest](Feature feature, int way, double step) {
+    const glm::dvec2 there = feature.origin + step * glm::dvec2(way == 0   ? 1
+                                                                : way == 1 ? -1
+                                                                           : 0,
+                                                                way == 2   ? 1
+                                                                : way == 3 ? -1
+                                                                           : 0);
+    if (std::abs(there.x) <= farthest.x && std::abs(there.y) <= farthest.y) feature.origin = there;
     return feature;
   };
   const auto turned = [](const Feature& feature, int way, double step) {

@@ -258,10 +258,20 @@ void FittedWaves::settle_shared_harmonics() {
     }
 }
 
+void FittedWaves::tell_carrier(FoundWave& found) {
+  if (found.parts.size() > 1) return;
+  const std::vector<double> powers = harmonics_of(found.wave, found.wave.profile.size() / 3);
+  if (powers.empty() || fine_wave(powers) > 0) return;
+  const auto strongest = static_cast<std::size_t>(std::ranges::max_element(powers) - powers.begin()) + 1;
+  const std::size_t periods = carrier_of(powers, strongest);
+  if (periods > 0 && strongest % periods == 0) found.parts = {strongest / periods};
+}
+
 FoundWaves FittedWaves::finished() {
   if (found_.local) return std::move(found_);
   drop_parts_that_are_gone();
   settle_shared_harmonics();
+  for (FoundWave& each : found_.waves) tell_carrier(each);
   const double rest = mean_square(found_.rest);
   double waves = 0;
   for (const FoundWave& each : found_.waves) waves += each.power;

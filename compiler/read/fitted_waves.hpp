@@ -58,6 +58,8 @@ class FittedWaves {
   void join_harmonics();
   /// A harmonic that two waves share belongs to the one that has others beside it.
   void settle_shared_harmonics();
+  /// A wave of long period all of whose harmonics stand about a carrier's is that one, and wavers.
+  static void tell_carrier(FoundWave& found);
   /// A wave that lay nearly where a part of a sum does looked like one until it was found itself.
   void drop_parts_that_are_gone();
   /// What may be waves of their own, as periods over a metre: the waves that were found, the strongest harmonics of

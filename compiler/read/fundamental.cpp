@@ -19,9 +19,11 @@ constexpr std::size_t small_common_multiple = 5;
 constexpr double least_of_sum = 0.05;           // of the mean square: of each wave in a sum with a period of its own
 constexpr double clearly_more = 0.03;           // of the mean square
 constexpr double wholly = 0.985;                // explained: no longer period can be better
-constexpr std::size_t least_carrier = 7;        // periods of a wave in the time in which it wavers
-constexpr double about_carrier = 0.4;           // of the carrier's number: harmonics are so near, at most ...
+constexpr double least_carrier = 7;             // periods of a wave in the time in which it wavers
+constexpr double about_carrier = 0.4;           // of the carrier's number: harmonics are so near, at most, ...
+constexpr double about_its_harmonics = 0.3;     // ... or so near to a multiple of it ...
 constexpr double hardly_beside_carrier = 0.12;  // ... but for so much of the mean square
+constexpr std::size_t most_of_carrier = 4;      // its strongest harmonic
 
 /// Whether one of the waves that seem to be harmonics of a common one does not quite fit it when looked for by itself,
 /// or is a harmonic of another one.
@@ -40,20 +42,26 @@ bool lies_elsewhere(const StillForces& thin, glm::dvec2 common, const std::vecto
   });
 }
 
-/// Whether a long period only says how often a much shorter wave wavers, or comes and goes: its harmonics stand close
-/// about that of the peak. Those of a narrow ridge begin with the first and end far beyond the strongest.
-bool only_wavers(const std::vector<double>& powers, std::size_t carrier) {
+/// Whether a long period only says how often a much shorter wave wavers, or comes and goes: all its harmonics stand
+/// close about that of the carrier and its multiples. Those of a narrow ridge begin with the first and lie everywhere.
+bool only_wavers(const std::vector<double>& powers, double carrier) {
   if (carrier < least_carrier) return false;
-  const double width = about_carrier * static_cast<double>(carrier);
   double near = 0, all = 0;
   for (std::size_t i = 0; i < powers.size(); ++i) {
+    const double carriers = static_cast<double>(i + 1) / carrier, nearest = std::max(1.0, std::round(carriers));
     all += powers[i];
-    if (std::abs(static_cast<double>(i + 1) - static_cast<double>(carrier)) <= width) near += powers[i];
+    if (std::abs(carriers - nearest) <= (nearest > 1 ? about_its_harmonics : about_carrier)) near += powers[i];
   }
   return near > (1 - hardly_beside_carrier) * all;
 }
 
 }  // namespace
+
+std::size_t carrier_of(const std::vector<double>& powers, std::size_t strongest) {
+  for (std::size_t periods = 1; periods <= most_of_carrier; ++periods)
+    if (only_wavers(powers, static_cast<double>(strongest) / static_cast<double>(periods))) return periods;
+  return 0;
+}
 
 int whole_periods(glm::dvec2 wave, glm::dvec2 other, glm::dvec2 size) {
   const double whole = std::round(glm::dot(other, wave) / glm::dot(wave, wave));
@@ -107,7 +115,7 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
     if (multiple == few_multiples && std::ranges::max(all) < hopeless) break;
   }
   std::vector<double> powers;
-  for (std::size_t longest = all.size();; longest = found.multiple / 2) {
+  for (std::size_t longest = all.size();;) {
     const double best = std::ranges::max(std::span(all).first(longest));
     for (std::size_t i = 0; i < longest; ++i)
       if (all[i] >= best - hardly_less) {
@@ -118,7 +126,8 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
     const FoldedWave wave =
         folded(thin.places, thin.forces, found.waves, most_bins(parts_of_a_wave * found.multiple, thin.places.size()));
     powers = harmonics_of(wave, std::min(6 * found.multiple + 6, wave.profile.size() / 2));
-    if (!only_wavers(powers, found.multiple)) break;
+    longest = carrier_of(powers, found.multiple);
+    if (longest == 0) break;
   }
   // A peak may lie beside the wave, at an even part of a multiple: then only every so many-th harmonic is there.
   std::size_t step = 0;

@@ -30,6 +30,11 @@ std::vector<double> harmonics_of(const FoldedWave& wave, std::size_t most);
 /// nothing lies between it and the harmonics that the coarse wave has. 0 if there is none.
 std::size_t fine_wave(const std::vector<double>& powers);
 
+/// Whether a long period only says how often a much shorter wave wavers, or comes and goes: all its harmonics (their
+/// powers, from the first on) stand close about that of the carrier and its multiples. Then this is how many periods of
+/// the harmonic `strongest` the carrier has; 0 if it is no such wave.
+std::size_t carrier_of(const std::vector<double>& powers, std::size_t strongest);
+
 /// A wave in a window: what `multiple` times the period of a peak explains.
 struct Fundamental {
   glm::dvec2 waves{0};

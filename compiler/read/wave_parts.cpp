@@ -39,7 +39,7 @@ std::size_t fine_wave(const std::vector<double>& powers) {
 std::vector<WavePart> parts_of(const FoundWave& wave) {
   const std::vector<double> powers = harmonics_of(wave.wave, wave.wave.profile.size() / 2);
   std::vector<WavePart> parts;
-  if (wave.parts.size() > 1) {
+  if (wave.parts != std::vector<std::size_t>{1}) {
     for (const std::size_t number : wave.parts) parts.push_back({number, 0});
   } else if (const std::size_t fine = fine_wave(powers); fine > 0) {
     parts = {{fine, 0}, {1, 0}};
@@ -96,12 +96,12 @@ void take_harmonic_off(FoldedWave& wave, std::size_t number) {
 }
 
 double FoundWaves::period(glm::dvec2 size) const {
-  const glm::dvec2 strongest = waves.front().wave.waves;
+  const glm::dvec2 strongest = waves.front().felt();
   constexpr int most = 5;
   for (int number = 1; number <= most; ++number) {
     const glm::dvec2 common = strongest / static_cast<double>(number);
     const bool fits = std::ranges::all_of(waves, [&](const FoundWave& each) {
-      const glm::dvec2 other = each.wave.waves;
+      const glm::dvec2 other = each.felt();
       const glm::dvec2 across = other - glm::dot(other, common) / glm::dot(common, common) * common;
       if (glm::length(across * size) > out_of_place) return true;  // along another direction
       const int whole = std::abs(whole_periods(common, other, size));

@@ -13,8 +13,13 @@ namespace wale {
 struct FoundWave {
   FoldedWave wave;
   double power = 0;  ///< N^2: its mean square, over the patch or, for a local wave, where it was found
-  /// The waves of which it is the sum if these share a short period: their numbers of periods in it. Otherwise 1 alone.
+  /// The waves of which it is the sum if these share a short period: their numbers of periods in it. A wave that
+  /// wavers, or comes and goes, and is the same again after this wave's period, has its own number of periods alone.
+  /// Otherwise 1.
   std::vector<std::size_t> parts = {1};
+
+  /// Periods over a metre: of the wave that is felt, which may waver.
+  glm::dvec2 felt() const { return (parts.size() == 1 ? static_cast<double>(parts.front()) : 1.0) * wave.waves; }
 };
 
 /// A wave of which another one is the sum.
