@@ -124,10 +124,8 @@ class Explorer {
   std::vector<float> entered_;
 };
 
-void take(Exploration& found, double gained, const Energies& energies, double seconds) {
-  found.gained_watt = std::max(found.gained_watt, gained / seconds);
-  found.moved_watt = std::max(found.moved_watt, energies.moved / seconds);
-  found.pushed_watt = std::max(found.pushed_watt, energies.pushed / seconds);
+ExploredPower power(double gained, const Energies& energies, double seconds) {
+  return {gained / seconds, energies.moved / seconds, energies.pushed / seconds};
 }
 
 /// The ranges that states went through.
@@ -169,14 +167,18 @@ bool goes_on(const std::vector<std::vector<float>>& by_second, const Ranges& fir
 
 }  // namespace
 
+void ExploredPower::add(const ExploredPower& other) {
+  gained = std::max(gained, other.gained);
+  moved = std::max(moved, other.moved);
+  pushed = std::max(pushed, other.pushed);
+}
+
 void Exploration::add(Exploration other) {
   hands.insert(hands.end(), other.hands.begin(), other.hands.end());
   states.insert(states.end(), other.states.begin(), other.states.end());
   changing.resize(other.changing.size(), false);
   for (std::size_t i = 0; i < changing.size(); ++i) changing[i] = changing[i] || other.changing[i];
-  gained_watt = std::max(gained_watt, other.gained_watt);
-  moved_watt = std::max(moved_watt, other.moved_watt);
-  pushed_watt = std::max(pushed_watt, other.pushed_watt);
+  usual.add(other.usual), beyond.add(other.beyond);
   runs_on = runs_on || other.runs_on;
 }
 
@@ -198,15 +200,19 @@ Exploration explore(const Bank& bank, const GradingHand& hand, bool button) {
       if ((i + 1) % each == 0) gained.push_back({energies.work, explorer.here()});
       if (i < settled) ranges.add(explorer.states());
     });
-    take(found, gained_for_good(bank, at(0), std::move(gained), explorer.hand(button)), first, exploring_seconds);
+    const double kept = gained_for_good(bank, at(0), std::move(gained), explorer.hand(button));
+    (button ? found.beyond : found.usual).add(power(kept, first, exploring_seconds));
     if (!timed && !ranges.left_by(explorer.states())) continue;
-    // Over whole turns of a hand that goes the same way again, what it gains is no energy that a field has stored.
+    // Over whole turns of a hand that goes the same way again, what it gains is no energy that a field has stored; and
+    // what it gains in all is none that a mass or a spring in the program took from it before.
+    double in_all = first.work;
     const double turns = std::max(1.0, std::round(exploring_seconds * hand.frequency)) / hand.frequency;
     const long ticks = std::lround(turns * program.device.rate);
     std::vector<std::vector<float>> by_second;
     while (explorer.seconds() < still_seconds) {
       const Energies later = explorer.run(ticks, button, later_hands, [](const Energies&, long) {});
-      take(found, later.work, later, turns);
+      in_all += later.work;
+      found.beyond.add(power(std::min(later.work, in_all), later, turns));
       by_second.emplace_back(explorer.states().begin(), explorer.states().end());
     }
     found.runs_on = found.runs_on || goes_on(by_second, ranges);
@@ -239,7 +245,7 @@ Exploration visit(const Bank& bank, const GradingHand& hand, std::span<const Han
       double gained = gained_for_good(bank, from, std::move(since), explorer.hand(button));
       if (earlier != 0)
         gained = std::min(gained, gained_for_good(bank, from, std::move(in_all), explorer.hand(button)));
-      take(found, gained, energies, static_cast<double>(part) / rate);
+      found.beyond.add(power(gained, energies, static_cast<double>(part) / rate));
       return energies.work;
     };
     for (const bool button : {false, true}) {

@@ -7,6 +7,15 @@
 
 namespace wale {
 
+/// The largest powers, W, that exploring hands find.
+struct ExploredPower {
+  double gained = 0;  ///< net energy that the hand keeps when it goes back to where it began, by time
+  double moved = 0;   ///< energies in both directions, by time
+  double pushed = 0;  ///< energies from the program to the hand alone, by time
+
+  void add(const ExploredPower& other);
+};
+
 /// What hands find that enter, stroke to and fro or circle, and hold the button or not.
 ///
 /// They do so for a second, and for as long as a reading looks (`still_seconds`) if the program reads the time or has a
@@ -15,9 +24,8 @@ struct Exploration {
   std::vector<Hand> hands;     ///< one per tick of the first second, then some of them
   std::vector<float> states;   ///< before each tick, hand by hand
   std::vector<char> changing;  ///< for each state, whether it changed after it was entered
-  double gained_watt = 0;      ///< largest net energy that the hand keeps when it goes back to where it began, by time
-  double moved_watt = 0;       ///< energies in both directions by time, where they are largest
-  double pushed_watt = 0;      ///< energies from the program to the hand alone by time, where they are largest
+  ExploredPower usual;         ///< of the first second around the centre
+  ExploredPower beyond;        ///< of later seconds, other places and pressed buttons
   bool runs_on = false;        ///< a state runs on at the end as it did before, so that more may come
 
   /// Takes up what another exploration of the same program found.

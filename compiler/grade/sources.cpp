@@ -67,6 +67,23 @@ std::vector<Hand> places_to_visit(const SoughtSources& sought, const Push& push)
   return centres;
 }
 
+/// Sets the power of the sources if hands found any.
+bool find_power(const SoughtSources& sought, const ExploredPower& found, const Push& push, Energy& energy) {
+  if (found.gained > std::max(sought.least_watt, share_of_work * found.moved)) energy.source_watt = found.gained;
+  // What a bristle returns is less than it took, also if its force comes and goes by itself: of a program with a memory
+  // of the hand, the power of one moment says nothing.
+  const PatchProgram& program = sought.bank.program().description();
+  const bool driven = !program.states.empty() && !remembers_time_only(program);
+  if (push.watt > sought.least_watt && (driven ? found.pushed > sought.least_watt : found.moved > 0)) {
+    energy.reasons.push_back("something in it moves by itself");
+    // A hand that moved along with it could gain half of the energy in both directions.
+    energy.source_watt = std::max(energy.source_watt, found.moved / 2);
+  } else if (energy.source_watt > 0) {
+    energy.reasons.push_back("its memory returns more energy than it received");
+  }
+  return energy.source_watt > 0;
+}
+
 }  // namespace
 
 Exploration explore_with_button(const Bank& bank, const GradingHand& hand) {
@@ -87,19 +104,13 @@ void find_sources(const SoughtSources& sought, std::optional<Exploration>& explo
     there.hands.clear(), there.states.clear();
     exploration->add(std::move(there));
   }
-  if (exploration->gained_watt > std::max(sought.least_watt, share_of_work * exploration->moved_watt))
-    energy.source_watt = exploration->gained_watt;
-  // What a bristle returns is less than it took, also if its force comes and goes by itself: of a program with a memory
-  // of the hand, the power of one moment says nothing.
-  const bool driven = !program.states.empty() && !remembers_time_only(program);
-  if (push.watt > sought.least_watt && (!driven || exploration->pushed_watt > sought.least_watt)) {
-    energy.reasons.push_back("something in it moves by itself");
-    // A hand that moved along with it could gain half of the energy in both directions.
-    const double along = exploration->moved_watt > 0 ? exploration->moved_watt : push.watt;
-    energy.source_watt = std::max(energy.source_watt, along / 2);
-  } else if (energy.source_watt > 0) {
-    energy.reasons.push_back("its memory returns more energy than it received");
-  }
+  // A power is that of the usual way; other ways count if that one finds none.
+  if (find_power(sought, exploration->usual, push, energy) || find_power(sought, exploration->beyond, push, energy))
+    return;
+  // A program of places and times alone may push where no hand went: nothing that it remembers takes that back.
+  if (push.watt <= sought.least_watt || (!program.states.empty() && !remembers_time_only(program))) return;
+  energy.reasons.push_back("something in it moves by itself");
+  energy.source_watt = push.watt / 2;
 }
 
 }  // namespace wale
