@@ -18,8 +18,7 @@ constexpr std::size_t way_back = 64;   // places on a way back
 constexpr long later_hands = 8;        // ticks from one hand that is kept to the next, after the first second
 constexpr double settled_from = 0.75;  // of the first second: a state that went further after that is on its way
 constexpr double on_its_way = 1e-3;    // of the range that a state went through
-constexpr double as_before = 0.5;      // of a second's change, from which on the next one runs on like it
-constexpr std::size_t changes_in_a_row = 3;
+constexpr double uneven = 0.02;        // of a second's change, by which that of others may differ in a clock
 constexpr double visit_seconds = 0.25, press_after = 0.4;  // the latter is a part of a visit
 constexpr double visit_radius = 0.01;                      // m
 
@@ -148,18 +147,16 @@ struct Ranges {
   }
 };
 
-/// Whether a state goes on, second by second, as a clock does: one that settles goes ever more slowly, and a phase
-/// comes back to where it was in the first second.
-bool goes_on(const std::vector<std::vector<float>>& by_second, const Ranges& first) {
-  if (by_second.size() <= changes_in_a_row) return false;
-  for (std::size_t state = 0; state < by_second.back().size(); ++state) {
-    bool on = first.left_by(by_second.back(), state);
-    double before = 0;
-    for (std::size_t i = by_second.size() - changes_in_a_row; i < by_second.size(); ++i) {
-      const double change = static_cast<double>(by_second[i][state]) - by_second[i - 1][state];
-      on = on && change != 0 && change * before >= 0 && std::abs(change) >= as_before * std::abs(before);
-      before = change;
-    }
+/// Whether a state runs on evenly, second by second, as a clock or a sum of ways does: one that settles goes ever more
+/// slowly, and a phase comes back to where it was in the first second.
+bool runs_on(const std::vector<std::vector<float>>& by_second, const Ranges& first) {
+  for (std::size_t state = 0; state < first.low.size(); ++state) {
+    const auto change = [&](std::size_t second) {
+      return static_cast<double>(by_second[second][state]) - by_second[second - 1][state];
+    };
+    bool on = by_second.size() > 2 && first.left_by(by_second.back(), state);
+    for (std::size_t i = 1; i < by_second.size(); ++i)
+      on = on && change(i) != 0 && std::abs(change(i) - change(1)) <= uneven * std::abs(change(1));
     if (on) return true;
   }
   return false;
@@ -190,6 +187,7 @@ Exploration explore(const Bank& bank, const GradingHand& hand, bool button) {
   Exploration found;
   for (const bool circles : {false, true}) {
     const auto at = [&](double time) { return exploring_place(time, radius, hand.frequency, circles); };
+    const std::size_t hands_before = found.hands.size();
     Explorer explorer(bank, at, found);
     explorer.enter(0, button);
     std::vector<Gained> gained;
@@ -215,7 +213,12 @@ Exploration explore(const Bank& bank, const GradingHand& hand, bool button) {
       found.beyond.add(power(std::min(later.work, in_all), later, turns));
       by_second.emplace_back(explorer.states().begin(), explorer.states().end());
     }
-    found.runs_on = found.runs_on || goes_on(by_second, ranges);
+    const bool clock = runs_on(by_second, ranges);
+    found.runs_on = found.runs_on || clock;
+    if (timed || clock) continue;
+    // Nothing new began; the hands of the first second are enough.
+    found.hands.resize(hands_before + static_cast<std::size_t>(second));
+    found.states.resize(found.hands.size() * program.states.size());
   }
   return found;
 }

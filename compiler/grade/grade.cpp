@@ -382,9 +382,10 @@ class Grader {
 
   void decide() {
     grade_.later_newton = later_force(bank_, still_seconds, remembers_time_only(program_));
-    // A state that runs on may bring what nobody has looked at; of states that go by time alone, the proof above says
-    // it.
-    if (grade_.later_newton == 0 && exploration_ && exploration_->runs_on && !remembers_time_only(program_))
+    // A state that runs on may bring what nobody has looked at, so the program is not called passive; of states that go
+    // by time alone, the proof above says it.
+    const bool runs_on = exploration_ && exploration_->runs_on && !remembers_time_only(program_);
+    if (runs_on && grade_.later_newton == 0 && !grade_.energy.active() && by_damping(grade_) == Standing::passive)
       grade_.later_newton = prove(bank_.program()).bound_newton;
     if (grade_.energy.active())
       grade_.standing = Standing::active;

@@ -74,7 +74,7 @@ bool find_power(const SoughtSources& sought, const ExploredPower& found, const P
   // of the hand, the power of one moment says nothing.
   const PatchProgram& program = sought.bank.program().description();
   const bool driven = !program.states.empty() && !remembers_time_only(program);
-  if (push.watt > sought.least_watt && (driven ? found.pushed > sought.least_watt : found.moved > 0)) {
+  if (push.watt > sought.least_watt && (driven ? found.pushed : found.moved / 2) > sought.least_watt) {
     energy.reasons.push_back("something in it moves by itself");
     // A hand that moved along with it could gain half of the energy in both directions.
     energy.source_watt = std::max(energy.source_watt, found.moved / 2);
