@@ -169,8 +169,10 @@ OpposingForce law_of(std::vector<Stroke> strokes, std::vector<double> opposed, d
   for (const FrictionLaw& law : laws) {
     const OpposingForce found = law.rises ? rising(law, strokes, opposed) : fitted(law, 0, strokes, opposed);
     if (!plausible(found, by_speed)) continue;
-    if (found.scatter < 0.7 * best.scatter) best = found;
-    if (best.scatter < well_fitted * largest) break;
+    // What is nothing beside the force on a fast hand may be most of that on a slow one.
+    const bool tells = tells_all_speeds(found, by_speed, largest);
+    if (found.scatter < 0.7 * best.scatter || (tells && !tells_all_speeds(best, by_speed, largest))) best = found;
+    if (best.scatter < well_fitted * largest && tells) break;
   }
   const Power power = power_of(by_speed.means);
   best.by_speed = by_speed.means, best.exponent = power.exponent;
