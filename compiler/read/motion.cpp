@@ -244,8 +244,10 @@ bool OpposingForce::by_no_figure() const {
          std::ranges::any_of(by_speed, [](const DragAt& each) { return std::abs(each.newton) >= least_force; });
 }
 
-double OpposingForce::unexplained_at(double speed) const {
-  if (explained || by_speed.empty()) return 0;
+double OpposingForce::unexplained_at(double speed) const { return explained ? 0 : at(speed); }
+
+double OpposingForce::at(double speed) const {
+  if (by_speed.empty()) return 0;
   const DragAt* before = &by_speed.front();
   for (const DragAt& each : by_speed) {
     if (each.speed >= speed) {
@@ -255,6 +257,11 @@ double OpposingForce::unexplained_at(double speed) const {
     before = &each;
   }
   return before->newton;
+}
+
+double OpposingForce::creeping() const {
+  constexpr double slowly = 0.01;  // m/s
+  return by_speed.empty() || by_speed.front().speed > slowly ? 0 : unexplained_at(slowly);
 }
 
 Principal inertia(const Bank& bank) {

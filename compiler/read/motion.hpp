@@ -64,8 +64,12 @@ struct OpposingForce {
   double rise() const;
   /// Whether a hand is resisted, or pushed on, in a way that one friction or one viscosity alone does not tell.
   bool by_no_figure() const;
+  /// N at a speed (m/s), whether it is explained or not.
+  double at(double speed) const;
   /// N at a speed (m/s), if it is not explained; 0 otherwise.
   double unexplained_at(double speed) const;
+  /// N at 0.01 m/s, if it is not explained and was looked at; 0 otherwise.
+  double creeping() const;
   /// N at 0.2 m/s: what pushes a hand along each axis, whichever way it goes, and no resting one.
   glm::dvec2 one_way() const { return 0.5 * (backward - forward); }
   /// N at 0.2 m/s: by how much the resistance differs from place to place.
