@@ -21,6 +21,9 @@ constexpr double alike_everywhere = 0.8;  // of the largest change, in the mean 
 constexpr double still_changing = 0.02;   // of the whole change, within the last part of the time
 constexpr double last_part = 0.25;
 constexpr double plainly_remains = 0.5;  // of the whole change
+constexpr std::size_t steps_a_window = 8;
+constexpr double moves_a_swing = 0.02, bends = 0.02;  // of the swing's amplitude
+constexpr double most_left_out = 0.25;                // of the time
 
 /// The means of a force over windows, one after the other; the window is Hann's, so that a swing has none in it.
 /// Without a swing the force itself.
@@ -34,7 +37,7 @@ std::vector<glm::dvec2> course_of(const std::vector<Force>& forces, std::size_t 
   for (std::size_t i = 0; i < width; ++i)
     window[i] = (1 - std::cos(2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(width))) /
                 static_cast<double>(width);
-  const std::size_t step = std::max<std::size_t>(1, width / 8);
+  const std::size_t step = std::max<std::size_t>(1, width / steps_a_window);
   for (std::size_t first = 0; first + width <= forces.size(); first += step) {
     glm::dvec2 sum{0};
     for (std::size_t i = 0; i < width; ++i) sum += window[i] * glm::dvec2(forces[first + i]);
@@ -110,6 +113,48 @@ SlowChange slow_change(const Bank& bank, const std::vector<std::vector<Force>>& 
   }
   found.settles = glm::length(highest - lowest) < still_changing * found.newton;
   return found;
+}
+
+namespace {
+
+/// Where the course of a force bends within half of a window, as at a jump, which the window smears.
+std::vector<bool> bends_of(const std::vector<glm::dvec2>& course, double least) {
+  constexpr std::size_t half = steps_a_window / 2;
+  std::vector<bool> found(course.size());
+  for (std::size_t i = half; i + half < course.size(); ++i)
+    if (glm::length(course[i - half] - 2.0 * course[i] + course[i + half]) > least)
+      std::fill(found.begin() + static_cast<std::ptrdiff_t>(i - half),
+                found.begin() + static_cast<std::ptrdiff_t>(i + half + 1), true);
+  return found;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::vector<Force>>> without_slow_change(const Bank& bank,
+                                                                   const std::vector<std::vector<Force>>& felt,
+                                                                   const Swing& swing) {
+  const std::size_t ticks = felt.front().size();
+  const std::size_t width = window_for(few_swings, {}, swing, bank.program().description().device.rate, ticks);
+  const std::size_t step = std::max<std::size_t>(1, width / steps_a_window);
+  const Course course = course_over_places(felt, width);
+  if (course.newton < std::max(least_force, moves_a_swing * swing.amplitude)) return std::nullopt;
+  std::vector<std::vector<Force>> left = felt;
+  for (std::vector<Force>& forces : left) {
+    const std::vector<glm::dvec2> means = course_of(forces, width);
+    const std::vector<bool> bent = bends_of(means, bends * swing.amplitude);
+    std::size_t left_out = 0;
+    for (std::size_t i = 0; i < ticks; ++i) {
+      // The first mean is that of half a window later.
+      const double at = (static_cast<double>(i) - 0.5 * static_cast<double>(width)) / static_cast<double>(step);
+      const double inside = std::clamp(at, 0.0, static_cast<double>(means.size() - 1));
+      const auto before = static_cast<std::size_t>(inside), after = std::min(before + 1, means.size() - 1);
+      const glm::dvec2 mean = glm::mix(means[before], means[after], inside - static_cast<double>(before));
+      if (bent[before]) ++left_out;
+      forces[i] = bent[before] ? Force(0) : forces[i] - Force(mean);
+    }
+    if (static_cast<double>(left_out) > most_left_out * static_cast<double>(ticks)) return std::nullopt;
+  }
+  return left;
 }
 
 }  // namespace wale

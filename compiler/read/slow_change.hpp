@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "compiler/read/swing.hpp"
@@ -23,5 +24,11 @@ struct SlowChange {
 /// Tells it from the forces on hands that hold still (`felt_at_rest`) with their swings.
 SlowChange slow_change(const Bank& bank, const std::vector<std::vector<Force>>& felt, const Swing& sway,
                        const Swing& vibration);
+
+/// Such forces without what changes slower than a vibration of `swing`'s frequency, so that its size shows alone; 0
+/// where they jump. Nothing if no change is a part of its size, or too much of the time would be left out.
+std::optional<std::vector<std::vector<Force>>> without_slow_change(const Bank& bank,
+                                                                   const std::vector<std::vector<Force>>& felt,
+                                                                   const Swing& swing);
 
 }  // namespace wale

@@ -10,6 +10,7 @@
 
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/fourier.hpp"
+#include "compiler/read/slow_change.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
 #include "wale/batch.hpp"
@@ -22,11 +23,13 @@ constexpr std::size_t still_places = 8;
 constexpr std::size_t fewest_swings = 3;  // over that time; slower changes are a drift
 constexpr std::size_t most_harmonic = 8;
 constexpr double of_the_strongest = 0.2;  // line's power, in a fundamental
+constexpr double above_the_usual = 10;    // times the median line of a band
 constexpr double stands_out = 0.25;       // of a peak's power, at most this is three lines before it
 constexpr double most_of_power = 0.7;
 constexpr std::size_t most_lines = 24;   // of the spectrum, three for each rate, in what has rates
 constexpr std::size_t fewest_apart = 8;  // lines between the harmonics of what is no noise
 constexpr double no_swing = 1e-5;        // N
+constexpr double same_rate = 0.02;
 constexpr double plainly_less = 0.5;     // of the greatest, where it is least
 constexpr double beats_of_ticks = 0.05;  // of a vibration's power, below its band: the rate of the ticks is no multiple
 constexpr double pure = 0.995;           // of the power: a sine has as much in the lines around its own
@@ -149,6 +152,11 @@ Swing swing_in(const std::vector<double>& powers, std::size_t first, std::size_t
   for (std::size_t i = first; i < end; ++i) sum += powers[i];
   const double before = at > 0 ? powers[at - 1] : 0, after = at + 1 < powers.size() ? powers[at + 1] : 0;
   const double slower = at >= 3 ? powers[at - 3] : HUGE_VAL;
+  // What begins or ends leaves as much in all lines.
+  std::vector<double> all(powers.begin() + static_cast<std::ptrdiff_t>(first),
+                          powers.begin() + static_cast<std::ptrdiff_t>(end));
+  std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
+  if (powers[at] < above_the_usual * all[all.size() / 2]) return {};
   // A neighbour in a slower band may be the foot of a stronger peak there.
   if (powers[at] <= 0 || slower > stands_out * powers[at] || before > powers[at] || after > powers[at]) return {};
   // Under Hann's window, let r be the ratio in amplitude of the larger neighbour to the strongest line. The swing then
@@ -280,6 +288,14 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
 
 void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway, Swing& vibration) {
   const double share = tell_greatest_swings(bank, felt, sway, vibration);
+  if (vibration.frequency > 0 && sway.amplitude < least_force) {
+    // What comes or goes beside it is in its spectrum too.
+    if (const auto left = without_slow_change(bank, felt, vibration)) {
+      Swing no_sway, alone;
+      tell_greatest_swings(bank, *left, no_sway, alone);
+      if (std::abs(alone.frequency - vibration.frequency) < same_rate * vibration.frequency) vibration = alone;
+    }
+  }
   // Of two swings nobody knows which one differs.
   if (share > plainly_less || std::min(sway.amplitude, vibration.amplitude) >= least_force) return;
   Swing& swing = sway.amplitude > vibration.amplitude ? sway : vibration;

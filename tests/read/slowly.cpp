@@ -37,6 +37,10 @@ TEST(ReadingTime, APushThatComesOrGoesIsConstantAsFarAsItRemains) {
     EXPECT_NEAR(found.constant.y, 0, least_force) << text;
     EXPECT_NEAR(found.other.slowly, std::abs(after - before), 0.02 * std::max(before, after) + 0.02 * size) << text;
     EXPECT_LT(found.sway.amplitude, least_force) << text;
+    if (i % 2 != 0) {
+      EXPECT_NEAR(found.vibration.amplitude, size, 0.06 * size) << text;  // few ticks fall on its peaks
+      EXPECT_NEAR(found.vibration.frequency, rate, 0.02 * rate) << text;
+    }
   }
 }
 
