@@ -10,7 +10,7 @@ struct CodeEntry {
 };
 
 constexpr CodeEntry entries[] = {
-#define CODE(number, name, severity, title) {Code::name, Severity::severity, title},
+#define WALE_CODE(number, name, severity, title) {Code::name, Severity::severity, title},
 #include "wale/codes.def"
 };
 

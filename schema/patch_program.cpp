@@ -1,5 +1,6 @@
 #include "wale/patch_program.hpp"
 
+#include "schema/fnv1a.hpp"
 #include "schema/patch_program_format.hpp"
 
 namespace wale {
@@ -78,14 +79,14 @@ std::uint32_t checksum(std::span<const std::byte> file) {
 }
 
 std::uint64_t content_hash(const HeightTable& table) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
+  Fnv1a<std::uint64_t> hash;
   const auto take = [&hash](std::uint64_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) hash = (hash ^ (value >> 8 * i & 0xff)) * 0x100000001b3u;
+    for (int i = 0; i < bytes; ++i) hash.take(static_cast<std::uint8_t>(value >> 8 * i));
   };
   take(table.width, 4);
   take(table.height, 4);
   for (const std::uint16_t code : table.heights) take(code, 2);
-  return hash;
+  return hash.hash();
 }
 
 }  // namespace patch_program_format

@@ -77,18 +77,25 @@ std::optional<std::string> nearest_spelling(std::string_view word, const std::ve
   return std::move(near->text);
 }
 
+std::optional<std::size_t> distance_from(std::string_view word, std::string_view name) {
+  constexpr std::size_t least_letters = 3;
+  if (word.empty() || word.size() > longest_compared || name.size() > longest_compared) return std::nullopt;
+  const std::size_t changed = letters_changed(word, name);
+  if (changed <= 1) return changed;
+  const bool begins = word.size() >= least_letters && name.size() > word.size() &&
+                      std::ranges::equal(word, name.substr(0, word.size()), same);
+  if (begins) return 2;
+  if (changed > word.size() / 3) return std::nullopt;
+  return changed + 1;
+}
+
 std::vector<std::string> nearest_spellings(std::string_view word, const std::vector<std::string>& candidates,
                                            std::size_t most) {
-  if (word.empty() || word.size() > longest_compared) return {};
-  const std::size_t limit = std::max<std::size_t>(1, word.size() / 2);
   std::set<std::pair<std::size_t, std::string>> near;
-  for (const std::string& candidate : candidates) {
-    if (candidate.size() > longest_compared) continue;
-    const std::size_t changed = letters_changed(word, candidate);
-    if (changed <= limit) near.emplace(changed, candidate);
-  }
+  for (const std::string& candidate : candidates)
+    if (const auto distance = distance_from(word, candidate)) near.emplace(*distance, candidate);
   std::vector<std::string> nearest;
-  for (const auto& [changed, candidate] : near)
+  for (const auto& [distance, candidate] : near)
     if (nearest.size() < most) nearest.push_back(candidate);
   return nearest;
 }

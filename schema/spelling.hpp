@@ -27,8 +27,12 @@ struct NearSpelling {
 /// As `nearest_spelling`, with its certainty.
 std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates);
 
-/// The candidates with the fewest slips, each once, at most `most`, the nearest first: at most half of the word's
-/// letters, or one. Empty for words of more than 64 bytes.
+/// How far a name is from the word that may have meant it, for sorting: 0 for the same one, 1 for one slip, 2 if it
+/// begins with the word (of three letters at least), then one more than its slips. Empty if it is not near: more slips
+/// than one and than a third of the word's letters, or more than 64 bytes.
+std::optional<std::size_t> distance_from(std::string_view word, std::string_view name);
+
+/// The candidates that are near, each once, at most `most`, the nearest first (`distance_from`).
 std::vector<std::string> nearest_spellings(std::string_view word, const std::vector<std::string>& candidates,
                                            std::size_t most = 3);
 

@@ -30,12 +30,20 @@ function(install_headers)
   endforeach()
 endfunction()
 
+# Pages for programmers, and programs to begin from.
+install(FILES ${PROJECT_SOURCE_DIR}/runtime/C_INTERFACE.md ${PROJECT_SOURCE_DIR}/runtime/record/RECORDING.md
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development
+        FILES_MATCHING PATTERN *.cpp PATTERN *.c PATTERN *.py PATTERN *.md PATTERN CMakeLists.txt)
+
+install(TARGETS wale-c_runtime EXPORT Wale-runtime)
 install_library(wale-runtime runtime)
 install_headers(schema runtime)
 install(TARGETS wale_keeper RUNTIME DESTINATION ${companion_folder} COMPONENT keeper)
 install(FILES ${PROJECT_SOURCE_DIR}/runtime/device/hid_pid/70-wale.rules DESTINATION lib/udev/rules.d COMPONENT keeper)
 
 if(WALE_COMPILER)
+  install(TARGETS wale-c EXPORT Wale-compiler)
   install_library(wale compiler)
   install_headers(library)
   install(TARGETS wale RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)

@@ -7,6 +7,7 @@
 
 #include "compiler/cpp/shared_arithmetic.hpp"
 #include "compiler/listing/figures.hpp"
+#include "schema/fnv1a.hpp"
 
 namespace wale {
 namespace {
@@ -131,18 +132,12 @@ constexpr std::string_view end_of_checks = R"(
 #endif
 )";
 
-/// FNV-1a, 32 bits.
-std::uint32_t hash_of_code(std::string_view text) {
-  std::uint32_t hash = 0x811c9dc5u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193u;
-  return hash;
-}
-
 }  // namespace
 
 std::string framed(const HeaderFrame& frame, const std::string& code) {
   const SharedArithmetic& shared = shared_arithmetic();
-  const std::string guard = guard_of(frame), build = fmt::format("{}_{:08x}", guard, hash_of_code(code));
+  const std::string guard = guard_of(frame),
+                    build = fmt::format("{}_{:08x}", guard, Fnv1a<std::uint32_t>().take_all(code).hash());
   std::string text = comment_of(frame);
   text += fmt::format(
       "\n#if defined({0})\n#if !defined({1})\n#error \"another build of this material is included: its device, its "

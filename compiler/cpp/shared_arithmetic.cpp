@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "compiler/text/embedded_files.hpp"
+#include "schema/fnv1a.hpp"
 
 namespace wale {
 namespace {
@@ -45,16 +46,10 @@ std::string all_files() {
   return text;
 }
 
-/// FNV-1a, 32 bits.
-std::uint32_t hash_of_text(std::string_view text) {
-  std::uint32_t hash = 0x811c9dc5u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193u;
-  return hash;
-}
-
 SharedArithmetic make_shared_arithmetic() {
   const std::string files = all_files();
-  SharedArithmetic shared{.name = fmt::format("WALE_ARITHMETIC_{:08x}", hash_of_text(files)), .text = {}};
+  const std::uint32_t hash = Fnv1a<std::uint32_t>().take_all(files).hash();
+  SharedArithmetic shared{.name = fmt::format("WALE_ARITHMETIC_{:08x}", hash), .text = {}};
   std::string space = shared.name;
   std::ranges::transform(space, space.begin(),
                          [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });

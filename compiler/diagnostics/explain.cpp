@@ -27,7 +27,7 @@ std::optional<unsigned> number_named(std::string_view name) {
 std::vector<Code> all_codes() {
   std::vector<Code> codes = {
 // clang-format off
-#define CODE(number, name, severity, title) Code::name,
+#define WALE_CODE(number, name, severity, title) Code::name,
 #include "wale/codes.def"
       // clang-format on
   };

@@ -292,7 +292,7 @@ class ModuleLoader {
       const auto same = [&](const NearMaterial& other) { return other.material->name == each.material->name; };
       if (std::ranges::none_of(near, same) && each.material->origin != Origin::hidden) near.push_back(std::move(each));
     }
-    std::ranges::stable_sort(near, {}, &NearMaterial::changed);
+    std::ranges::stable_sort(near, {}, &NearMaterial::distance);
     constexpr std::size_t most_told = 3;
     if (near.size() > most_told) near.resize(most_told);
     const bool is_dotted = word.text.find('.') != std::string_view::npos;

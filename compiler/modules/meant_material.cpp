@@ -13,13 +13,13 @@ namespace wale {
 namespace {
 
 /// The name of a material that is nearest to a text.
-NearMaterial nearest_name(std::string_view text, const IndexedMaterial& material) {
-  NearMaterial near{&material, material.name, letters_changed(text, material.name)};
+std::optional<NearMaterial> nearest_name(std::string_view text, const IndexedMaterial& material) {
+  std::optional<NearMaterial> near;
   const auto hold_against = [&](const std::string& name) {
-    if (name.empty()) return;
-    if (const std::size_t changed = letters_changed(text, name); changed < near.changed)
-      near.changed = changed, near.name = name;
+    const auto distance = distance_from(text, name);
+    if (distance && (!near || *distance < near->distance)) near = NearMaterial{&material, name, *distance};
   };
+  hold_against(material.name);
   hold_against(material.title);
   for (const std::string& name : material.called) hold_against(name);
   if (text.find('.') == std::string_view::npos) return near;
@@ -51,11 +51,14 @@ Result<const IndexedMaterial*> meant_material(const LibraryIndex& index, std::st
   std::vector<const IndexedMaterial*> found = index.meant_by(text);
   keep_preferred(found, {});
   if (found.size() == 1) return found.front();
-  if (!found.empty())
-    return Error{Code::ambiguous_material,
-                 fmt::format("`{}` may be {} materials: {}", text, found.size(), listed(found)),
-                 fmt::format("name the file too, as in `{}:{}`", found.front()->file, found.front()->name),
-                 {.name = std::string(text)}};
+  if (!found.empty()) {
+    Error error{Code::ambiguous_material,
+                fmt::format("`{}` may be {} materials: {}", text, found.size(), listed(found)),
+                fmt::format("name its place too, as in `{}:{}`", place_of(*found.front(), found), found.front()->name),
+                {.name = std::string(text)}};
+    for (const IndexedMaterial* each : found) error.nearest.push_back(place_of(*each, found) + ":" + each->name);
+    return error;
+  }
   const auto near = nearest_materials(index, text);
   return Error{
       Code::unknown_name,
@@ -65,13 +68,10 @@ Result<const IndexedMaterial*> meant_material(const LibraryIndex& index, std::st
 }
 
 std::vector<NearMaterial> nearest_materials(const LibraryIndex& index, std::string_view text, std::size_t most) {
-  constexpr std::size_t longest_compared = 64;
-  if (text.empty() || text.size() > longest_compared) return {};
   std::vector<NearMaterial> near;
-  const std::size_t limit = std::max<std::size_t>(1, text.size() / 2);
   for (const IndexedMaterial& each : index.materials())
-    if (NearMaterial found = nearest_name(text, each); found.changed <= limit) near.push_back(std::move(found));
-  std::ranges::stable_sort(near, {}, &NearMaterial::changed);
+    if (auto found = nearest_name(text, each)) near.push_back(*std::move(found));
+  std::ranges::stable_sort(near, {}, &NearMaterial::distance);
   if (near.size() > most) near.resize(most);
   return near;
 }
@@ -88,7 +88,7 @@ std::string listed(const std::vector<const IndexedMaterial*>& materials) {
 std::string listed_near(const std::vector<NearMaterial>& materials) {
   std::string all;
   for (const NearMaterial& near : materials) {
-    const auto& [material, name, changed] = near;
+    const auto& [material, name, distance] = near;
     all += fmt::format("{}`{}` of `{}`", all.empty() ? "" : ", ", material->name, material->module);
     if (name == material->title || std::ranges::find(material->called, name) != material->called.end())
       all += fmt::format(" (\"{}\")", name);

@@ -19,18 +19,18 @@ namespace wale {
 void keep_preferred(std::vector<const IndexedMaterial*>& found, const std::vector<std::string_view>& imported);
 
 /// The material that `text` means without any imports. Errors: W0201 if there is none, with up to three near ones in
-/// its mend; W0217 if there are several, with a list of them. The result points into `index`.
+/// its mend; W0217 if there are several, with a list of them, and as nearest names those that each has alone. The result points into `index`.
 Result<const IndexedMaterial*> meant_material(const LibraryIndex& index, std::string_view text);
 
 /// A material that has a name near to a text.
 struct NearMaterial {
   const IndexedMaterial* material = nullptr;
-  std::string name;         ///< the near one: its name, title or `called` text, or its name with its module
-  std::size_t changed = 0;  ///< slips between the two
+  std::string name;          ///< the near one: its name, title or `called` text, or its name with its module
+  std::size_t distance = 0;  ///< `distance_from` the text
 };
 
 /// The materials whose names are nearest to `text`: at most `most`, the nearest first. Those with their modules are
-/// compared if `text` has a dot. Names that differ in more than half of their letters are left out.
+/// compared if `text` has a dot. Names that are not near are left out.
 std::vector<NearMaterial> nearest_materials(const LibraryIndex& index, std::string_view text, std::size_t most = 3);
 
 /// "`denim` of `fabric.denim`, `jeans` of `shop.cloth` and 3 more".

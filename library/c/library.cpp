@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/c/device.hpp"
+#include "runtime/c/profile.hpp"
 #include "runtime/c/program.hpp"
 #include "runtime/c/sized.hpp"
 #include "wale/library.h"
@@ -30,7 +31,9 @@ Result<LibraryOptions> read_library_options(const WaleLibraryOptions* options) {
   if (!given) return given.error();
   if (given->folder_count > 0 && given->folders == nullptr)
     return about_argument("folders", "expected a value, found NULL");
-  LibraryOptions read{.unsandboxed_pictures = given->unsandboxed_pictures != 0};
+  const auto unsandboxed = read_flag("unsandboxed_pictures", given->unsandboxed_pictures);
+  if (!unsandboxed) return unsandboxed.error();
+  LibraryOptions read{.unsandboxed_pictures = *unsandboxed};
   for (const WaleText& each : std::span(given->folders, given->folder_count)) {
     auto folder = read_path("folders", each);
     if (!folder) return std::move(folder).error();

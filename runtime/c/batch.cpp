@@ -6,6 +6,7 @@
 #include "runtime/c/program.hpp"
 #include "runtime/c/run.hpp"
 #include "runtime/c/sized.hpp"
+#include "schema/spelling.hpp"
 #include "wale/batch.hpp"
 
 namespace wale::c {
@@ -34,6 +35,9 @@ Result<std::vector<float>> parameters_of(const Program& program, const WaleBatch
     if (!index) {
       Error unknown = about_argument("settings", "the program has no parameter `" + *name + "`", Code::unknown_name);
       unknown.place.text = *name;
+      std::vector<std::string> known;
+      for (const Parameter& one : program.description().parameters) known.push_back(one.name);
+      unknown.nearest = nearest_spellings(*name, known);
       return unknown;
     }
     if (!std::isfinite(each.value)) return about_argument("settings", "expected a finite number for `" + *name + "`");

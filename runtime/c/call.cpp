@@ -66,6 +66,11 @@ Result<> is_given(const char* argument, const void* value) {
   return {};
 }
 
+Result<bool> read_flag(const char* argument, std::int32_t value) {
+  if (value != 0 && value != 1) return about_argument(argument, "expected 0 or 1, found " + std::to_string(value));
+  return value == 1;
+}
+
 Result<std::string_view> bytes_of(const char* argument, WaleText text) {
   if (text.data == nullptr) {
     if (text.length == 0 || text.length == WALE_ZERO_ENDED) return std::string_view();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -40,7 +41,11 @@ Error about_argument(std::string argument, std::string sentence, Code code = Cod
 /// Error: an argument is NULL.
 Result<> is_given(const char* argument, const void* value);
 
-inline WaleText text_of(std::string_view text) { return {text.data(), text.size()}; }
+/// A text of a result: also an empty one has data.
+inline WaleText text_of(std::string_view text) { return {text.empty() ? "" : text.data(), text.size()}; }
+
+/// A yes or no of an argument. Error: it is neither 0 nor 1.
+Result<bool> read_flag(const char* argument, std::int32_t value);
 
 /// The bytes of an argument. Error: `malformed_value`.
 Result<std::string_view> bytes_of(const char* argument, WaleText text);

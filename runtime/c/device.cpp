@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "runtime/c/profile.hpp"
 #include "runtime/c/program.hpp"
 #include "runtime/c/sized.hpp"
 #include "runtime/device/shipped_devices.hpp"
@@ -78,54 +79,15 @@ Result<OpenOptions> read_options(const WaleDeviceOptions* options) {
   read.built_for = *built_for, read.transport = *transport, read.keeper = *keeper;
   if (given->max_force != 0) read.max_force = given->max_force;
   if (given->priority != 0) read.priority = given->priority;
-  if (given->disregard_owner != 0) read.trusted = TrustedDevices{};
+  const auto disregard = read_flag("disregard_owner", given->disregard_owner);
+  if (!disregard) return disregard.error();
+  if (*disregard) read.trusted = TrustedDevices{};
   if (auto finite = all_finite(*given); !finite) return std::move(finite).error();
   read.hand = {given->hand_mass, given->hand_damping, given->hand_stiffness};
   auto motion = motion_of(*given);
   if (!motion) return std::move(motion).error();
   read.motion = *std::move(motion);
   return read;
-}
-
-WaleProfile figures_of(const DeviceProfile& profile) {
-  return {.name = text_of(profile.name),
-          .workspace_diameter = profile.workspace_diameter,
-          .position_counts = profile.position_counts,
-          .force = profile.force_newton,
-          .force_counts = profile.force_counts,
-          .rate = profile.rate,
-          .speed_limit = profile.speed_limit,
-          .slew = profile.slew,
-          .continuous_force = profile.continuous_newton,
-          .heating_seconds = profile.heating_seconds,
-          .active_power = profile.active_watt,
-          .velocity_window = profile.velocity_window,
-          .velocity_noise_counts = profile.velocity_noise_counts,
-          .patch_width = profile.patch_width,
-          .patch_height = profile.patch_height,
-          .patch_rim = profile.patch_rim,
-          .mass = profile.mass,
-          .damping = profile.damping,
-          .friction = profile.friction,
-          .delay_x = profile.delay_x,
-          .delay_y = profile.delay_y,
-          .bandwidth_x = profile.bandwidth_x,
-          .bandwidth_y = profile.bandwidth_y,
-          .vibrates = profile.shaker.has_value(),
-          .has_position = profile.has_position()};
-}
-
-Result<> give_profile(const std::vector<DeclaredDevice>& declared, WaleText name, WaleProfile* to) {
-  const auto wanted = read_text("name", name);
-  if (!wanted) return wanted.error();
-  for (const DeclaredDevice& each : declared)
-    if (each.profile.name == *wanted) {
-      write_sized(to, figures_of(each.profile));
-      return {};
-    }
-  Error unknown = about_argument("name", "no device is called `" + *wanted + "`", Code::unknown_device);
-  unknown.place.text = *wanted;
-  return unknown;
 }
 
 void hand_out_devices(std::vector<DeviceInfo> devices, WaleDevices** to) {
@@ -170,7 +132,7 @@ WaleCode wale_devices_info(const WaleDevices* devices, size_t index, WaleDeviceI
     write_sized(info, {.spelling = text_of(known.spelling),
                        .name = text_of(known.name),
                        .numbers = text_of(known.numbers),
-                       .profile = known.profile ? text_of(known.profile->name) : WaleText{},
+                       .profile = known.profile ? text_of(known.profile->name) : text_of({}),
                        .can = text_of(known.can),
                        .held_by = text_of(devices->holders[index]),
                        .obstacle = devices->obstacles[index].get(),

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "runtime/c/call.hpp"
-#include "wale/declared_device.hpp"
 #include "wale/device.h"
 #include "wale/devices.hpp"
 
@@ -18,13 +17,6 @@ struct SharedDevice {
 
 /// What `options` asks for. Errors: `malformed_value`, and those of texts.
 Result<OpenOptions> read_options(const WaleDeviceOptions* options);
-
-/// The figures of a profile; the text is the profile's.
-WaleProfile figures_of(const DeviceProfile& profile);
-
-/// Writes the figures of the declared device of that name, where its text stays. `to` has a size. Error:
-/// `unknown_device`.
-Result<> give_profile(const std::vector<DeclaredDevice>& declared, WaleText name, WaleProfile* to);
 
 /// Gives a list to the caller.
 void hand_out_devices(std::vector<DeviceInfo> devices, WaleDevices** to);

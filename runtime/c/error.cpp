@@ -13,7 +13,7 @@ struct CodeRow {
 };
 
 constexpr CodeRow code_rows[] = {
-#define CODE(number, name, severity, title) {1##number - 10000, "W" #number, title, WALE_SEVERITY_##severity},
+#define WALE_CODE(number, name, severity, title) {1##number - 10000, "W" #number, title, WALE_SEVERITY_##severity},
 #include "wale/codes.def"
 };
 
@@ -59,7 +59,7 @@ WaleCode wale_error_details(const WaleError* error, WaleErrorDetails* details) {
 }
 
 WaleText wale_error_nearest(const WaleError* error, size_t index) {
-  if (error == nullptr || index >= error->error.nearest.size()) return {};
+  if (error == nullptr || index >= error->error.nearest.size()) return text_of({});
   return text_of(error->error.nearest[index]);
 }
 
@@ -70,12 +70,12 @@ const WaleError* wale_error_other(const WaleError* error, size_t index) {
 
 WaleText wale_code_name(WaleCode code) {
   const CodeRow* row = row_of(code);
-  return row == nullptr ? WaleText{} : text_of(row->name);
+  return row == nullptr ? text_of({}) : text_of(row->name);
 }
 
 WaleText wale_code_title(WaleCode code) {
   const CodeRow* row = row_of(code);
-  return row == nullptr ? WaleText{} : text_of(row->title);
+  return row == nullptr ? text_of({}) : text_of(row->title);
 }
 
 int32_t wale_code_severity(WaleCode code) {

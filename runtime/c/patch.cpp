@@ -55,7 +55,10 @@ WaleCode wale_patch_replace(WalePatch* patch, const WaleProgram* program, WaleEr
 }
 
 WaleCode wale_patch_enable(WalePatch* patch, int32_t enabled, WaleError** error) {
-  return change_patch(patch, error, [&](wale::Patch& each) { return each.enable(enabled != 0); });
+  return change_patch(patch, error, [&](wale::Patch& each) -> wale::Result<> {
+    const auto wanted = read_flag("enabled", enabled);
+    return wanted ? each.enable(*wanted) : wanted.error();
+  });
 }
 
 WaleCode wale_patch_bring(WalePatch* patch, float layer, WaleError** error) {
@@ -132,7 +135,9 @@ WaleCode wale_edit_replace(WaleEdit* edit, const WalePatch* patch, const WalePro
 
 WaleCode wale_edit_enable(WaleEdit* edit, const WalePatch* patch, int32_t enabled, WaleError** error) {
   return change_edit(edit, patch, error, [&](wale::StageEdit& to, const wale::Patch& each) -> wale::Result<> {
-    to.enable(each, enabled != 0);
+    const auto wanted = read_flag("enabled", enabled);
+    if (!wanted) return wanted.error();
+    to.enable(each, *wanted);
     return {};
   });
 }

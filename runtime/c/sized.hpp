@@ -31,7 +31,7 @@ Result<> is_sized(const char* argument, const Struct* given) {
 }
 
 /// Reads an argument as far as it goes; what it lacks is 0. NULL is all 0. Errors: a wrong size; a part that this
-/// library does not know and that is not 0, so that nothing asked for is passed over.
+/// library does not know, or a reserved field, that is not 0: so that nothing asked for is passed over.
 template <class Struct>
 Result<Struct> read_sized(const char* argument, const Struct* given) {
   Struct read{};
@@ -43,6 +43,8 @@ Result<Struct> read_sized(const char* argument, const Struct* given) {
     if (bytes[at] != 0)
       return about_argument(argument, "it sets fields that are newer than this library", Code::newer_file);
   std::memcpy(&read, bytes, std::min(size, sizeof(Struct)));
+  if constexpr (requires { read.reserved; })
+    if (read.reserved != 0) return about_argument("reserved", "expected 0");
   return read;
 }
 

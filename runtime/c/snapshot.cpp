@@ -35,9 +35,9 @@ const float* wale_snapshot_states(const WaleSnapshot* snapshot, size_t* count) {
 }
 
 WaleText wale_snapshot_state_name(const WaleSnapshot* snapshot, size_t index) {
-  if (snapshot == nullptr) return {};
+  if (snapshot == nullptr) return text_of({});
   const auto& states = snapshot->snapshot.memory.program().description().states;
-  return index < states.size() ? text_of(states[index].name) : WaleText{};
+  return index < states.size() ? text_of(states[index].name) : text_of({});
 }
 
 WaleCode wale_snapshot_grid(const WaleSnapshot* snapshot, size_t index, WaleGrid* grid, WaleError** error) {

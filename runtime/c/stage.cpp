@@ -1,10 +1,11 @@
 #include "runtime/c/stage.hpp"
 
+#include <cmath>
 #include <utility>
 
+#include "runtime/c/profile.hpp"
 #include "runtime/c/run.hpp"
 #include "runtime/c/sized.hpp"
-#include "runtime/device/shipped_devices.hpp"
 
 WaleStage::~WaleStage() {
   { const wale::Stage ended(std::move(stage)); }
@@ -19,88 +20,21 @@ static_assert(sizeof(WaleGuards) == 11 * sizeof(int64_t));
 Result<StageOptions> read_stage_options(const WaleStageOptions* options) {
   const auto given = read_sized("options", options);
   if (!given) return given.error();
-  StageOptions read;
+  if (!(given->max_force >= 0 && given->max_force < HUGE_VAL))
+    return about_argument("max_force", "expected a finite number that is not negative");
+  if (given->priority < 0 || given->priority > 99) return about_argument("priority", "expected 0 to 99");
+  const auto lock_memory = read_flag("lock_memory", given->lock_memory);
+  if (!lock_memory) return lock_memory.error();
+  const auto low_latency = read_flag("low_latency", given->low_latency);
+  if (!low_latency) return low_latency.error();
+  StageOptions read{.lock_memory = *lock_memory, .low_latency = *low_latency};
   if (given->priority != 0) read.priority = given->priority;
-  read.lock_memory = given->lock_memory != 0;
-  read.low_latency = given->low_latency != 0;
   if (given->max_force != 0) read.max_force = given->max_force;
   auto file = read_path("record", given->record);
   if (!file) return std::move(file).error();
   auto hand = read_text("record_hand", given->record_hand);
   if (!hand) return std::move(hand).error();
   if (!file->empty()) read.record = {.file = *std::move(file), .hand = *std::move(hand)};
-  return read;
-}
-
-/// The shipped pad of that name: what shakes it is in no struct.
-Result<Shaker> shaker_of(const std::string& name) {
-  const auto& shipped = shipped_devices();
-  if (shipped)
-    for (const DeclaredDevice& each : *shipped)
-      if (each.profile.name == name && each.profile.shaker) return *each.profile.shaker;
-  return about_argument("profile", "expected the profile of a shipped pad, since no other one's shaker is known");
-}
-
-Result<DeviceProfile> read_profile(const WaleProfile* profile) {
-  if (auto given = is_given("profile", profile); !given) return std::move(given).error();
-  const auto given = read_sized("profile", profile);
-  if (!given) return given.error();
-  auto name = read_text("name", given->name);
-  if (!name) return std::move(name).error();
-  DeviceProfile read{.name = *std::move(name),
-                     .workspace_diameter = given->workspace_diameter,
-                     .position_counts = given->position_counts,
-                     .force_newton = given->force,
-                     .force_counts = given->force_counts,
-                     .rate = given->rate,
-                     .speed_limit = given->speed_limit,
-                     .slew = given->slew,
-                     .continuous_newton = given->continuous_force,
-                     .heating_seconds = given->heating_seconds,
-                     .active_watt = given->active_power,
-                     .velocity_window = given->velocity_window,
-                     .velocity_noise_counts = given->velocity_noise_counts,
-                     .patch_width = given->patch_width,
-                     .patch_height = given->patch_height,
-                     .patch_rim = given->patch_rim,
-                     .mass = given->mass,
-                     .damping = given->damping,
-                     .friction = given->friction,
-                     .delay_x = given->delay_x,
-                     .delay_y = given->delay_y,
-                     .bandwidth_x = given->bandwidth_x,
-                     .bandwidth_y = given->bandwidth_y};
-  for (const double each : {read.workspace_diameter,
-                            read.position_counts,
-                            read.force_newton,
-                            read.force_counts,
-                            read.rate,
-                            read.speed_limit,
-                            read.slew,
-                            read.continuous_newton,
-                            read.heating_seconds,
-                            read.active_watt,
-                            read.velocity_window,
-                            read.velocity_noise_counts,
-                            read.patch_width,
-                            read.patch_height,
-                            read.patch_rim,
-                            read.mass,
-                            read.damping,
-                            read.friction,
-                            read.delay_x,
-                            read.delay_y,
-                            read.bandwidth_x,
-                            read.bandwidth_y})
-    if (!(each >= 0 && each < HUGE_VAL))
-      return about_argument("profile", "expected finite figures that are not negative");
-  if (!(read.rate >= DeviceProfile::least_rate && read.rate <= DeviceProfile::most_rate))
-    return about_argument("rate", "expected 100 to 10000 ticks per second");
-  if (given->vibrates != 0) {
-    auto shaker = shaker_of(read.name);
-    if (!shaker) return std::move(shaker).error();
-    read.shaker = *std::move(shaker);
-  }
   return read;
 }
 
@@ -186,7 +120,9 @@ WaleCode wale_stage_run(WaleStage* stage, const WaleRunOptions* options, WaleRun
     if (auto given = is_given("options", options); !given) return given;
     const auto given = read_sized("options", options);
     if (!given) return given.error();
-    wale::RunOptions read{.seconds = given->seconds, .virtual_time = given->virtual_time != 0};
+    const auto virtual_time = read_flag("virtual_time", given->virtual_time);
+    if (!virtual_time) return virtual_time.error();
+    wale::RunOptions read{.seconds = given->seconds, .virtual_time = *virtual_time};
     if (given->kept_seconds != 0) read.kept_seconds = given->kept_seconds;
     read.stop = &stage->interrupted;
     const wale::DeviceProfile profile = stage->profile;

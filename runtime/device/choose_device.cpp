@@ -76,9 +76,9 @@ class Chooser {
     for (const std::string_view way : driver.transports) ways += (ways.empty() ? "" : ", ") + std::string(way);
     return {.code = Code::malformed_value,
             .sentence = device + " is not driven by `" + request_.transport + "`",
-            .mend = ways.empty() ? "leave out --transport: there is only one way to drive it"
-                                 : "leave out --transport, or choose among " + ways,
-            .place = {.name = "--transport", .text = request_.transport}};
+            .mend = ways.empty() ? "leave it out: there is only one way to drive it"
+                                 : "leave it out, or choose among " + ways,
+            .place = {.name = request_.by_call ? "transport" : "--transport", .text = request_.transport}};
   }
 
   /// To simulate. What the program knows goes before what only the owner declares.
@@ -101,7 +101,13 @@ class Chooser {
   }
 
   Error error(Code code, std::string sentence, std::string mend) const {
-    return {code, std::move(sentence), std::move(mend), {.name = "--device", .text = request_.spelling}};
+    const char* asked_by = request_.by_call ? "spelling" : "--device";
+    return {code, std::move(sentence), std::move(mend), {.name = asked_by, .text = request_.spelling}};
+  }
+
+  /// How to ask for a device.
+  std::string asking_for(const std::string& device) const {
+    return request_.by_call ? "`" + device + "`" : "`--device " + device + "`";
   }
 
   Error built_for_another(const std::string& profile) const {
@@ -177,12 +183,11 @@ class Chooser {
                                  ? "` is known only from the patch program, which does not say whether there is a real "
                                    "one"
                                  : "` is declared by a material, its imports or its project";
-    return error(
-        Code::untrusted_device,
-        "`" + name + from + ", and only a declaration that you trust says what a newton is on a real device",
-        "`wale devices --identify` writes one of your own; `--devices FILE` trusts the declarations of a file; "
-        "`--device " +
-            std::string(simulated_as) + name + "` simulates it");
+    return error(Code::untrusted_device,
+                 "`" + name + from + ", and only a declaration that you trust says what a newton is on a real device",
+                 std::string("`wale devices --identify` writes one of your own; ") +
+                     (request_.by_call ? "" : "`--devices FILE` trusts the declarations of a file; ") +
+                     asking_for(std::string(simulated_as) + name) + " simulates it");
   }
 
   Error unknown(const std::string& name, std::string_view prefix) const {
@@ -205,7 +210,10 @@ class Chooser {
       for (const std::string& each : names) mend += (mend.empty() ? "there are: " : ", ") + std::string(prefix) + each;
       if (prefix.empty()) mend += ", vendor and product as in 1209:ffb0, and ports as in 1-2";
     }
-    return error(Code::unknown_device, "there is no device `" + wanted + "`", mend);
+    Error unknown = error(Code::unknown_device, "there is no device `" + wanted + "`", mend);
+    for (const std::string& near : nearest_spellings(name, names))
+      unknown.nearest.push_back(std::string(prefix) + near);
+    return unknown;
   }
 
   Result<ChosenDevice> taken(const Candidate& candidate) const {
@@ -258,14 +266,14 @@ class Chooser {
         why = Error{
             Code::other_device,
             "the program is built for `" + request_.built_for + "`, and " + name + " is used as `" + profile + "`",
-            "build it for that (`wale build FILE --device " + profile +
-                " -o OUT.wpp`), or simulate its own (`--device simulated`)"};
+            "build it for that (`wale build FILE --device " + profile + " -o OUT.wpp`), or simulate its own (" +
+                asking_for(std::string(simulated)) + ")"};
       } else {
         return taken(each);
       }
     }
     if (why) return *std::move(why);
-    return error(Code::absent_device, none, "plug it in, or use `--device " + instead + "`");
+    return error(Code::absent_device, none, "plug it in, or use " + asking_for(instead));
   }
 
   Result<ChosenDevice> best_or_simulated() const {

@@ -20,6 +20,7 @@ struct DeviceRequest {
   bool only_simulated = false;  ///< virtual time or a simulated hand's motion was asked for as well
   /// A known device whose figures are only in the patch program, which does not say whether a real one exists.
   std::string only_in_program = {};
+  bool by_call = false;  ///< a program's call asks, so errors name its arguments and not the command line's options
 };
 
 /// The device that was chosen.

@@ -8,6 +8,7 @@
 #include "runtime/device/match_device.hpp"
 #include "runtime/device/open_device.hpp"
 #include "schema/owners_devices_file.hpp"
+#include "schema/spelling.hpp"
 #include "wale/simulated_pad.hpp"
 
 namespace wale {
@@ -66,7 +67,11 @@ Result<std::unique_ptr<Device>> simulation(const DeviceProfile& profile, const O
 Result<DeviceProfile> profile_named(const std::string& name, std::span<const TrustedDevice> trusted) {
   for (const TrustedDevice& each : trusted)
     if (each.profile().name == name) return each.profile();
-  return Error{Code::unknown_device, "there is no device `" + name + "`", "", {.name = "built_for", .text = name}};
+  std::vector<std::string> names;
+  for (const TrustedDevice& each : trusted) names.push_back(each.profile().name);
+  Error unknown{Code::unknown_device, "there is no device `" + name + "`", "", {.name = "built_for", .text = name}};
+  unknown.nearest = nearest_spellings(name, names);
+  return unknown;
 }
 
 }  // namespace
@@ -91,8 +96,10 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
   if (auto sound = is_sound(options); !sound) return std::move(sound.error());
   const auto trusted = all_of(options.trusted.value_or(TrustedDevices()));
   if (!trusted) return trusted.error();
-  const DeviceRequest request{
-      .spelling = std::string(spelling), .built_for = options.built_for, .transport = options.transport};
+  const DeviceRequest request{.spelling = std::string(spelling),
+                              .built_for = options.built_for,
+                              .transport = options.transport,
+                              .by_call = true};
   const bool is_simulated = spelling.starts_with("simulated");
   std::optional<Connections> connections;
   std::vector<PluggedIn> plugged;
@@ -103,12 +110,16 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
   auto choice = choose_device(request, {}, *trusted, plugged);
   if (!choice) {
     Error error = std::move(choice.error());
-    if (!error.place.name.empty()) error.place.name = error.place.name == "--transport" ? "transport" : "spelling";
     if (error.code == Code::absent_device && !connections->usb)
       error.sentence += ", and " + connections->usb.error().sentence;
     return error;
   }
   if (!choice->plugged) {
+    if (!options.transport.empty())
+      return Error{Code::malformed_value,
+                   "a simulated device is not driven by `" + options.transport + "`",
+                   "leave it out, or choose a real device",
+                   {.name = "transport", .text = options.transport}};
     const std::string name = options.built_for.empty() ? default_device : options.built_for;
     const Result<DeviceProfile> profile =
         choice->declared ? Result<DeviceProfile>(choice->declared->profile) : profile_named(name, *trusted);
@@ -126,7 +137,11 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
                                           .transport = options.transport,
                                           .most_newton = options.max_force,
                                           .keeper = {.program = options.keeper}});
-  if (!opened) return std::move(opened.error());
+  if (!opened) {
+    Error error = std::move(opened.error());
+    if (error.place.name == "--transport") error.place.name = "transport";
+    return error;
+  }
   return std::unique_ptr<Device>(*std::move(opened));
 }
 

@@ -1,5 +1,7 @@
 #include "runtime/record/format.hpp"
 
+#include "schema/fnv1a.hpp"
+
 namespace wale::recording_format {
 
 TickEntry encode(const RecordedTick& tick, std::uint64_t number) noexcept {
@@ -43,9 +45,7 @@ RecordedTick decode(const TickEntry& entry) noexcept {
 }
 
 std::uint64_t hash_of(std::span<const std::byte> bytes) noexcept {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const std::byte byte : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3u;
-  return hash;
+  return Fnv1a<std::uint64_t>().take_all(bytes).hash();
 }
 
 }  // namespace wale::recording_format

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <climits>
+
 #include "runtime/stage/session.hpp"
 #include "wale/loop.hpp"
 
@@ -47,7 +50,9 @@ Result<Loop> Loop::begin(Stage& stage) {
 Force Loop::step(const Reading& reading, long periods) noexcept {
   Parts& parts = *parts_;
   const bool first = parts.period < 0;
-  const long elapsed = first ? 0 : std::max(1L, periods);
+  // Counting stops after more than a million years, so that no number of periods turns time back.
+  constexpr long last_period = LONG_MAX / 4;
+  const long elapsed = first ? 0 : std::min(std::max(1L, periods), last_period - parts.period);
   parts.period += first ? 1 : elapsed;
   parts.device.reading = reading;
   parts.session->player().serve(

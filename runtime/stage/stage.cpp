@@ -21,7 +21,7 @@ bool end_started_run(StageState& state) {
 }  // namespace
 
 Stage::Stage(std::unique_ptr<Device> device, StageOptions options) {
-  const DeviceProfile profile = device->profile();
+  const DeviceProfile profile = device ? device->profile() : DeviceProfile();
   state_ = std::make_shared<StageState>(std::move(device), nullptr, profile, std::move(options));
 }
 
@@ -120,23 +120,31 @@ Result<RunResult> Stage::stop() {
 Now Stage::now() const noexcept { return state_->now(); }
 
 void Stage::on_contact(std::function<void(const ContactEvent&)> receive) {
-  const std::lock_guard polling(state_->polling);
+  std::unique_lock polling(state_->polling, std::defer_lock);
+  if (state_->poller != std::this_thread::get_id()) polling.lock();
   state_->outlets.wants_contacts = receive != nullptr;
-  state_->receive = std::move(receive);
+  state_->receive = std::make_shared<const std::function<void(const ContactEvent&)>>(std::move(receive));
 }
 
 std::size_t Stage::poll() {
   const std::shared_ptr<StageState> state = state_;  // a receiver may destroy the stage
+  if (state->poller == std::this_thread::get_id()) return 0;
   const std::lock_guard polling(state->polling);
+  struct Polling {
+    explicit Polling(std::atomic<std::thread::id>& of) : poller(of) { poller = std::this_thread::get_id(); }
+    ~Polling() { poller = std::thread::id(); }
+    std::atomic<std::thread::id>& poller;
+  } const now(state->poller);
   NotedContact contact;
   while (state->outlets.contacts.pop(contact)) {
-    if (!state->receive) continue;
-    state->receive({.kind = contact.kind,
-                    .patch = Patch(state, contact.number, contact.generation),
-                    .time = contact.time,
-                    .position = contact.position,
-                    .velocity = contact.velocity,
-                    .force = contact.force});
+    const auto receive = state->receive;  // it may name another one
+    if (!receive || !*receive) continue;
+    (*receive)({.kind = contact.kind,
+                .patch = Patch(state, contact.number, contact.generation),
+                .time = contact.time,
+                .position = contact.position,
+                .velocity = contact.velocity,
+                .force = contact.force});
   }
   return state->outlets.contacts.take_dropped();
 }

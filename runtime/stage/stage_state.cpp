@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "schema/spelling.hpp"
+
 namespace wale {
 namespace {
 
@@ -173,15 +175,18 @@ StageState::Change set(std::string parameter, float value) {
     if (!index) {
       std::string names;
       for (const Parameter& one : program.parameters) names += (names.empty() ? "" : ", ") + one.name;
+      std::vector<std::string> known;
+      for (const Parameter& one : program.parameters) known.push_back(one.name);
       return Error{.code = Code::unknown_name,
                    .sentence = program.material + " has no parameter " + parameter,
                    .mend = names.empty() ? "it has no parameters" : "it has " + names,
-                   .place = {.name = parameter}};
+                   .place = {.name = "parameter", .text = parameter},
+                   .nearest = nearest_spellings(parameter, known)};
     }
     const Parameter& range = program.parameters[*index];
     if (!(value >= range.low && value <= range.high))
-      return malformed(range.name, range.name + " = " + in_its_own_unit(range, value) + " is not in its range " +
-                                       in_its_own_unit(range, range.low) + " .. " + in_its_own_unit(range, range.high));
+      return malformed("value", range.name + " = " + in_its_own_unit(range, value) + " is not in its range " +
+                                    in_its_own_unit(range, range.low) + " .. " + in_its_own_unit(range, range.high));
     patch.parameters[*index] = value;
     return {};
   };

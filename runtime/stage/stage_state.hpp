@@ -49,7 +49,8 @@ struct StageState : std::enable_shared_from_this<StageState> {
   std::optional<Result<RunResult>> outcome;  // of `start`'s run; with `mutex`
 
   std::mutex polling;
-  std::function<void(const ContactEvent&)> receive;
+  std::atomic<std::thread::id> poller;  // who polls now, so that a receiver may call `poll` and `on_contact`
+  std::shared_ptr<const std::function<void(const ContactEvent&)>> receive;  // with `polling`
 
   mutable std::mutex asking;  // one copy of a memory at a time
 

@@ -139,6 +139,13 @@ static void loops(void) {
   none = wale_loop_step(NULL, &reading, 1);
   CHECK(none.x == 0 && none.y == 0);
   wale_loop_exerted(NULL, none);
+  reading.size = sizeof reading;
+  WaleNow now = {.size = sizeof now};
+  for (int i = 0; i < 3; ++i) { /* no number of periods turns time back */
+    const double before = now.time;
+    wale_loop_step(loop, &reading, INT64_MAX);
+    CHECK(wale_stage_now(stage, &now) == 0 && now.time >= before);
+  }
   wale_stage_free(stage); /* the loop goes on, and nothing is felt */
   reading = (WaleReading){.size = sizeof reading};
   for (int i = 0; i < 50; ++i) none = wale_loop_step(loop, &reading, 1);
@@ -165,7 +172,7 @@ static void snapshots(void) {
   const float* values = wale_snapshot_states(snapshot, &states);
   CHECK(states == details.states && (states == 0 || values != NULL));
   for (size_t i = 0; i < states; ++i) CHECK(wale_snapshot_state_name(snapshot, i).length > 0);
-  CHECK(wale_snapshot_state_name(snapshot, states).data == NULL);
+  CHECK(is_text(wale_snapshot_state_name(snapshot, states), ""));
   CHECK(details.grids >= 1);
   WaleGrid grid = {.size = sizeof grid};
   CHECK_GOOD(wale_snapshot_grid(snapshot, 0, &grid, &error));
@@ -197,7 +204,7 @@ static void snapshots(void) {
   CHECK_MALFORMED(wale_snapshot_show(NULL, hand, hand, 0, marks, 16, &count, &error));
   wale_snapshot_free(snapshot);
   wale_snapshot_free(snapshot); /* freed already */
-  CHECK(wale_snapshot_states(NULL, NULL) == NULL && wale_snapshot_state_name(NULL, 0).data == NULL);
+  CHECK(wale_snapshot_states(NULL, NULL) == NULL && is_text(wale_snapshot_state_name(NULL, 0), ""));
   CHECK_MALFORMED(wale_snapshot_grid(NULL, 0, &grid, &error));
 }
 

@@ -52,9 +52,17 @@ static void devices(void) {
   CHECK_CODE(WALE_CODE_absent_device, wale_device_open(WALE_TEXT("1-77"), NULL, &device, &error));
   CHECK(device == NULL);
   CHECK_MALFORMED(wale_device_open(WALE_TEXT("simulated"), NULL, NULL, &error));
-  WaleDeviceOptions wrong[] = {
-      {.priority = 100}, {.max_force = -1}, {.max_force = NAN},      {.hand_mass = NAN},
-      {.hand_mass = -1}, {.motion = 9},     {.amplitude = INFINITY}, {.motion = WALE_MOTION_trace}};
+  WaleDeviceOptions wrong[] = {{.priority = 100},
+                               {.max_force = -1},
+                               {.max_force = NAN},
+                               {.hand_mass = NAN},
+                               {.hand_mass = -1},
+                               {.motion = 9},
+                               {.amplitude = INFINITY},
+                               {.motion = WALE_MOTION_trace},
+                               {.reserved = 1},
+                               {.disregard_owner = 2},
+                               {.transport = WALE_TEXT("hidraw")}};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
     wrong[i].size = sizeof *wrong;
     CHECK_MALFORMED(wale_device_open(WALE_TEXT("simulated:sandpaper"), &wrong[i], &device, &error));
@@ -148,6 +156,13 @@ static void stages(void) {
   WaleStageOptions stage_options = {.size = sizeof stage_options, .max_force = 1};
   CHECK_GOOD(wale_stage_create_for(&profile, &stage_options, &stage, &error));
   wale_stage_free(stage);
+  WaleStageOptions wrong[] = {{.max_force = -1}, {.max_force = NAN}, {.max_force = INFINITY}, {.priority = 100},
+                              {.priority = -1},  {.lock_memory = 2}, {.low_latency = -1},     {.reserved = 1}};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+    wrong[i].size = sizeof *wrong;
+    CHECK_MALFORMED(wale_stage_create_for(&profile, &wrong[i], &stage, &error));
+    CHECK(stage == NULL);
+  }
   CHECK_GOOD(wale_profile(WALE_TEXT("touch_pad"), &profile, &error));
   CHECK(profile.vibrates);
   CHECK_GOOD(wale_stage_create_for(&profile, NULL, &stage, &error));

@@ -76,8 +76,9 @@ TEST(Names, OfSeveralMaterialsAreListed) {
   folder.write("b.wale", own("two", "called \"twin\""));
   const Outcome outcome = wale({"describe", "twin", "--library", folder / "."});
   EXPECT_EQ(outcome.status, 1);
-  for (const char* part : {"W0217", "`one` of `a`", "`two` of `b`", "a.wale:one"})
+  for (const char* part : {"W0217", "`one` of `a`", "`two` of `b`", "`a:one`"})
     EXPECT_TRUE(contains(outcome.err, part)) << part << outcome.err;
+  EXPECT_EQ(wale({"describe", "a:one", "--library", folder / "."}).status, 0);
 }
 
 TEST(Names, ThatAreUnknownGiveTheNearestAndWaleFind) {

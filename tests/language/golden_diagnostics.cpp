@@ -244,7 +244,7 @@ TEST(DiagnosticCodes, EachHasACase) {
       {"W0608", "of no Wale text: programs on plugged devices, tests/device and tests/usb_mock"},
   };
   std::set<std::string> codes;
-#define CODE(number, name, severity, title) codes.insert(code_name(Code::name));
+#define WALE_CODE(number, name, severity, title) codes.insert(code_name(Code::name));
 #include "wale/codes.def"
   // Plugged devices and measured values have no text of Wale: tests/usb_mock, tests/runtime and tests/command_line.
   std::erase_if(codes, [](const std::string& code) { return code >= "W0700"; });

@@ -1,6 +1,7 @@
 """Devices, stages, patches, edits, loops, snapshots and recordings."""
 
 import math
+import signal
 import threading
 import time
 
@@ -81,6 +82,24 @@ def test_real_time(stage: wale.Stage, corduroy: wale.Program) -> None:
     assert not runner.is_alive()
 
 
+@pytest.mark.parametrize("times", [1, 3])
+def test_an_interrupt_ends_a_run(stage: wale.Stage, corduroy: wale.Program, times: int) -> None:
+    stage.add(corduroy)
+
+    def interrupt() -> None:
+        while not stage.is_running:
+            time.sleep(0.001)
+        for _ in range(times):
+            signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+            time.sleep(0.01)
+
+    threading.Thread(target=interrupt).start()
+    with pytest.raises(KeyboardInterrupt):
+        stage.run(3600)
+        time.sleep(1)  # for the later interrupts
+    assert not stage.is_running
+
+
 def test_patches(stage: wale.Stage, corduroy: wale.Program) -> None:
     patch = stage.add(corduroy, at=(0.01, 0), size=(0.02, 0.02))
     patch.set("wale", 0.003)
@@ -140,13 +159,20 @@ def test_contacts(stage: wale.Stage, corduroy: wale.Program) -> None:
     assert all(each.patch == patch.id for each in heard)
     assert [each.time for each in heard] == sorted(each.time for each in heard)
 
-    def refuse(_: wale.Contact) -> None:
+    heard.clear()
+
+    def refuse(each: wale.Contact) -> None:
+        heard.append(each)
         raise KeyError
 
     stage.on_contact(refuse)
-    stage.run(0.5, virtual_time=True)
+    stage.run(1.25, virtual_time=True)
     with pytest.raises(KeyError):
         stage.poll()
+    stage.on_contact(heard.append)
+    stage.poll()  # all but the one that was refused
+    again = [each.kind for each in heard]
+    assert len(again) >= 4 and all(one != next for one, next in zip(again, again[1:]))
     stage.on_contact(None)
     assert stage.poll() == 0
 

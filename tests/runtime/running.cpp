@@ -174,6 +174,22 @@ TEST(Contacts, AreToldInTheirOrderOnTheThreadThatPolls) {
   EXPECT_EQ(told.size(), std::size(expected));
 }
 
+TEST(Contacts, AReceiverMayPollAndNameAnotherOne) {
+  Scripted device([](long tick) { return Reading{.counts = {tick % 100 < 50 ? 0 : 1800, 0}}; });
+  Stage stage(device);
+  (void)*stage.add(push(1));
+  int first = 0, second = 0;
+  stage.on_contact([&](const ContactEvent&) {
+    ++first;
+    EXPECT_EQ(stage.poll(), 0u);
+    stage.on_contact([&](const ContactEvent&) { ++second; });
+  });
+  ASSERT_TRUE(stage.run({.seconds = 400 / 900.0, .virtual_time = true}));  // on and off four times
+  EXPECT_EQ(stage.poll(), 0u);
+  EXPECT_EQ(first, 1);
+  EXPECT_EQ(second, 7);
+}
+
 TEST(Contacts, BeyondTheQueueAreDroppedAndCounted) {
   Scripted device([](long tick) { return Reading{.counts = {tick % 2 == 0 ? 0 : 1800, 0}}; });
   Stage stage(device);
@@ -186,6 +202,13 @@ TEST(Contacts, BeyondTheQueueAreDroppedAndCounted) {
   stage.on_contact(nullptr);
   ASSERT_TRUE(stage.run({.seconds = 2, .virtual_time = true}));
   EXPECT_EQ(stage.poll(), 0u);
+}
+
+TEST(Stage, WithoutADeviceTakesNothing) {
+  Stage stage(std::unique_ptr<Device>{});
+  EXPECT_EQ(stage.add(push(1)).error().code, Code::other_device);
+  EXPECT_EQ(stage.run({.seconds = 1}).error().code, Code::wrong_moment);
+  EXPECT_EQ(stage.start().error().code, Code::wrong_moment);
 }
 
 TEST(Snapshots, HaveTheStatesOfATick) {

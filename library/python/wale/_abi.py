@@ -6,6 +6,7 @@ from typing import Any, Self
 import cffi  # type: ignore[import]
 
 from wale import _declarations
+from wale.codes import Code
 from wale.errors import Error, Span
 
 ffi: Any = cffi.FFI()
@@ -67,6 +68,11 @@ def or_none(figure: float) -> float | None:
     return figure if figure == figure else None
 
 
+def known_code(number: int) -> Code | int:
+    """The code of that number; the number itself if it is newer than this package."""
+    return Code(number) if number in Code._value2member_map_ else number
+
+
 def described(error: Any) -> Error:
     """An error or a warning as a value; the handle stays its owner's."""
     details = sized("WaleErrorDetails")
@@ -74,7 +80,7 @@ def described(error: Any) -> Error:
     span = Span(file=read(details.place), line=details.number, column=details.column, length=details.length)
     return Error(
         read(details.in_words),
-        code=details.code,
+        code=known_code(details.code),
         severity="warning" if details.severity == lib.WALE_SEVERITY_warning else "error",
         sentence=read(details.sentence),
         mend=read(details.mend),

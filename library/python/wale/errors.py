@@ -22,7 +22,7 @@ class Span:
 class Error(Exception):
     """What a call raises; also a warning about a text, which is not raised (`Program.warnings`)."""
 
-    code: int
+    code: Code | int
     """A `Code`, or the number of a newer one. Programs decide by it."""
     severity: str
     """ "error" or "warning"."""
@@ -52,7 +52,7 @@ class Error(Exception):
     @property
     def name(self) -> str:
         """ "unknown_name"; empty for a code that is newer than this package."""
-        return Code(self.code).name if self.code in Code._value2member_map_ else ""
+        return self.code.name if isinstance(self.code, Code) else ""
 
     def __str__(self) -> str:
         near = f" (near: {', '.join(self.nearest)})" if self.nearest else ""

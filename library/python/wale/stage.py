@@ -2,6 +2,7 @@
 
 import os
 import threading
+from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -164,7 +165,7 @@ class Stage(Handle):
                                      **figures)
             stage = _created(lib.wale_stage_create_for, given, options)
         super().__init__(stage, lib.wale_stage_free)
-        self._heard: list[Contact] = []
+        self._heard: deque[Contact] = deque()
         self._hears: Any = ffi.new_handle(self._heard)
         self._receive: Callable[[Contact], None] | None = None
 
@@ -187,25 +188,29 @@ class Stage(Handle):
         """Runs for so many seconds, in real time or as fast as possible. An interrupt (Ctrl-C) ends it."""
         options = Arguments().struct("WaleRunOptions", seconds=seconds, kept_seconds=kept_seconds,
                                      virtual_time=int(virtual_time))
-        pointer, done = self._pointer, list[Any]()
+        pointer, done, over = self._pointer, list[Any](), threading.Event()
 
         def serve() -> None:
             try:
                 done.append(Run(made(lib.wale_stage_run, "WaleRun", pointer, options)))
             except BaseException as raised:
                 done.append(raised)
+            finally:
+                over.set()
 
-        # On a thread of its own, since this one must hear an interrupt.
-        server = threading.Thread(target=serve)
-        server.start()
-        try:
-            while server.is_alive():
-                server.join(0.1)
-        except BaseException:
-            while server.is_alive():
-                lib.wale_stage_interrupt(pointer)
-                server.join(0.1)
-            raise
+        # On a thread of its own, since this one must hear an interrupt. The event says when it is over: whether a thread
+        # is alive is no longer known after an interrupted join.
+        threading.Thread(target=serve).start()
+        interrupted: BaseException | None = None
+        while not over.is_set():
+            try:
+                if interrupted is not None:
+                    lib.wale_stage_interrupt(pointer)
+                over.wait(0.1)
+            except BaseException as raised:  # also a second interrupt: the run must be over before this returns
+                interrupted = raised
+        if interrupted is not None:
+            raise interrupted
         if isinstance(done[0], BaseException):
             raise done[0]
         run: Run = done[0]
@@ -238,9 +243,8 @@ class Stage(Handle):
         """Calls the receiver for all contacts since the last poll. Returns how many were dropped, since too many waited."""
         dropped = ffi.new("size_t*")
         call(lib.wale_stage_poll, self._pointer, dropped)
-        heard = self._heard[:]
-        self._heard.clear()
-        for each in heard:
+        while self._heard:  # what the receiver has not had when it raises waits for the next poll
+            each = self._heard.popleft()
             if self._receive is not None:
                 self._receive(each)
         return int(dropped[0])

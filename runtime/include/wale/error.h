@@ -50,7 +50,7 @@ typedef int32_t WaleCode;
 
 /* WALE_CODE_unknown_name and so on. */
 enum {
-#define CODE(number, name, severity, title) WALE_CODE_##name = 1##number - 10000, /* a leading 0 would mean octal */
+#define WALE_CODE(number, name, severity, title) WALE_CODE_##name = 1##number - 10000, /* a leading 0 would mean octal */
 #include "wale/codes.def"
   WALE_CODE_none = 0
 };

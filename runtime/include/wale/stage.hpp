@@ -82,10 +82,10 @@ class StageEdit {
 /// Patches on a device's workspace, and the loop that lets the hand feel the front-most one under it.
 ///
 /// All calls except the constructors, the destructor and assignment are safe from any thread. Only `now` is for a
-/// real-time thread too.
+/// real-time thread too. A stage that was moved from may only be destroyed or assigned to.
 class Stage {
  public:
-  /// Takes the device.
+  /// Takes the device. Without one, nothing fits on the stage and it cannot run.
   explicit Stage(std::unique_ptr<Device> device, StageOptions options = {});
   /// The device must outlive the stage, and a run of it.
   explicit Stage(Device& device, StageOptions options = {});
@@ -139,7 +139,7 @@ class Stage {
   /// What `poll` calls for each contact; an empty function ends it. Contacts are noted only while there is one.
   void on_contact(std::function<void(const ContactEvent&)> receive);
   /// Calls the receiver for all contacts since the last poll, in their order, on the calling thread. Two threads that
-  /// poll take turns; a receiver must call neither `poll` nor `on_contact`. Returns how many contacts were dropped
+  /// poll take turns; a `poll` within a receiver does nothing and returns 0. Returns how many contacts were dropped
   /// because `most_contacts_waiting` were waiting.
   std::size_t poll();
 

@@ -8,7 +8,7 @@ enum class Severity { error, warning };
 
 /// Stable names of all errors and warnings, in a Wale file or elsewhere; `codes.def` lists them with their titles.
 enum class Code : unsigned {
-#define CODE(number, name, severity, title) name = 1##number - 10000,  // the numbers' leading zero must not mean octal
+#define WALE_CODE(number, name, severity, title) name = 1##number - 10000,  // the numbers' leading zero must not mean octal
 #include "wale/codes.def"
 };
 

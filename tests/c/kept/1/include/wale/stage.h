@@ -84,7 +84,7 @@ WALE_API int32_t wale_stage_is_running(const WaleStage* stage);
 WALE_API WaleCode wale_stage_now(const WaleStage* stage, WaleNow* now);
 
 /* What wale_stage_poll calls for each contact, on its thread; NULL ends it. Contacts are noted only while there is one. It must
-   not throw, and must not call wale_stage_poll, wale_stage_on_contact or wale_stage_free. `contact` lasts for the call. */
+   not throw, and must not free the stage; a wale_stage_poll within it does nothing. `contact` lasts for the call. */
 typedef void (*WaleReceiveContact)(const WaleContact* contact, void* user);
 WALE_API WaleCode wale_stage_on_contact(WaleStage* stage, WaleReceiveContact receive, void* user, WaleError** error);
 /* Calls the receiver for all contacts since the last poll, in their order. `dropped`, which may be NULL, says how many were

@@ -1,0 +1,106 @@
+#include "runtime/c/profile.hpp"
+
+#include <cmath>
+
+#include "runtime/c/sized.hpp"
+#include "runtime/device/shipped_devices.hpp"
+#include "schema/spelling.hpp"
+
+namespace wale::c {
+namespace {
+
+/// Where a figure stands in both interfaces.
+struct Figure {
+  const char* name;
+  double WaleProfile::*in_c;
+  double DeviceProfile::*in_cpp;
+};
+
+constexpr Figure all_figures[] = {
+    {"workspace_diameter", &WaleProfile::workspace_diameter, &DeviceProfile::workspace_diameter},
+    {"position_counts", &WaleProfile::position_counts, &DeviceProfile::position_counts},
+    {"force", &WaleProfile::force, &DeviceProfile::force_newton},
+    {"force_counts", &WaleProfile::force_counts, &DeviceProfile::force_counts},
+    {"rate", &WaleProfile::rate, &DeviceProfile::rate},
+    {"speed_limit", &WaleProfile::speed_limit, &DeviceProfile::speed_limit},
+    {"slew", &WaleProfile::slew, &DeviceProfile::slew},
+    {"continuous_force", &WaleProfile::continuous_force, &DeviceProfile::continuous_newton},
+    {"heating_seconds", &WaleProfile::heating_seconds, &DeviceProfile::heating_seconds},
+    {"active_power", &WaleProfile::active_power, &DeviceProfile::active_watt},
+    {"velocity_window", &WaleProfile::velocity_window, &DeviceProfile::velocity_window},
+    {"velocity_noise_counts", &WaleProfile::velocity_noise_counts, &DeviceProfile::velocity_noise_counts},
+    {"patch_width", &WaleProfile::patch_width, &DeviceProfile::patch_width},
+    {"patch_height", &WaleProfile::patch_height, &DeviceProfile::patch_height},
+    {"patch_rim", &WaleProfile::patch_rim, &DeviceProfile::patch_rim},
+    {"mass", &WaleProfile::mass, &DeviceProfile::mass},
+    {"damping", &WaleProfile::damping, &DeviceProfile::damping},
+    {"friction", &WaleProfile::friction, &DeviceProfile::friction},
+    {"delay_x", &WaleProfile::delay_x, &DeviceProfile::delay_x},
+    {"delay_y", &WaleProfile::delay_y, &DeviceProfile::delay_y},
+    {"bandwidth_x", &WaleProfile::bandwidth_x, &DeviceProfile::bandwidth_x},
+    {"bandwidth_y", &WaleProfile::bandwidth_y, &DeviceProfile::bandwidth_y},
+};
+static_assert(sizeof(WaleProfile) ==
+              sizeof(size_t) + sizeof(WaleText) + sizeof(double) * std::size(all_figures) + 2 * sizeof(int32_t));
+
+/// The shipped pad of that name: what shakes it is in no struct.
+Result<Shaker> shaker_of(const std::string& name) {
+  const auto& shipped = shipped_devices();
+  if (shipped)
+    for (const DeclaredDevice& each : *shipped)
+      if (each.profile.name == name && each.profile.shaker) return *each.profile.shaker;
+  return about_argument("profile", "expected the profile of a shipped pad, since no other one's shaker is known");
+}
+
+}  // namespace
+
+WaleProfile figures_of(const DeviceProfile& profile) {
+  WaleProfile figures{
+      .name = text_of(profile.name), .vibrates = profile.shaker.has_value(), .has_position = profile.has_position()};
+  for (const Figure& each : all_figures) figures.*each.in_c = profile.*each.in_cpp;
+  return figures;
+}
+
+Result<DeviceProfile> read_profile(const WaleProfile* profile) {
+  if (auto given = is_given("profile", profile); !given) return std::move(given).error();
+  const auto given = read_sized("profile", profile);
+  if (!given) return given.error();
+  auto name = read_text("name", given->name);
+  if (!name) return std::move(name).error();
+  DeviceProfile read{.name = *std::move(name)};
+  for (const Figure& each : all_figures) {
+    const double figure = (*given).*each.in_c;
+    if (!(figure >= 0 && figure < HUGE_VAL))
+      return about_argument(each.name, "expected a finite figure that is not negative");
+    read.*each.in_cpp = figure;
+  }
+  if (!(read.rate >= DeviceProfile::least_rate && read.rate <= DeviceProfile::most_rate))
+    return about_argument("rate", "expected 100 to 10000 ticks per second");
+  const auto vibrates = read_flag("vibrates", given->vibrates);
+  if (!vibrates) return vibrates.error();
+  if (*vibrates) {
+    auto shaker = shaker_of(read.name);
+    if (!shaker) return std::move(shaker).error();
+    read.shaker = *std::move(shaker);
+  }
+  return read;
+}
+
+Result<> give_profile(const std::vector<DeclaredDevice>& declared, WaleText name, WaleProfile* to) {
+  const auto wanted = read_text("name", name);
+  if (!wanted) return wanted.error();
+  std::vector<std::string> names;
+  for (const DeclaredDevice& each : declared) {
+    if (each.profile.name == *wanted) {
+      write_sized(to, figures_of(each.profile));
+      return {};
+    }
+    names.push_back(each.profile.name);
+  }
+  Error unknown = about_argument("name", "no device is called `" + *wanted + "`", Code::unknown_device);
+  unknown.place.text = *wanted;
+  unknown.nearest = nearest_spellings(*wanted, names);
+  return unknown;
+}
+
+}  // namespace wale::c
