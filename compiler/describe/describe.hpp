@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiler/describe/fates_at.hpp"
+#include "compiler/describe/held_figures.hpp"
 #include "compiler/describe/level_intervals.hpp"
 #include "compiler/evidence/percept_reading.hpp"
 #include "compiler/grade/grade.hpp"
@@ -115,6 +116,8 @@ struct Description {
   OpposingForce motion;              ///< what resists a moving hand
   double small_feature = 0;          ///< N: the largest force of what fills less than a hundredth of the patch
   glm::dvec2 constant_push{0};       ///< N: everywhere alike
+  std::vector<HeldFigure> held;      ///< what holding the button changes
+  Swing uneven;                      ///< what swings and differs from place to place, with its least size there
   OtherForce other;                  ///< what no cue explains
   double aside = 0;                  ///< N: on a hand at 0.2 m/s, square to its way
   double unread = 0;                 ///< N: on a hand at rest or on its way, with no other cause here

@@ -151,6 +151,8 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
   if (found.sway.amplitude >= least_force) description.sway = found.sway;
   if (found.vibration.noise && found.vibration.amplitude >= least_force) description.noise = found.vibration;
   description.motion = found.opposing;
+  description.held = held_figures(found);
+  description.uneven = found.sway.least ? found.sway : found.vibration;
   description.small_feature = cues[CueKind::small_feature].value_or(0);
   if (glm::length(found.constant) >= least_force) description.constant_push = found.constant;
   const auto counting = [](double force) { return force >= least_force ? force : 0; };

@@ -224,7 +224,11 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
     json["sway"] = {{"amplitude_newton", figure(description.sway.amplitude)},
                     {"frequency_hz", figure(description.sway.frequency)}};
   if (description.noise.amplitude > 0) json["noise_in_time_newton"] = figure(description.noise.amplitude);
+  if (description.uneven.least)
+    json["swing_by_place"] = {{"least_newton", figure(*description.uneven.least)},
+                              {"most_newton", figure(description.uneven.amplitude)}};
   add_motion(json, description.motion);
+  add_held(json, description.held);
   const auto other = [&](const char* name, double force) {
     if (force > 0) json["other_force_newton"][name] = figure(force);
   };

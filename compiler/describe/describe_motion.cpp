@@ -12,6 +12,7 @@ namespace wale {
 namespace {
 
 constexpr std::array<double, 4> told_speeds = {0.05, 0.1, 0.2, 0.4};  // m/s
+constexpr double creeping_speed = 0.01;                               // m/s: told too if the drag is greater there
 
 std::string size_words(double newton) {
   if (std::abs(newton) < least_force) return "none";
@@ -45,8 +46,21 @@ std::string ways_words(const OpposingForce& motion) {
 
 std::string motion_lines(const OpposingForce& motion) {
   std::string text;
-  if (motion.friction_grows)
+  if (motion.friction_cut)
+    text += readable("  the friction is at least {:.3g} N: the device gives no more\n", motion.friction);
+  else if (motion.friction_grows)
     text += readable("  the friction is at least {:.3g} N: it still grows where the patch ends\n", motion.friction);
+  if (motion.limit > 0)
+    text += readable("  the viscosity of {:.3g} N s/m is cut at {:.3g} N: hands faster than {:.3g} mm/s feel no more\n",
+                     motion.damping, motion.limit, 1e3 * motion.limit / std::abs(motion.damping));
+  if (motion.rise() > 0)
+    text += readable(
+        "  the friction of {:.3g} N is whole from {:.3g} mm/s on: slower hands feel a viscosity of {:.3g} N s/m\n",
+        motion.friction, 1e3 * motion.saturation_speed, motion.rise());
+  if (motion.changes_in_time)
+    text += readable("  the drag changes with time: at 200 mm/s from {} to {}, {}\n", size_words(motion.least_in_time),
+                     size_words(motion.most_in_time),
+                     motion.explained ? "and what is told is its mean" : "and no mean tells it");
   if (goes_one_way(motion))
     text += readable("  the drag differs with the way that a hand goes: at 200 mm/s {}\n", ways_words(motion));
   if (motion.uneven() > 0) {
@@ -56,8 +70,11 @@ std::string motion_lines(const OpposingForce& motion) {
                  : readable("  the drag differs from place to place: at 200 mm/s from {} to {}\n",
                             size_words(motion.least_by_place), size_words(motion.most_by_place));
   }
-  if (motion.explained || goes_one_way(motion) || motion.uneven() > 0) return text;
+  if (motion.explained || motion.changes_in_time || goes_one_way(motion) || motion.uneven() > 0) return text;
   std::string sizes;
+  const double creeping = motion.creeping();
+  if (std::abs(creeping) >= std::max(least_force, std::abs(motion.unexplained_at(told_speeds.front()))))
+    sizes = readable("{} at {:.0f} mm/s", size_words(creeping), 1e3 * creeping_speed);
   for (const double speed : told_speeds)
     sizes += readable("{}{} at {:.0f} mm/s", sizes.empty() ? "" : ", ", size_words(motion.unexplained_at(speed)),
                       1e3 * speed);
@@ -66,7 +83,16 @@ std::string motion_lines(const OpposingForce& motion) {
 }
 
 void add_motion(nlohmann::ordered_json& json, const OpposingForce& motion) {
-  if (motion.friction_grows) json["friction_at_least_newton"] = figure(motion.friction);
+  if (motion.friction_grows || motion.friction_cut) json["friction_at_least_newton"] = figure(motion.friction);
+  if (motion.changes_in_time)
+    json["drag_by_time"] = {{"least_newton", figure(motion.least_in_time)},
+                            {"most_newton", figure(motion.most_in_time)},
+                            {"has_mean", motion.explained}};
+  if (motion.limit > 0)
+    json["viscosity_limit"] = {{"newton", figure(motion.limit)},
+                               {"speed", figure(motion.limit / std::abs(motion.damping))}};
+  if (motion.rise() > 0)
+    json["friction_rise"] = {{"viscosity", figure(motion.rise())}, {"speed", figure(motion.saturation_speed)}};
   if (!motion.explained) {
     auto& drag = json["drag"] = nlohmann::ordered_json::object();
     if (motion.exponent > 0) drag["exponent"] = figure(motion.exponent);

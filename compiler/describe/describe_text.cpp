@@ -309,7 +309,7 @@ std::string other_forces(const Description& description) {
   if (description.noise.amplitude > 0)
     text += readable("  up to {:.3g} N that changes with time without a rate, which no percept tells\n",
                      description.noise.amplitude);
-  text += motion_lines(description.motion);
+  text += uneven_line(description.uneven) + motion_lines(description.motion) + held_lines(description.held);
   if (description.small_feature > 0)
     text += readable("  up to {:.3g} N in less than a hundredth of the patch, which no percept tells\n",
                      description.small_feature);

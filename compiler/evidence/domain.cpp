@@ -46,9 +46,16 @@ SurfaceProfile profile_of(const PatchProgram& program, const Relief& relief) {
 
 /// Whether a cue tells a drag that no one friction and viscosity tell.
 bool of_drag(CueKind kind) {
-  constexpr CueKind all[] = {CueKind::slow_drag, CueKind::drag,      CueKind::fast_drag,
-                             CueKind::one_way_x, CueKind::one_way_y, CueKind::uneven_drag};
+  constexpr CueKind all[] = {CueKind::creeping_drag, CueKind::slow_drag, CueKind::drag,       CueKind::fast_drag,
+                             CueKind::one_way_x,     CueKind::one_way_y, CueKind::uneven_drag};
   return std::ranges::find(all, kind) != std::end(all);
+}
+
+/// Whether a cue tells of another one how it differs, or what pressing the button adds.
+bool of_another(CueKind kind) {
+  constexpr CueKind all[] = {CueKind::uneven_vibration, CueKind::held_slow_drag, CueKind::held_drag, CueKind::held_mass,
+                             CueKind::held_vibration};
+  return whole_of(kind) || std::ranges::find(all, kind) != std::end(all);
 }
 
 bool of_motion(Extractor extractor) {
@@ -59,7 +66,7 @@ bool of_motion(Extractor extractor) {
 std::vector<std::string> beside(const PerceptRecord& record, double size, const Cues& cues, const Relief& relief) {
   std::vector<std::string> others;
   for (const CueFacts& facts : cue_table())
-    if (facts.exerts && facts.extractor != record.extractor && cues[facts.kind] && !whole_of(facts.kind)) {
+    if (facts.exerts && facts.extractor != record.extractor && cues[facts.kind] && !of_another(facts.kind)) {
       const bool push = facts.kind == CueKind::push_x || facts.kind == CueKind::push_y;
       // A friction or a viscosity that differs is itself.
       if (of_drag(facts.kind) && of_motion(record.extractor)) continue;

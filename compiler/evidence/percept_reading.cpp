@@ -152,6 +152,9 @@ PerceptReading percept_reading(const Bank& bank, std::size_t index, const ForceR
   // A relief of other periods than those of the map is there to be felt, and nobody knows as what.
   told.unknown = told.readable && told.size == 0 && told.aimed > 0 && record.extractor == Extractor::lateral_force &&
                  found.relief().amplitude >= least_force && !outside_ranges(record, told).empty();
+  // Nor has a drag a level that no one friction or viscosity tells.
+  const bool drags = record.extractor == Extractor::damping || record.extractor == Extractor::opposing_force;
+  told.unknown |= told.readable && told.size == 0 && told.aimed > 0 && drags && found.opposing.by_no_figure();
   if (told.unknown) told.level = told.magnitude = std::numeric_limits<double>::quiet_NaN();
   return told;
 }
@@ -203,6 +206,7 @@ std::string why_approximated(const PerceptRecord& record, const PerceptReading& 
                              const ForceReading& found, const Declarations& declarations) {
   if (!told.readable) return {};
   if (const auto outside = outside_ranges(record, told); !outside.empty()) return outside_in_words(outside.front());
+  if (told.unknown) return "what resists the hand is told by no one figure, so its level is unknown";
   if (differs(record, told.aimed, asked, told.size, told.level))
     return cause_of_difference(record, told, found, declarations);
   return told.size == 0 && asked > 0 ? "too little of it to be felt, so none is read" : "";

@@ -26,6 +26,7 @@ constexpr double settled = 0.05;       // of an integral, between two numbers of
 struct Circle {
   glm::dvec2 centre;
   double radius;
+  bool button = false;              ///< held on the way
   double joule = 0, both_ways = 0;  ///< gained, and the sum of its sizes
 };
 
@@ -39,6 +40,7 @@ void integrate(const Bank& bank, std::span<Circle> circles, std::size_t points) 
       Hand& hand = hands.emplace_back();
       hand.position = hand.workspace =
           glm::vec2(circle.centre + circle.radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+      hand.button = circle.button;
       steps.push_back(circle.radius * 2 * pi / static_cast<double>(points) *
                       glm::dvec2(-std::sin(angle), std::cos(angle)));
     }
@@ -60,15 +62,15 @@ glm::vec2 inside(const Bank& bank) {
 }
 
 /// The circle around one of `centres` that gains the most power, W.
-double strongest_circle(const Bank& bank, std::span<const glm::vec2> centres, const GradingHand& hand,
-                        double least_watt) {
+double strongest_circle(const Bank& bank, std::span<const Hand> centres, const GradingHand& hand, double least_watt) {
   const glm::dvec2 half(inside(bank));
   const double least = fewest_counts_of_radius * bank.program().description().device.position_step();
   std::vector<Circle> circles;
-  for (const glm::vec2 centre : centres) {
+  for (const Hand& at : centres) {
+    const glm::vec2 centre = at.position;
     const double room = std::min(half.x - std::abs(centre.x), half.y - std::abs(centre.y));
     for (double radius = hand.radius; radius >= least; radius /= std::numbers::sqrt2)
-      if (radius <= room) circles.push_back({centre, radius});
+      if (radius <= room) circles.push_back({centre, radius, at.button});
   }
   const auto watt = [&](const Circle& circle) {
     return std::abs(circle.joule) * hand.speed() / (2 * pi * circle.radius);
@@ -105,7 +107,7 @@ struct Curls {
   std::size_t counted = 0;    ///< hands whose curl counts
 };
 
-Curls curls_of(const LookedAt& looked_at, glm::vec2 extent, glm::vec2 less_rim) {
+Curls curls_of(const LookedAt& looked_at, bool button, glm::vec2 extent, glm::vec2 less_rim) {
   struct Sum {
     double count = 0, sum = 0, squares = 0;
   };
@@ -117,7 +119,7 @@ Curls curls_of(const LookedAt& looked_at, glm::vec2 extent, glm::vec2 less_rim) 
     const Hand& hand = looked_at.hands[i];
     const auto& place = looked_at.at[i].place;
     const double curl = place[1][0] - place[0][1];
-    if (hand.velocity != glm::vec2(0.0f) || !std::isfinite(curl)) continue;
+    if (hand.velocity != glm::vec2(0.0f) || hand.button != button || !std::isfinite(curl)) continue;
     const auto tile = [](float along, float half) {
       const double share = (along / half + 1) / 2 * tiles;
       return static_cast<std::size_t>(std::clamp(share, 0.0, static_cast<double>(tiles - 1)));
@@ -145,25 +147,35 @@ Curls curls_of(const LookedAt& looked_at, glm::vec2 extent, glm::vec2 less_rim) 
   return found;
 }
 
-}  // namespace
-
-double curl_watt(const Bank& bank, const LookedAt& looked_at, std::span<const ForceStep> jumps, const GradingHand& hand,
-                 double least_watt) {
+/// The power of the curl while the button is up, or held.
+double curl_with_button(const Bank& bank, const LookedAt& looked_at, bool button, std::span<const ForceStep> jumps,
+                        const GradingHand& hand, double least_watt) {
   const glm::vec2 extent = 0.5f * glm::vec2(bank.size().width, bank.size().height);
-  const Curls curls = curls_of(looked_at, extent, inside(bank));
+  const Curls curls = curls_of(looked_at, button, extent, inside(bank));
   const double on_tiles = curls.over_tiles * pi * hand.radius * hand.radius * hand.frequency;
-  std::vector<glm::vec2> centres;
+  std::vector<Hand> centres;
+  const auto circle_at = [&](const Hand& at) { centres.emplace_back(at).button = button; };
   if (curls.counted > 0)
-    for (const std::size_t i : greatest_of(curls.sizes, circled)) centres.push_back(looked_at.hands[i].position);
+    for (const std::size_t i : greatest_of(curls.sizes, circled)) circle_at(looked_at.hands[i]);
   if (static_cast<double>(curls.counted) > share_with_curl * static_cast<double>(looked_at.hands.size()))
-    for (std::size_t i = 0; i < circled; ++i) centres.push_back(looked_at.hands[i].position);
+    for (std::size_t i = 0; i < circled; ++i) circle_at(looked_at.hands[i]);
   for (const ForceStep& step : jumps)
-    if (step.jumps()) centres.push_back(step.hand.position);
-  if (on_tiles > 0) centres.emplace_back(0.0f);
+    if (step.jumps()) circle_at(step.hand);
+  if (on_tiles > 0) circle_at(Hand{});
   if (centres.empty()) return 0;
   // The mean over a tile tells less than a circle, but finds a weak curl under a strong texture.
   const double on_circles = strongest_circle(bank, centres, hand, least_watt);
   return on_circles > 0 ? on_circles : on_tiles;
+}
+
+}  // namespace
+
+double curl_watt(const Bank& bank, const LookedAt& looked_at, std::span<const ForceStep> jumps, const GradingHand& hand,
+                 double least_watt) {
+  const double watt = curl_with_button(bank, looked_at, false, jumps, hand, least_watt);
+  const auto held = [](const Hand& at) { return at.button && at.velocity == glm::vec2(0.0f); };
+  if (std::ranges::none_of(looked_at.hands, held)) return watt;
+  return std::max(watt, curl_with_button(bank, looked_at, true, jumps, hand, least_watt));
 }
 
 }  // namespace wale

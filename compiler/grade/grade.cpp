@@ -11,10 +11,13 @@
 #include "compiler/grade/circulation.hpp"
 #include "compiler/grade/explore.hpp"
 #include "compiler/grade/slopes.hpp"
+#include "compiler/grade/sources.hpp"
 #include "compiler/grade/steep_places.hpp"
+#include "compiler/grade/step_ahead.hpp"
 #include "compiler/grade/steps.hpp"
 #include "compiler/measure/hands.hpp"
 #include "compiler/prove/later_force.hpp"
+#include "compiler/prove/prove.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/swing.hpp"
 #include "runtime/machine/parallel.hpp"
@@ -28,7 +31,6 @@ constexpr std::size_t hands_at_once = 1024;  // evaluated at once, so that their
 constexpr double share_of_steps = 0.25;      // of the largest step: a smaller jump is not told
 constexpr double steeper = 1.01;             // than the steepest slope found: less is rounding
 constexpr double share_of_hand = 0.01;  // of the power that the hand absorbs at its pace; smaller powers are ignored
-constexpr double share_of_work = 0.01;  // of the energy in both directions; smaller net energy is rounding
 constexpr double sharp_over_step =
     1.5;  // ratio of a slope to the step between counts above which the slope is a sharp tip
 
@@ -81,7 +83,7 @@ class Grader {
  private:
   std::optional<Exploration> explored() const {
     if (program_.states.empty() && !stores_motion()) return std::nullopt;
-    return explore(bank_, hand_);
+    return explore_with_button(bank_, hand_);
   }
 
   /// Whether the tick reads accelerations. A mass stores and returns energy, so the power at one moment says nothing.
@@ -106,6 +108,8 @@ class Grader {
       return;
     }
     hands_ = hands_at_rest(lattice_hands, extent_);
+    if (reads(program_, {Input::button}))
+      for (Hand& hand : hands_at_rest(lattice_hands, extent_)) hand.button = true, hands_.push_back(hand);
     if (!depends_on_the_moment(program_)) return;
     for (Hand& hand : hands_in_motion(lattice_hands, extent_, static_cast<float>(peak_speed()))) hands_.push_back(hand);
   }
@@ -233,7 +237,7 @@ class Grader {
     for (const auto& here : at_) grade_.largest_newton = std::max(grade_.largest_newton, glm::length(here.force));
     find_curl();
     find_motion_power();
-    find_sources();
+    find_sources({bank_, hand_, slopes_, {hands_, states_, at_}, steps_, least_watt()}, exploration_, grade_.energy);
   }
 
   /// Finds the power of the curl. For a program that remembers, the place does not determine the force, so the energy
@@ -261,29 +265,6 @@ class Grader {
     if (worst <= least_watt()) return;
     grade_.energy.motion_watt = worst;
     grade_.energy.reasons.push_back("it pushes along the hand's motion");
-  }
-
-  /// Finds the energy from memory, and from sources that move by themselves, unless the force only ever resists.
-  void find_sources() {
-    const bool moves = slopes_.moves_by_itself() && pushes_along();
-    if (!moves && !exploration_) return;
-    if (!exploration_) exploration_ = explore(bank_, hand_);
-    if (exploration_->gained_joule > std::max(least_watt(), share_of_work * exploration_->moved_joule))
-      grade_.energy.source_watt = exploration_->gained_joule;  // over one second
-    if (moves) {
-      grade_.energy.reasons.push_back("something in it moves by itself");
-      // A hand that moved along with it could gain half of the energy in both directions.
-      grade_.energy.source_watt = std::max(grade_.energy.source_watt, exploration_->moved_joule / 2);
-    } else if (grade_.energy.source_watt > 0) {
-      grade_.energy.reasons.push_back("its memory returns more energy than it received");
-    }
-  }
-
-  /// Whether the force ever pushes along the hand's motion.
-  bool pushes_along() const {
-    for (std::size_t i = 0; i < hands_.size(); ++i)
-      if (glm::dot(at_[i].force, glm::dvec2(hands_[i].velocity)) > least_watt()) return true;
-    return false;
   }
 
   /// False if the machine has too few registers for the derivatives.
@@ -401,6 +382,11 @@ class Grader {
 
   void decide() {
     grade_.later_newton = later_force(bank_, still_seconds, remembers_time_only(program_));
+    // A state that runs on may bring what nobody has looked at, so the program is not called passive; of states that go
+    // by time alone, the proof above says it.
+    const bool runs_on = exploration_ && exploration_->runs_on && !remembers_time_only(program_);
+    if (runs_on && grade_.later_newton == 0 && !grade_.energy.active() && by_damping(grade_) == Standing::passive)
+      grade_.later_newton = prove(bank_.program()).bound_newton;
     if (grade_.energy.active())
       grade_.standing = Standing::active;
     else if (grade_.later_newton > 0)

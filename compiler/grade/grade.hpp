@@ -49,8 +49,8 @@ struct Energy {
   bool conservative = true;  ///< the force at rest has no curl, so no closed path gains energy
   double curl_watt = 0;      ///< power gained by a hand that circles where the curl is largest
   double motion_watt = 0;    ///< largest power of the part of the force that motion adds
-  double source_watt = 0;    ///< net power over a second of exploring, from memory and from sources that move by
-                             ///< themselves; for the latter at least half of the energy in both directions
+  double source_watt = 0;    ///< net power of exploring, from memory and from sources that move by themselves, where
+                             ///< and when it is largest; for the latter at least half of that in both directions
   std::vector<std::string> reasons;  ///< why it gives energy, in words; empty if it gives none
 
   bool active() const { return !reasons.empty(); }

@@ -18,6 +18,9 @@ bool remembers_anything(const PatchProgram& program);
 /// Whether all that is remembered goes by time alone, as the phase of a vibration does, whatever the hand does.
 bool remembers_time_only(const PatchProgram& program);
 
+/// Whether time alone may change the force on a hand that does the same again. Not told of memories over the patch.
+bool goes_by_time(const PatchProgram& program);
+
 /// Whether the force may differ between a hand that moves and one that rests at the same place and time.
 bool depends_on_motion(const PatchProgram& program);
 

@@ -19,6 +19,7 @@ constexpr double probing = 0.1, faster = 0.2;  // m/s
 constexpr double inside = 0.98;                // of the patch without its rim
 constexpr double bin = 1.5e-3;                 // m, over which a force is averaged
 constexpr double grown = 0.97;                 // of its size
+constexpr double all_of_it = 0.999;            // of the device's limit
 constexpr double growing = 1.01;               // times what it was some bins before
 constexpr std::size_t some_bins = 3;
 constexpr double long_enough = 0.015, times_as_long = 4;  // m, and of the path: it will not grow more
@@ -76,7 +77,7 @@ class LongStroke {
 };
 
 /// Where the means come to the last of them.
-LongWay told_by_means(const std::vector<double>& means, double width) {
+LongWay told_by_means(const std::vector<double>& means, double width, double most) {
   LongWay found;
   const std::size_t count = means.size();
   if (count <= some_bins) return found;
@@ -86,20 +87,23 @@ LongWay told_by_means(const std::vector<double>& means, double width) {
   found.grows = last >= least_force && means.back() > growing * means[count - 1 - some_bins];
   found.force = found.grows ? means.back() : last;
   if (found.force < least_force) return {};
+  // How far a bristle still bends that pulls with all that the device gives is not felt, but where it turns about.
+  found.cut = found.force >= all_of_it * most;
   return found;
 }
 
 LongWay long_way_along(const Bank& bank, const Room& room, glm::dvec2 way, double speed) {
   LongStroke stroke(bank, room, way, speed);
   std::vector<double> means;
+  const double most = bank.program().description().device.most();
   while (!stroke.ends()) {
     means.push_back(stroke.go_on());
     const double gone = static_cast<double>(means.size()) * stroke.width();
     if (gone < long_enough) continue;
-    const LongWay found = told_by_means(means, stroke.width());
+    const LongWay found = told_by_means(means, stroke.width(), most);
     if (!found.grows && gone > times_as_long * found.path) break;
   }
-  return told_by_means(means, stroke.width());
+  return told_by_means(means, stroke.width(), most);
 }
 
 }  // namespace

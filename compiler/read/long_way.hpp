@@ -12,6 +12,7 @@ struct LongWay {
   double path = 0;     ///< m from where it came, on which the force comes to its own size
   double force = 0;    ///< N: that size
   bool grows = false;  ///< the patch ends before: the force is more
+  bool cut = false;    ///< the device gives no more
 };
 
 /// m of the way on which a force may come to its own size for the usual strokes to read it.

@@ -10,6 +10,7 @@
 #include "compiler/measure/hands.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/drag_by_place.hpp"
+#include "compiler/read/drag_by_time.hpp"
 #include "compiler/read/long_way.hpp"
 #include "compiler/read/motion_law.hpp"
 #include "compiler/read/room.hpp"
@@ -20,13 +21,14 @@
 namespace wale {
 namespace {
 
-constexpr double push = 1;                  // m/s^2
-constexpr double unlike = 0.1;              // relative: two principal values that differ by more have an axis
-constexpr double surely = 3;                // standard errors of a mean over lines
-constexpr double speed_aside = 0.2;         // m/s at which a push aside is told
-constexpr double with_a_margin = 1.1;       // on the way on which a bristle turns about
-constexpr double mostly_one_way = 1.0 / 3;  // of the resistance to the other way, or less
-constexpr double in_a_part = 0.5;           // of the greatest resistance, or less, is the least
+constexpr double push = 1;                    // m/s^2
+constexpr double unlike = 0.1;                // relative: two principal values that differ by more have an axis
+constexpr double surely = 3;                  // standard errors of a mean over lines
+constexpr double speed_aside = 0.2;           // m/s at which a push aside is told
+constexpr double with_a_margin = 1.1;         // on the way on which a bristle turns about
+constexpr double mostly_one_way = 1.0 / 3;    // of the resistance to the other way, or less
+constexpr double too_slow_to_matter = 0.015;  // m/s: a friction that is whole from less on is a dry one
+constexpr double in_a_part = 0.5;             // of the greatest resistance, or less, is the least
 
 }  // namespace
 
@@ -109,18 +111,37 @@ double least_reach(const std::vector<Stroke>& strokes, double rate) {
   return least;
 }
 
-/// Where a bristle needs a longer way to turn about than the patch has, the way through the patch tells its friction.
-void tell_long_ways(OpposingForce& found, const std::array<LongWay, 2>& ways, double settled) {
+/// Where a bristle needs a longer way to turn about than the patch has, the way through the patch tells its friction,
+/// and strokes to and fro do not. Whether it does.
+bool tell_long_ways(OpposingForce& found, const std::array<LongWay, 2>& ways, double settled) {
   glm::dvec2 whole{0};
   bool longer = false;
   for (const std::size_t axis : {0, 1}) {
     const LongWay& way = ways[axis];
-    longer |= way.grows || 2 * way.path > settled;
-    whole[static_cast<int>(axis)] = way.force, found.friction_grows |= way.grows;
+    longer |= way.grows || way.cut || 2 * way.path > settled;
+    whole[static_cast<int>(axis)] = way.force;
+    found.friction_grows |= way.grows, found.friction_cut |= way.cut;
   }
-  if (!longer || std::max(whole.x, whole.y) < std::abs(found.friction)) return;
+  if (!longer || std::max(whole.x, whole.y) < std::abs(found.friction)) return false;
   const Principal told = principal_of({whole.x, 0}, {0, whole.y}, least_force);
   found.friction = told.greatest, found.friction_across = told.across, found.friction_axis = told.axis;
+  if (!found.explained) found.damping = found.damping_across = 0, found.damping_axis = {0, 0};
+  found.saturation_speed = found.limit = found.exponent = 0, found.explained = true;
+  return true;
+}
+
+void tell_no_law(OpposingForce& found) {
+  found.explained = false;
+  found.friction = found.friction_across = found.damping = found.damping_across = found.saturation_speed = found.limit =
+      0;
+  found.friction_axis = found.damping_axis = {0, 0}, found.friction_grows = found.friction_cut = false;
+}
+
+/// What changes with time is told by the law of its mean, if it has one.
+void tell_changes(OpposingForce& found, const DragByTime& drag) {
+  found.changes_in_time = true, found.least_in_time = drag.least, found.most_in_time = drag.most;
+  if (!drag.has_mean || !found.explained) tell_no_law(found);
+  if (!drag.has_mean) found.exponent = 0;
 }
 
 /// What differs between the ways that a hand may go, and from place to place. One figure tells no force that is mostly
@@ -136,9 +157,7 @@ void tell_differences(OpposingForce& found, const DragByPlace& drag) {
                        apart(drag.forward.y, drag.backward.y, mostly_one_way) ||
                        apart(drag.least, drag.most, in_a_part);
   if (!found.explained || differs) {
-    found.explained = false;
-    found.friction = found.friction_across = found.damping = found.damping_across = found.saturation_speed = 0;
-    found.friction_axis = found.damping_axis = {0, 0}, found.friction_grows = false;
+    tell_no_law(found);
     if (differs) found.exponent = 0;
   }
 }
@@ -150,11 +169,19 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   if (!depends_on_motion(program)) return {};
   const Outside outside{wall};
   const Room space(bank);
-  const std::array<LongWay, 2> ways = long_ways(bank, space);
+  std::vector<Stroke> strokes = strokes_over(bank, {1, 0}, outside, space, 0);
+  const DragByTime in_time = drag_by_time(bank, strokes);
+  std::array<LongWay, 2> ways;
+  if (!in_time.changes) ways = long_ways(bank, space);
   const double settling = settling_of(ways);
-  std::vector<Stroke> strokes = strokes_over(bank, {1, 0}, outside, space, settling);
-  std::vector<glm::dvec2> opposed = opposed_on(bank, strokes, outside);
-  const DragByPlace differences = drag_by_place(bank, strokes, opposed, outside);
+  if (settling > 0) strokes = strokes_over(bank, {1, 0}, outside, space, settling);
+  const auto opposed_by = [&] {
+    return in_time.changes ? opposed_over_time(bank, strokes, outside) : opposed_on(bank, strokes, outside);
+  };
+  std::vector<glm::dvec2> opposed = opposed_by();
+  // What moments differ by is no difference between places.
+  DragByPlace differences;
+  if (!in_time.changes) differences = drag_by_place(bank, strokes, opposed, outside);
   const std::size_t half = strokes.size() / 2;
   const MeanOpposed mean = mean_of(strokes, opposed);
   const double chance = chance_of(strokes, along_strokes(strokes, opposed));
@@ -162,8 +189,8 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   if (!whole.directed()) {
     OpposingForce found = law_of(strokes, along_strokes(strokes, opposed), program.device.most());
     found.friction_across = found.friction, found.damping_across = found.damping, found.aside = mean.aside;
-    tell_long_ways(found, ways, least_reach(strokes, program.device.rate));
-    tell_differences(found, differences);
+    if (!tell_long_ways(found, ways, least_reach(strokes, program.device.rate))) tell_differences(found, differences);
+    if (in_time.changes) tell_changes(found, in_time);
     return found;
   }
   glm::dvec2 axis = whole.axis;
@@ -172,7 +199,7 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   const bool oblique = std::min(std::abs(axis.x), std::abs(axis.y)) > 0.02;
   if (oblique) {
     for (int turn = 0; turn < 2; ++turn) {
-      strokes = strokes_over(bank, axis, outside, space, settling), opposed = opposed_on(bank, strokes, outside);
+      strokes = strokes_over(bank, axis, outside, space, settling), opposed = opposed_by();
       glm::dvec2 push{0};
       for (std::size_t i = 0; i < half; ++i) push += opposed[i];
       const bool turned = std::abs(push.x * axis.y - push.y * axis.x) > 0.01 * glm::length(push);
@@ -199,14 +226,28 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   found.damping = damping.greatest, found.damping_across = damping.across, found.damping_axis = damping.axis;
   found.scatter = std::hypot(one.scatter, other.scatter) / std::numbers::sqrt2;
   found.explained = one.explained && other.explained;
+  found.limit = std::max(one.limit, other.limit);
   found.aside = mean.aside;
-  if (!oblique) tell_long_ways(found, ways, least_reach(strokes, program.device.rate));
-  tell_differences(found, differences);
+  if (oblique || !tell_long_ways(found, ways, least_reach(strokes, program.device.rate)))
+    tell_differences(found, differences);
+  if (in_time.changes) tell_changes(found, in_time);
   return found;
 }
 
-double OpposingForce::unexplained_at(double speed) const {
-  if (explained || by_speed.empty()) return 0;
+double OpposingForce::rise() const {
+  return saturation_speed >= too_slow_to_matter ? std::abs(friction) / saturation_speed : 0;
+}
+
+bool OpposingForce::by_no_figure() const {
+  if (limit > 0 || rise() > 0 || one_way() != glm::dvec2(0) || std::abs(uneven()) >= least_force) return true;
+  return !explained &&
+         std::ranges::any_of(by_speed, [](const DragAt& each) { return std::abs(each.newton) >= least_force; });
+}
+
+double OpposingForce::unexplained_at(double speed) const { return explained ? 0 : at(speed); }
+
+double OpposingForce::at(double speed) const {
+  if (by_speed.empty()) return 0;
   const DragAt* before = &by_speed.front();
   for (const DragAt& each : by_speed) {
     if (each.speed >= speed) {
@@ -216,6 +257,11 @@ double OpposingForce::unexplained_at(double speed) const {
     before = &each;
   }
   return before->newton;
+}
+
+double OpposingForce::creeping() const {
+  constexpr double slowly = 0.01;  // m/s
+  return by_speed.empty() || by_speed.front().speed > slowly ? 0 : unexplained_at(slowly);
 }
 
 Principal inertia(const Bank& bank) {

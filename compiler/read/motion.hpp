@@ -33,6 +33,7 @@ struct OpposingForce {
   double friction = 0;
   double saturation_speed = 0;  ///< m/s: at which the friction is fully there; 0 if it is at any that was tried
   double damping = 0;           ///< N s/m: in proportion to the speed
+  double limit = 0;             ///< N: at which the damping is cut, within the speeds that were tried; 0 if at none
   double scatter = 0;           ///< N: standard deviation of the strokes from these laws
   /// Across the axis of the greatest friction and damping; the same as along it if they are alike everywhere.
   double friction_across = 0, damping_across = 0;
@@ -40,6 +41,7 @@ struct OpposingForce {
   double aside = 0;                              ///< N: on a hand at 0.2 m/s, square to its way and turning with it
   /// The friction is so much at least: it still grows where the patch ends.
   bool friction_grows = false;
+  bool friction_cut = false;  ///< it is so much at least: the device gives no more
 
   /// Whether one friction and one viscosity tell the resistance; otherwise those are none.
   bool explained = true;
@@ -51,10 +53,23 @@ struct OpposingForce {
   /// N at 0.2 m/s: the resistance at the places where it is least and greatest, if it is not alike everywhere.
   double least_by_place = 0, most_by_place = 0;
 
+  /// Whether the resistance changes with time; then N at 0.2 m/s, over some seconds. The law is that of the mean, if
+  /// there is one.
+  bool changes_in_time = false;
+  double least_in_time = 0, most_in_time = 0;
+
   Principal frictions() const { return {friction, friction_across, friction_axis}; }
   Principal dampings() const { return {damping, damping_across, damping_axis}; }
+  /// N s/m: with which a friction grows from rest, if exploring hands are often too slow to feel it whole; 0 otherwise.
+  double rise() const;
+  /// Whether a hand is resisted, or pushed on, in a way that one friction or one viscosity alone does not tell.
+  bool by_no_figure() const;
+  /// N at a speed (m/s), whether it is explained or not.
+  double at(double speed) const;
   /// N at a speed (m/s), if it is not explained; 0 otherwise.
   double unexplained_at(double speed) const;
+  /// N at 0.01 m/s, if it is not explained and was looked at; 0 otherwise.
+  double creeping() const;
   /// N at 0.2 m/s: what pushes a hand along each axis, whichever way it goes, and no resting one.
   glm::dvec2 one_way() const { return 0.5 * (backward - forward); }
   /// N at 0.2 m/s: by how much the resistance differs from place to place.

@@ -15,6 +15,8 @@ namespace {
 constexpr double nothing = 1e-5;              // N
 constexpr double least_below_strokes = 0.25;  // of the strokes: below the device's limit
 constexpr double not_told = 0.08;             // of the largest force: a law that leaves more at a speed is none
+constexpr double not_told_there = 0.15;       // of the force at a speed: nor is one that leaves more of it
+constexpr double usual_speed = 0.195;         // m/s: a drag that still grows with an exploring hand's is a viscosity
 constexpr double surely_off = 3;              // standard errors
 constexpr double plainly_left = 0.005;        // of the largest force
 constexpr double share_left = 0.25;           // of what another law leaves
@@ -85,13 +87,16 @@ MeansBySpeed means_by_speed(const std::vector<Stroke>& strokes, const std::vecto
   return found;
 }
 
-/// Whether a law tells the force at each speed, as well as that is known.
+/// Whether a law tells the force at each speed, as well as that is known. Three figures come near to any curve, so they
+/// must tell it as well as a law is fitted.
 bool tells_all_speeds(const OpposingForce& law, const MeansBySpeed& by_speed, double largest) {
+  const double share_left_out = law.rise() > 0 && law.damping != 0 ? well_fitted : not_told;
   for (std::size_t i = 0; i < by_speed.means.size(); ++i) {
     const auto [speed, newton] = by_speed.means[i];
     const double share = law.saturation_speed > 0 ? std::min(1.0, speed / law.saturation_speed) : 1;
     const double off = std::abs(newton - law.friction * share - law.damping * speed);
-    if (off > std::max(least_force, not_told * largest) + surely_off * by_speed.errors[i]) return false;
+    const double left = std::min(share_left_out * largest, not_told_there * std::abs(newton));
+    if (off > std::max(least_force, left) + surely_off * by_speed.errors[i]) return false;
   }
   return true;
 }
@@ -164,8 +169,10 @@ OpposingForce law_of(std::vector<Stroke> strokes, std::vector<double> opposed, d
   for (const FrictionLaw& law : laws) {
     const OpposingForce found = law.rises ? rising(law, strokes, opposed) : fitted(law, 0, strokes, opposed);
     if (!plausible(found, by_speed)) continue;
-    if (found.scatter < 0.7 * best.scatter) best = found;
-    if (best.scatter < well_fitted * largest) break;
+    // What is nothing beside the force on a fast hand may be most of that on a slow one.
+    const bool tells = tells_all_speeds(found, by_speed, largest);
+    if (found.scatter < 0.7 * best.scatter || (tells && !tells_all_speeds(best, by_speed, largest))) best = found;
+    if (best.scatter < well_fitted * largest && tells) break;
   }
   const Power power = power_of(by_speed.means);
   best.by_speed = by_speed.means, best.exponent = power.exponent;
@@ -174,6 +181,10 @@ OpposingForce law_of(std::vector<Stroke> strokes, std::vector<double> opposed, d
   const bool other = power.exponent > 0 && best.friction != 0 && best.damping != 0 &&
                      best.scatter > plainly_left * largest && power.left < share_left * best.scatter;
   best.explained = !other && tells_all_speeds(best, by_speed, largest);
+  if (best.explained && best.damping == 0 && best.saturation_speed >= usual_speed) {
+    best.damping = best.friction / best.saturation_speed, best.limit = std::abs(best.friction);
+    best.friction = best.saturation_speed = 0;
+  }
   return best;
 }
 

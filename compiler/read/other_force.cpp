@@ -8,6 +8,7 @@
 #include "compiler/measure/hands.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/relief_figures.hpp"
+#include "compiler/read/slow_change.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "wale/memory.hpp"
 
@@ -15,16 +16,14 @@ namespace wale {
 namespace {
 
 constexpr std::size_t hands_pressing = 64, hands_moving = 1024;
-constexpr double slow_window = 4;         // s: long enough that a sway has no mean in it
-constexpr double slow_step = 0.5;         // s
-constexpr double left_of_a_swing = 0.03;  // of its amplitude, in a mean over that window
-constexpr double left_of_noise = 0.3;     // likewise of a noise, whose means differ by chance
-constexpr double tour = 3, pause = 0.3;   // s
+constexpr double tour = 3, pause = 0.3, click = 0.15;  // s
 constexpr std::size_t tours = 4;
 constexpr double reach = 0.8;      // of half of the patch
 constexpr double swiftest = 0.25;  // m/s
 constexpr double plainly_more = 1.2;
-constexpr double stopping = 0.4;  // s
+constexpr std::size_t moments_moving = 32;
+constexpr long moving_apart = 211;  // ticks: a prime, so that no vibration keeps step with the moments
+constexpr double stopping = 0.4;    // s
 constexpr std::size_t some_ticks = 8;
 constexpr double straight_back = 0.7;  // cosine
 
@@ -48,32 +47,6 @@ double by_button(const Bank& bank, glm::dvec2& push) {
   return largest;
 }
 
-glm::dvec2 longer(glm::dvec2 one, glm::dvec2 other) { return glm::length(other) > glm::length(one) ? other : one; }
-
-/// The largest change of a force since its beginning.
-glm::dvec2 change_of(const std::vector<Force>& forces) {
-  glm::dvec2 largest{0};
-  for (const Force& force : forces) largest = longer(largest, glm::dvec2(force - forces.front()));
-  return largest;
-}
-
-/// The largest change of a force's mean over a window, in which a swing has none: the window is Hann's.
-glm::dvec2 change_of_mean(const std::vector<Force>& forces, double rate) {
-  const auto width = std::min(forces.size(), static_cast<std::size_t>(slow_window * rate));
-  const auto step = std::max<std::size_t>(1, static_cast<std::size_t>(slow_step * rate));
-  std::vector<glm::dvec2> means;
-  for (std::size_t first = 0; first + width <= forces.size(); first += step) {
-    glm::dvec2 sum{0};
-    for (std::size_t i = 0; i < width; ++i)
-      sum += (1 - std::cos(2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(width))) *
-             glm::dvec2(forces[first + i]);
-    means.push_back(sum / static_cast<double>(width));
-  }
-  glm::dvec2 largest{0};
-  for (const glm::dvec2& mean : means) largest = longer(largest, mean - means.front());
-  return largest;
-}
-
 /// A hand on its way over the patch, which ends in a rest.
 Hand on_tour(std::size_t number, double seconds, glm::dvec2 half, bool presses) {
   const auto along = [&](double now) {
@@ -90,7 +63,9 @@ Hand on_tour(std::size_t number, double seconds, glm::dvec2 half, bool presses) 
   constexpr double moment = 1e-4;
   hand.velocity = hand.raw_velocity = glm::vec2((along(seconds + moment) - along(seconds)) / moment);
   hand.time = seconds;
-  hand.button = presses && seconds > 0.25 * tour && seconds < 0.5 * tour;
+  // Every other one presses once for long; the others click.
+  const bool down = number % 2 == 0 || std::fmod(seconds, click) < 0.5 * click;
+  hand.button = presses && down && seconds > 0.25 * tour && seconds < 0.5 * tour;
   return hand;
 }
 
@@ -150,42 +125,45 @@ glm::dvec2 OtherForce::push() const {
 
 double force_on_moving(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
-  if (remembers_anything(program) ||
-      !reads(program, {Input::velocity_x, Input::velocity_y, Input::raw_velocity_x, Input::raw_velocity_y}))
-    return 0;
+  if (remembers_anything(program) && !remembers_time_only(program)) return 0;
+  if (!reads(program, {Input::velocity_x, Input::velocity_y, Input::raw_velocity_x, Input::raw_velocity_y})) return 0;
   std::vector<Hand> hands = hands_at_rest(hands_moving, glm::vec2(half_without_rim(bank)));
-  std::vector<Force> resting(hands.size()), moving(hands.size());
-  tick_all(bank, hands, resting);
-  for (std::size_t i = 0; i < hands.size(); ++i) {
-    const double angle = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0));
-    hands[i].velocity = hands[i].raw_velocity = glm::vec2(swiftest * glm::dvec2(std::cos(angle), std::sin(angle)));
-  }
-  tick_all(bank, hands, moving);
+  // What goes by time is felt at some moments, by some of the hands at each.
+  const std::size_t moments = goes_by_time(program) ? moments_moving : 1;
+  Bank own = bank;
+  Memory clock(own.program());
+  clock.enter(own, {});
   std::vector<double> sizes(hands.size());
-  for (std::size_t i = 0; i < hands.size(); ++i) sizes[i] = glm::length(moving[i] - resting[i]);
-  return percentile(sizes, percentile_of_amplitude);
+  long now = 0;
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    const auto moment = static_cast<long>(i * moments / hands.size()) * moving_apart;
+    for (; now < moment; ++now) {
+      Hand still;
+      still.time = static_cast<double>(now) / program.device.rate;
+      tick(own, clock, still);
+    }
+    const double angle = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0));
+    hands[i].time = static_cast<double>(moment) / program.device.rate;
+    Hand moving = hands[i];
+    moving.velocity = moving.raw_velocity = glm::vec2(swiftest * glm::dvec2(std::cos(angle), std::sin(angle)));
+    Memory at_rest = clock, in_motion = clock;
+    sizes[i] = glm::length(tick(own, in_motion, moving) - tick(own, at_rest, hands[i]));
+  }
+  const double usual = percentile(sizes, percentile_of_amplitude);
+  // What fills less than a hundredth of the patch has no percentile.
+  return usual >= least_force ? usual : std::ranges::max(sizes);
 }
 
-OtherForce other_force(const Bank& bank, const std::vector<std::vector<Force>>& felt, const Swing& sway,
-                       const Swing& vibration, double held) {
+OtherForce other_force(const Bank& bank, const std::vector<std::vector<Force>>& felt, const SlowChange& slow,
+                       double swinging, double held) {
   OtherForce found;
   found.button = by_button(bank, found.button_push);
-  const bool swings = std::max(sway.amplitude, vibration.amplitude) >= least_force;
-  const double rate = bank.program().description().device.rate;
-  for (const std::vector<Force>& forces : felt) {
-    const glm::dvec2 change = swings ? change_of_mean(forces, rate) : change_of(forces);
-    found.slowly = std::max(found.slowly, glm::length(change));
-    found.slow_push += change / static_cast<double>(felt.size());
-  }
-  if (found.slowly <
-      (vibration.noise ? left_of_noise : left_of_a_swing) * std::max(sway.amplitude, vibration.amplitude))
-    found.slowly = 0;
+  found.slowly = slow.newton, found.slow_push = slow.push;
   for (const std::vector<Force>& forces : felt)
     for (const Force& force : forces) found.rehearsed = std::max(found.rehearsed, double{glm::length(force)});
   found.remembered = by_memory(bank, found.rehearsed);
   // A swing that begins when the hand comes is elsewhere in its period for a hand that came before.
-  const double swinging = 2 * (sway.amplitude + vibration.amplitude);
-  if (found.remembered < plainly_more * (held + swinging)) found.remembered = 0;
+  if (found.remembered < plainly_more * (held + 2 * swinging)) found.remembered = 0;
   return found;
 }
 

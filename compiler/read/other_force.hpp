@@ -3,7 +3,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "compiler/read/swing.hpp"
+#include "compiler/read/slow_change.hpp"
 
 namespace wale {
 
@@ -30,10 +30,10 @@ struct OtherForce {
 /// that remembers or does not look at the motion.
 double force_on_moving(const Bank& bank);
 
-/// Rehearses hands that press the button, hold still, and come back to rest from a tour of the patch. `felt` are the
-/// forces on hands that hold still (`felt_at_rest`), with their swings; `held` (N) is what friction holds a resting
-/// hand with at most.
-OtherForce other_force(const Bank& bank, const std::vector<std::vector<Force>>& felt, const Swing& sway,
-                       const Swing& vibration, double held);
+/// Rehearses hands that press the button, and that come back to rest from a tour of the patch. `felt` are the forces on
+/// hands that hold still (`felt_at_rest`), with what comes slowly and with the amplitude of their swings, N; `held` (N)
+/// is what friction holds a resting hand with at most.
+OtherForce other_force(const Bank& bank, const std::vector<std::vector<Force>>& felt, const SlowChange& slow,
+                       double swinging, double held);
 
 }  // namespace wale

@@ -61,6 +61,31 @@ std::optional<double> times_as_strong(const Bank& here, const Bank& there) {
   return times >= 0 ? std::optional(times) : std::nullopt;
 }
 
+namespace {
+
+void scale(Principal& principal, double times) { principal.greatest *= times, principal.across *= times; }
+
+void scale(Swing& swing, double times) {
+  swing.amplitude *= times;
+  if (swing.least) *swing.least *= times;
+}
+
+void scale(OpposingForce& opposing, double times) {
+  for (double* each : {&opposing.friction, &opposing.friction_across, &opposing.damping, &opposing.damping_across,
+                       &opposing.limit, &opposing.scatter, &opposing.aside, &opposing.forward.x, &opposing.forward.y,
+                       &opposing.backward.x, &opposing.backward.y, &opposing.least_in_time, &opposing.most_in_time,
+                       &opposing.least_by_place, &opposing.most_by_place})
+    *each *= times;
+  for (DragAt& each : opposing.by_speed) each.newton *= times;
+}
+
+void scale(SlowChange& slow, double times) {
+  slow.newton *= times;
+  for (glm::dvec2* each : {&slow.push, &slow.at_first, &slow.lower, &slow.higher}) *each *= times;
+}
+
+}  // namespace
+
 ForceReading times_as_strong(ForceReading found, double times) {
   StaticForce& still = found.still;
   still.largest *= times;
@@ -73,47 +98,22 @@ ForceReading times_as_strong(ForceReading found, double times) {
   for (std::vector<StaticStep>* steps : {&still.obstacles.steps, &found.steps})
     for (StaticStep& each : *steps) each.change *= times;
   Relief& relief = still.relief;
-  OpposingForce& opposing = found.opposing;
-  for (double* each : {&relief.amplitude,
-                       &relief.maximum,
-                       &relief.rms,
-                       &relief.mean,
-                       &found.stiffness,
-                       &found.stiffness_across,
-                       &opposing.friction,
-                       &opposing.friction_across,
-                       &opposing.damping,
-                       &opposing.damping_across,
-                       &opposing.scatter,
-                       &opposing.aside,
-                       &found.breakaway,
-                       &found.inertia.greatest,
-                       &found.inertia.across,
-                       &found.sway.amplitude,
-                       &found.vibration.amplitude,
-                       &found.other.button,
-                       &found.other.slowly,
-                       &found.other.remembered,
-                       &found.other.moving,
-                       &found.other.rehearsed,
-                       &found.wall_push,
-                       &found.at_first,
-                       &found.outward,
-                       &found.other.later,
-                       &opposing.forward.x,
-                       &opposing.forward.y,
-                       &opposing.backward.x,
-                       &opposing.backward.y,
-                       &opposing.least_by_place,
-                       &opposing.most_by_place})
+  for (double* each :
+       {&relief.amplitude, &relief.maximum, &relief.rms, &relief.mean, &found.stiffness, &found.stiffness_across,
+        &found.breakaway, &found.other.button, &found.other.slowly, &found.other.remembered, &found.other.moving,
+        &found.other.rehearsed, &found.wall_push, &found.at_first, &found.outward, &found.other.later})
     *each *= times;
-  for (DragAt& each : opposing.by_speed) each.newton *= times;
+  scale(found.opposing, times), scale(found.inertia, times), scale(found.sway, times), scale(found.vibration, times);
+  if (HeldButton* held = found.held ? &*found.held : nullptr) {
+    scale(held->opposing, times), scale(held->inertia, times), scale(held->sway, times);
+    scale(held->vibration, times), scale(held->slow, times);
+  }
   for (glm::dvec2* each : {&found.constant, &found.other.button_push, &found.other.slow_push}) *each *= times;
-  const auto scale = [&](WallFace& wall) {
+  const auto scale_wall = [&](WallFace& wall) {
     for (double* each : {&wall.stiffness, &wall.damping, &wall.release, &wall.preload}) *each *= times;
   };
-  if (found.wall) scale(*found.wall);
-  std::ranges::for_each(found.more_walls, scale);
+  if (found.wall) scale_wall(*found.wall);
+  std::ranges::for_each(found.more_walls, scale_wall);
   return found;
 }
 

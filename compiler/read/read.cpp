@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <vector>
@@ -94,7 +95,26 @@ double chance_of_line(const Relief& relief, glm::dvec2 half) {
 struct AtFirst {
   glm::dvec2 force{0};
   double uncertain = 0;  ///< so much at most: as it differs from place to place
+  SlowChange slow;       ///< what comes or goes later
 };
+
+/// What of a push is the same on all sides of the steps: none along an axis along which it turns about.
+glm::dvec2 alike_beside(const std::vector<StaticStep>& steps, glm::dvec2 push, glm::dvec2 half) {
+  if (steps.empty()) return push;
+  glm::dvec2 least{0};
+  for (const int axis : {0, 1}) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (int row = 0; row < places_a_side; ++row)
+      for (int column = 0; column < places_a_side; ++column) {
+        const glm::dvec2 place = half * ((glm::dvec2(column, row) + 0.5) / (0.5 * places_a_side) - 1.0);
+        double there = push[axis];
+        for (const StaticStep& each : steps) there += each.at(place)[axis];
+        low = std::min(low, there), high = std::max(high, there);
+      }
+    least[axis] = low > 0 ? low : high < 0 ? high : 0;
+  }
+  return least;
+}
 
 /// The linear part: a spring, and a constant push.
 void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) {
@@ -111,7 +131,11 @@ void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) 
         {chance, misfit_of_relief * found.relief().amplitude, misfit_of_spring * std::abs(spring.greatest) * nearest,
          misfit_of_swing * std::max(found.sway.amplitude, found.vibration.amplitude),
          found.vibration.noise ? misfit_of_noise * found.vibration.amplitude : 0, at_first.uncertain});
-    const glm::dvec2 push = still.trend.mean - at_first.force;
+    // Where the device cuts it, the middle is pushed less than the law asks for.
+    const glm::dvec2 most(bank.program().description().device.most());
+    const glm::dvec2 push = glm::clamp(
+        alike_beside(still.obstacles.steps, at_first.slow.remaining(still.trend.mean - at_first.force), half), -most,
+        most);
     if (glm::length(push) >= std::max(least_force, certain)) found.constant = push;
   } else {
     found.stiffness = found.stiffness_across = even_stiffness(still, patch);
@@ -157,16 +181,20 @@ void tell_force_on_moving(const Bank& bank, ForceReading& found) {
   const bool unexplained = !opposing.explained && std::ranges::any_of(opposing.by_speed, [](const DragAt& each) {
     return std::abs(each.newton) >= least_force;
   });
+  // A force by time scatters too.
+  const bool scattered = opposing.scatter >= least_force && !goes_by_time(bank.program().description());
   const bool resisted = std::abs(opposing.damping) >= least_damping || std::abs(opposing.friction) >= least_force ||
-                        opposing.scatter >= least_force || opposing.aside >= least_force || unexplained || found.wall;
+                        scattered || opposing.aside >= least_force || unexplained || found.wall;
   if (!resisted) found.other.moving = force_on_moving(bank);
 }
 
 /// How much more the force pushes a hand that has just come and rests than it does in the mean over time, and over slow
 /// motion to and fro: a sway begins somewhere in its period, and a sign has a value at rest. N.
-AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& felt, const ForceReading& found) {
+AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& felt, const SlowChange& slow,
+                      const ForceReading& found) {
   const PatchProgram& program = bank.program().description();
   AtFirst off;
+  off.slow = slow;
   if (std::max(found.sway.amplitude, found.vibration.amplitude) >= least_force) {
     const auto places = static_cast<double>(felt.size());
     std::vector<glm::dvec2> all;
@@ -185,6 +213,11 @@ AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& f
     for (const glm::dvec2& each : all) squares += glm::dot(each - off.force, each - off.force);
     off.uncertain = surely_at_first * std::sqrt(squares) / places;
     if (off.uncertain >= least_force && glm::length(off.force) < off.uncertain) off.force = {0, 0};
+    // Beside what comes or goes, the mean over all of the time is nothing that it ever has.
+    if (slow.lower != slow.higher) {
+      off.force = -slow.at_first;
+      for (const std::vector<Force>& forces : felt) off.force += glm::dvec2(forces.front()) / places;
+    }
   }
   if (remembers_anything(program)) return off;
   constexpr double creeping = 1e-3;  // m/s
@@ -200,7 +233,11 @@ AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& f
   tick_all(bank, hands, forces);
   glm::dvec2 mean{0};
   for (std::size_t i = 1; i < forces.size(); ++i) mean += 0.125 * glm::dvec2(forces[i]);
-  const glm::dvec2 at_rest = glm::dvec2(forces[0]) - mean;
+  glm::dvec2 at_rest = glm::dvec2(forces[0]) - mean;
+  // What resists on one way only is a drag, and pushes no resting hand.
+  const glm::dvec2 one_way = found.opposing.one_way();
+  for (const int axis : {0, 1})
+    if (one_way[axis] != 0) at_rest[axis] = 0;
   if (glm::length(at_rest) > least_force) off.force += at_rest;
   return off;
 }
@@ -230,6 +267,37 @@ double ForceReading::stepped() const {
   return sum;
 }
 
+double ForceReading::held_drag(double speed) const { return held ? held->opposing.at(speed) - opposing.at(speed) : 0; }
+
+double ForceReading::held_mass() const { return held ? held->inertia.greatest - inertia.greatest : 0; }
+
+double ForceReading::held_swing() const {
+  if (!held) return 0;
+  const auto of = [](const Swing& a, const Swing& b) { return std::max(a.amplitude, b.amplitude); };
+  return of(held->sway, held->vibration) - of(sway, vibration);
+}
+
+double ForceReading::uneven_swing() const {
+  const Swing& swing = sway.least ? sway : vibration;
+  return swing.least ? swing.amplitude - *swing.least : 0;
+}
+
+namespace {
+
+/// What the button does in motion and in time. What comes late while it is held is the button's, if it does not come
+/// without it.
+void tell_held_button(const Bank& bank, ForceReading& found) {
+  constexpr double plainly_later = 1.2;
+  const bool damped_wall = found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping;
+  found.held = held_button(bank, damped_wall ? &*found.wall : nullptr);
+  if (!found.held) return;
+  const SlowChange& slow = found.held->slow;
+  if (slow.newton > plainly_later * std::max(found.other.slowly, found.other.button))
+    found.other.button = slow.newton, found.other.button_push = slow.push;
+}
+
+}  // namespace
+
 ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   if (bank.program().description().vibrates()) return {};  // such a program has no force
   ForceReading found;
@@ -242,9 +310,10 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
     found.inertia = inertia(bank);
     const std::vector<std::vector<Force>> felt = felt_at_rest(bank);
     tell_swings(bank, felt, found.sway, found.vibration);
-    at_first = only_at_first(bank, felt, found);
-    found.other =
-        other_force(bank, felt, found.sway, found.vibration, std::max(found.opposing.friction, found.breakaway));
+    const SlowChange slow = slow_change(bank, felt, found.sway, found.vibration);
+    at_first = only_at_first(bank, felt, slow, found);
+    found.other = other_force(bank, felt, slow, found.sway.amplitude + found.vibration.amplitude,
+                              std::max(found.opposing.friction, found.breakaway));
     found.other.later = later_force(bank, still_seconds, remembers_time_only(bank.program().description()));
   };
   const auto part = [&](std::size_t begin, std::size_t end) {
@@ -259,7 +328,10 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
     in_parallel(parts, part);
   else
     part(0, parts);
-  if (!wanted.still) return found;
+  if (!wanted.still) {
+    tell_held_button(bank, found);
+    return found;
+  }
   limit_relief(found.still, bank.program().description().device.most());
   found.at_first = glm::length(at_first.force);
   tell_obstacles(bank, found);
@@ -269,7 +341,7 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   // What damps the hand in a wall is the wall's.
   if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping)
     found.opposing = opposing_force(bank, &*found.wall);
-  if (wanted.moving) tell_force_on_moving(bank, found);
+  if (wanted.moving) tell_force_on_moving(bank, found), tell_held_button(bank, found);
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "compiler/declarations/declarations.hpp"
+#include "compiler/read/held_button.hpp"
 #include "compiler/read/motion.hpp"
 #include "compiler/read/other_force.hpp"
 #include "compiler/read/relief.hpp"
@@ -34,6 +35,7 @@ struct ForceReading {
   Swing sway;            ///< slower than 10 Hz
   Swing vibration;
   OtherForce other;
+  std::optional<HeldButton> held;  ///< of a program that reads the button
   /// N: the amplitude of single features that push the hand out of their middle, as a hill does; negative if they draw
   /// it in, as a hole does; 0 if they do neither or repeat.
   double outward = 0;
@@ -42,6 +44,12 @@ struct ForceReading {
   double more_wall_stiffness() const;
   /// N: of all steps together.
   double stepped() const;
+  /// What holding the button adds: to the drag at a speed (m/s), N; to the mass, kg; and to what swings, N.
+  double held_drag(double speed) const;
+  double held_mass() const;
+  double held_swing() const;
+  /// N: by how much what swings differs from place to place.
+  double uneven_swing() const;
   Principal stiffnesses() const { return {stiffness, stiffness_across, stiffness_axis}; }
   const Relief& relief() const { return still.relief; }
 };

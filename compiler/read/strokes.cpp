@@ -14,7 +14,7 @@ namespace wale {
 namespace {
 
 // m/s, speeds of an exploring hand; fewer for programs whose ticks must run one after another
-constexpr std::array<double, 8> speeds = {0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2, 0.4};
+constexpr std::array<double, 10> speeds = {0.005, 0.01, 0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2, 0.4};
 constexpr std::array<double, 4> few_speeds = {0.05, 0.1, 0.2, 0.4};
 constexpr double stretch = 0.024;      // m, length of a stroke, which goes there and back
 constexpr double least_stretch = 0.5;  // of the patch's extent, if that is smaller
@@ -137,10 +137,12 @@ std::vector<glm::dvec2> opposed_anywhere(const Bank& bank, const std::vector<Str
 
 /// For each stroke, the force on a hand that rests in its middle, tick by tick: what changes with time is felt there
 /// too. One tick alone where nothing changes.
-std::vector<std::vector<Force>> felt_in_the_middles(const Bank& bank, const std::vector<Stroke>& strokes) {
+std::vector<std::vector<Force>> felt_in_the_middles(const Bank& bank, const std::vector<Stroke>& strokes,
+                                                    long at_least = 0) {
   constexpr std::size_t some = 64;
   const double rate = bank.program().description().device.rate;
-  const auto longest = static_cast<std::size_t>(std::ranges::max(strokes, {}, &Stroke::ticks).ticks());
+  const auto longest =
+      static_cast<std::size_t>(std::max(at_least, std::ranges::max(strokes, {}, &Stroke::ticks).ticks()));
   Bank own = bank;
   Memory memory(own.program());
   std::vector<std::vector<Force>> felt(strokes.size());
@@ -165,18 +167,19 @@ std::vector<std::vector<Force>> felt_in_the_middles(const Bank& bank, const std:
 
 /// The same for a program that remembers in states only, tick by tick. The hands run one after another: there are too
 /// few to fill the lanes of a block.
-std::vector<glm::dvec2> opposed_one_by_one(const Bank& bank, const std::vector<Stroke>& strokes,
-                                           const Outside& outside) {
+std::vector<glm::dvec2> opposed_one_by_one(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside,
+                                           double seconds) {
   const double rate = bank.program().description().device.rate;
+  const auto at_least = static_cast<long>(seconds * rate);
   Bank own = bank;
   Memory memory(own.program());
-  const std::vector<std::vector<Force>> resting = felt_in_the_middles(bank, strokes);
+  const std::vector<std::vector<Force>> resting = felt_in_the_middles(bank, strokes, at_least);
   std::vector<glm::dvec2> means(strokes.size());
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const Stroke& stroke = strokes[i];
     glm::dvec2 sum{0};
     long count = 0;
-    for (long now = 0; now < stroke.ticks(); ++now) {
+    for (long now = 0; now < std::max(at_least, stroke.ticks()); ++now) {
       const auto [along, forth] = stroke.at(now, rate);
       Hand hand = stroke.hand(along, forth);
       hand.time = static_cast<double>(now) / rate;
@@ -192,9 +195,9 @@ std::vector<glm::dvec2> opposed_one_by_one(const Bank& bank, const std::vector<S
 }
 
 /// The same for any program; memories stay as they are at the start.
-std::vector<glm::dvec2> opposed_on_the_way(const Bank& bank, const std::vector<Stroke>& strokes,
-                                           const Outside& outside) {
-  if (bank.program().description().grids.empty()) return opposed_one_by_one(bank, strokes, outside);
+std::vector<glm::dvec2> opposed_on_the_way(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside,
+                                           double seconds) {
+  if (bank.program().description().grids.empty()) return opposed_one_by_one(bank, strokes, outside, seconds);
   const double rate = bank.program().description().device.rate;
   const long longest = std::ranges::max(strokes, {}, &Stroke::ticks).ticks();
   std::vector<glm::dvec2> sums(strokes.size());
@@ -220,8 +223,9 @@ std::vector<glm::dvec2> opposed_on_the_way(const Bank& bank, const std::vector<S
 
 }  // namespace
 
-std::vector<glm::dvec2> opposed_on(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside) {
-  return remembers_anything(bank.program().description()) ? opposed_on_the_way(bank, strokes, outside)
+std::vector<glm::dvec2> opposed_on(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside,
+                                   double seconds) {
+  return remembers_anything(bank.program().description()) ? opposed_on_the_way(bank, strokes, outside, seconds)
                                                           : opposed_anywhere(bank, strokes, outside);
 }
 

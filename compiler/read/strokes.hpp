@@ -57,8 +57,9 @@ std::vector<Stroke> strokes_over(const Bank& bank, glm::dvec2 axis, const Outsid
 
 /// The mean force on each stroke, N, turned about for a hand that goes forth: its part along the stroke opposes the
 /// hand, and the other part pushes it aside. States and memories work as they do under a hand; memories stay as they
-/// are at the start.
-std::vector<glm::dvec2> opposed_on(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside);
+/// are at the start. Strokes of a program that remembers go on to and fro for so many seconds, at least.
+std::vector<glm::dvec2> opposed_on(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside,
+                                   double seconds = 0);
 
 /// The mean force on each stroke, N, that pushes a hand whichever way it goes, and no resting hand that has just come.
 /// For a program without memories over the patch.

@@ -10,6 +10,8 @@
 
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/fourier.hpp"
+#include "compiler/read/slow_change.hpp"
+#include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
 #include "wale/batch.hpp"
 #include "wale/memory.hpp"
@@ -21,11 +23,14 @@ constexpr std::size_t still_places = 8;
 constexpr std::size_t fewest_swings = 3;  // over that time; slower changes are a drift
 constexpr std::size_t most_harmonic = 8;
 constexpr double of_the_strongest = 0.2;  // line's power, in a fundamental
+constexpr double above_the_usual = 10;    // times the median line of a band
 constexpr double stands_out = 0.25;       // of a peak's power, at most this is three lines before it
 constexpr double most_of_power = 0.7;
 constexpr std::size_t most_lines = 24;   // of the spectrum, three for each rate, in what has rates
 constexpr std::size_t fewest_apart = 8;  // lines between the harmonics of what is no noise
 constexpr double no_swing = 1e-5;        // N
+constexpr double same_rate = 0.02;
+constexpr double plainly_less = 0.5;     // of the greatest, where it is least
 constexpr double beats_of_ticks = 0.05;  // of a vibration's power, below its band: the rate of the ticks is no multiple
 constexpr double pure = 0.995;           // of the power: a sine has as much in the lines around its own
 constexpr double missed = 1.03;          // most that the ticks of a sine may miss of its peak
@@ -147,6 +152,11 @@ Swing swing_in(const std::vector<double>& powers, std::size_t first, std::size_t
   for (std::size_t i = first; i < end; ++i) sum += powers[i];
   const double before = at > 0 ? powers[at - 1] : 0, after = at + 1 < powers.size() ? powers[at + 1] : 0;
   const double slower = at >= 3 ? powers[at - 3] : HUGE_VAL;
+  // What begins or ends leaves as much in all lines.
+  std::vector<double> all(powers.begin() + static_cast<std::ptrdiff_t>(first),
+                          powers.begin() + static_cast<std::ptrdiff_t>(end));
+  std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
+  if (powers[at] < above_the_usual * all[all.size() / 2]) return {};
   // A neighbour in a slower band may be the foot of a stronger peak there.
   if (powers[at] <= 0 || slower > stands_out * powers[at] || before > powers[at] || after > powers[at]) return {};
   // Under Hann's window, let r be the ratio in amplitude of the larger neighbour to the strongest line. The swing then
@@ -203,18 +213,25 @@ std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
   return felt;
 }
 
-void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway, Swing& vibration) {
+namespace {
+
+/// Tells the swings at the place where the forces change most. Returns the part of that change at the place where they
+/// change least.
+double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway,
+                            Swing& vibration) {
   std::vector<std::complex<float>> busiest;
   const std::vector<Force>* at_busiest = nullptr;
-  double most = 0;
+  double most = 0, least = HUGE_VAL;
   for (const std::vector<Force>& forces : felt) {
     const std::vector<std::complex<float>> changes = without_drift(forces);
     double squares = 0;
     for (const auto& each : changes) squares += std::norm(each);
+    least = std::min(least, squares);
     if (squares > most) most = squares, busiest = changes, at_busiest = &forces;
   }
   const auto ticks = static_cast<double>(busiest.size());
-  if (busiest.empty() || std::sqrt(2 * most / ticks) <= no_swing) return;
+  if (busiest.empty() || std::sqrt(2 * most / ticks) <= no_swing) return 1;
+  const double share = std::sqrt(least / most);
   const double rate = bank.program().description().device.rate, seconds = ticks / rate;
   const std::vector<float> fade = hann_window(busiest.size());
   for (std::size_t i = 0; i < busiest.size(); ++i) busiest[i] *= fade[i];
@@ -229,7 +246,7 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
   if (is_noise(powers)) {
     vibration = {std::min(size_within(spectrum, fade, 1, powers.size() - 1), farthest_from_middle(*at_busiest)), 0,
                  true};
-    return;
+    return share;
   }
   // A swing at the border belongs to the faster ones with all of its lines, which are three under this window.
   auto first_fast = static_cast<std::size_t>(slowest_vibration * seconds);
@@ -248,7 +265,7 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
                     harmonic ? powers.size() : first_fast);
   if (sway.frequency > 0) sway.axis = axis_within(spectrum, fewest_swings, first_fast);
   sway.amplitude = std::min(sway.amplitude, farthest_from_middle(*at_busiest));
-  if (!(vibration.frequency > 0)) return;
+  if (!(vibration.frequency > 0)) return share;
   vibration.axis = axis_within(spectrum, first_fast, powers.size());
   double slower = 0, faster = 0;
   for (std::size_t i = 1; i < powers.size(); ++i) (i < first_fast ? slower : faster) += powers[i];
@@ -264,6 +281,26 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
   const double peak = std::sqrt(2 * tone);
   if (tone >= pure * (slower + faster) && peak > vibration.amplitude && peak < missed * vibration.amplitude)
     vibration.amplitude = peak;
+  return share;
+}
+
+}  // namespace
+
+void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway, Swing& vibration) {
+  const double share = tell_greatest_swings(bank, felt, sway, vibration);
+  if (vibration.frequency > 0 && sway.amplitude < least_force) {
+    // What comes or goes beside it is in its spectrum too.
+    if (const auto left = without_slow_change(bank, felt, vibration)) {
+      Swing no_sway, alone;
+      tell_greatest_swings(bank, *left, no_sway, alone);
+      if (std::abs(alone.frequency - vibration.frequency) < same_rate * vibration.frequency) vibration = alone;
+    }
+  }
+  // Of two swings nobody knows which one differs.
+  if (share > plainly_less || std::min(sway.amplitude, vibration.amplitude) >= least_force) return;
+  Swing& swing = sway.amplitude > vibration.amplitude ? sway : vibration;
+  if (swing.amplitude < least_force) return;
+  swing.least = share * swing.amplitude < least_force ? 0 : share * swing.amplitude;
 }
 
 }  // namespace wale

@@ -14,6 +14,8 @@ struct Swing {
   bool noise = false;    ///< it changes without a rate
   /// rad in [0, pi): along which it swings; nothing if it swings about as much across
   std::optional<double> axis{};
+  /// N: about the amplitude at the place where it is least; nothing if that is more than half of the greatest
+  std::optional<double> least{};
 };
 
 /// s: so long hands hold still that feel what time brings.

@@ -12,19 +12,23 @@
 
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/still_forces.hpp"
 #include "compiler/text/readable.hpp"
 #include "wale/batch.hpp"
 
 namespace wale {
 namespace {
 
-constexpr int scan_lines = 5;          // in each of four directions
-constexpr double step = 0.5e-3;        // m between the positions of a scan
-constexpr int steps_free = 8;          // 4 mm without force before a face; no texture has so much
-constexpr int steps_deep = 3;          // 1.5 mm over which the force must grow in proportion to depth
-constexpr double least_push = 0.02;    // N at that depth
-constexpr double proportional = 0.15;  // of the force: tolerance for a straight line
-constexpr double slow = 0.02;          // m/s, the speed at which damping is measured
+constexpr int scan_lines = 5;             // in each of four directions
+constexpr double step = 0.5e-3;           // m between the positions of a scan
+constexpr int steps_free = 8;             // 4 mm without force before a face; no texture has so much
+constexpr int steps_deep = 3;             // 1.5 mm over which the force must grow in proportion to depth
+constexpr double least_push = 0.02;       // N at that depth
+constexpr double proportional = 0.15;     // of the force: tolerance for a straight line
+constexpr double slow = 0.02;             // m/s, the speed at which damping is measured
+constexpr double nearly_straight = 0.02;  // of the largest push
+constexpr double jump_of_rise = 3;        // times the usual rise from one step to the next
+constexpr double least_preload = 0.05, before_a_jump = 0.5;  // of the largest push, and of the preload
 
 /// A line of hands at rest. If the program has memory, one hand goes along the line step by step instead.
 struct Scan {
@@ -104,7 +108,7 @@ std::array<Force, 3> forces_at(const Bank& bank, const Scan& scan, double steps,
 /// A face, and the force on its flat side over the largest push behind it.
 struct FaceFound {
   WallFace face;
-  double outside = 0;
+  double outside = 0, most = 0;  ///< the latter is that push, N
 };
 
 /// The face of a feature whose profile is flat at its low or its high end.
@@ -127,8 +131,19 @@ std::optional<FaceFound> face_of(const Feature& feature, bool from_low) {
   std::size_t first = 0;
   while (first < count && against[first] < 0.1 * most) ++first;
   std::size_t last = first;
-  while (last + 1 < count && against[last + 1] < 0.6 * most && against[last + 1] >= against[last] - 0.03 * most) ++last;
+  const auto go_on_to = [&](double part) {
+    while (last + 1 < count && against[last + 1] < part * most && against[last + 1] >= against[last] - 0.03 * most)
+      ++last;
+  };
+  go_on_to(0.6);
+  // After a large jump the straight part lies higher.
+  const bool high = last < first + 3;
+  if (high) go_on_to(0.95);
   if (last < first + 3) return std::nullopt;
+  // A jump is smeared over some steps, and what follows it is another line.
+  const std::size_t began = first;
+  const double usual_rise = (against[last] - against[first]) / static_cast<double>(last - first);
+  while (first + 3 < last && against[first + 1] - against[first] > jump_of_rise * usual_rise) ++first;
   double n = 0, x = 0, f = 0, xx = 0, xf = 0;
   for (std::size_t i = first; i <= last; ++i) {
     const double at = feature.step * static_cast<double>(i);
@@ -143,9 +158,57 @@ std::optional<FaceFound> face_of(const Feature& feature, bool from_low) {
   const auto before = static_cast<std::size_t>(0.7 * onset / feature.step);
   for (std::size_t i = 0; i < before; ++i)
     if (std::abs(against[i]) > 0.1 * most) return std::nullopt;
+  // Where the line has long been more than the profile is, the face begins with a jump, just before the straight part.
+  const double jump_at = feature.step * (static_cast<double>(began) - 0.5), preload = slope * (jump_at - onset);
+  const bool jumps = preload > least_preload * most && began > 2 && against[began - 2] < before_a_jump * preload;
+  if (high && !jumps) return std::nullopt;
+  const double begins = jumps ? jump_at : onset;
   const double along =
-      from_low ? feature.low + onset : feature.low + feature.step * static_cast<double>(count - 1) - onset;
-  return FaceFound{{along * feature.direction + 0.0, inward + 0.0, slope, 0, 0}, glm::length(flat) / most};
+      from_low ? feature.low + begins : feature.low + feature.step * static_cast<double>(count - 1) - begins;
+  return FaceFound{{along * feature.direction + 0.0, inward + 0.0, slope, 0, 0, jumps ? preload : 0},
+                   glm::length(flat) / most,
+                   most};
+}
+
+/// Finds the place of a jump as well as the numbers of the machine allow, and the line behind it by the forces there;
+/// `most` (N) is the largest push.
+void sharpen_jump(const Bank& bank, const Feature& feature, double most, WallFace& face) {
+  constexpr int points = 32;
+  const glm::dvec2 at = face.place;
+  const auto against = [&](double along) {
+    const glm::dvec2 place = at + along * face.inward;
+    return -glm::dot(forces_at(bank, {&place, 1}).front(), face.inward);
+  };
+  double outside = -2 * feature.step, inside = 2 * feature.step;
+  const double half = 0.5 * (against(outside) + against(inside));
+  if (against(inside) - against(outside) < before_a_jump * face.preload) return;
+  for (int turn = 0; turn < 20; ++turn) {
+    const double middle = 0.5 * (outside + inside);
+    (against(middle) < half ? outside : inside) = middle;
+  }
+  face.place = at + inside * face.inward, face.preload += face.stiffness * inside;
+  const double depth = 0.5 * (most - face.preload) / face.stiffness;
+  double x = 0, f = 0, xx = 0, xf = 0;
+  std::array<glm::dvec2, points> line;
+  for (int i = 0; i < points; ++i) {
+    const double deep = depth * (i + 0.5) / points, push = against(inside + deep);
+    line[static_cast<std::size_t>(i)] = {deep, push};
+    x += deep / points, f += push / points, xx += deep * deep / points, xf += deep * push / points;
+  }
+  const double stiffness = (xf - x * f) / (xx - x * x);
+  const double preload = f - stiffness * x;
+  const bool straight = std::ranges::all_of(
+      line, [&](glm::dvec2 each) { return std::abs(each.y - preload - stiffness * each.x) < nearly_straight * most; });
+  if (!straight || !(stiffness > 0)) return;
+  // Of a small jump before a steep line half of the force is not yet half of the jump.
+  double before = inside - 2 * feature.step, behind = inside + 2 * feature.step;
+  const double from = inside;
+  for (int turn = 0; turn < 20; ++turn) {
+    const double middle = 0.5 * (before + behind);
+    (against(middle) < 0.5 * (preload + stiffness * (middle - from)) ? before : behind) = middle;
+  }
+  face.place = at + behind * face.inward;
+  face.stiffness = stiffness, face.preload = preload + stiffness * (behind - from);
 }
 
 /// The forces against hands that rest, go in and go out at one place, so that only the speed makes a difference.
@@ -233,7 +296,9 @@ std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& 
     auto found = face_of(each, true);
     const auto other = face_of(each, false);
     if (!found || (other && other->outside < found->outside)) found = other;
-    if (found && (!stiffest || found->face.stiffness > stiffest->stiffness)) stiffest = found->face;
+    if (!found || (stiffest && found->face.stiffness <= stiffest->stiffness)) continue;
+    stiffest = found->face;
+    if (stiffest->preload > 0) sharpen_jump(bank, each, found->most, *stiffest);
   }
   if (!stiffest) return stiffest;
   tell_damping(bank, *stiffest);

@@ -1,8 +1,12 @@
 // `wale describe` for programs with forces and without percepts, against the thesis.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <string>
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
@@ -244,7 +248,6 @@ TEST(DescribingForces, WhatDrivesTheHandAwayAndASpringThatSlipsAreNoWalls) {
   const std::pair<const char*, double> forces[] = {
       {"vector(if x > 20 mm then 300 N/m * (x - 20 mm) else 0 N, 0 N)", 10},  // the device's limit
       {"vector(0 N, if y < -15 mm then 200 N/m * (y + 15 mm) else 0 N)", 10},
-      {"vector(if x > 20 mm then -3 N - 300 N/m * (x - 20 mm) else 0 N, 0 N) limit 8 N", 8},
       {"vector(-clamp(x * 200 N/m, -2 N, 2 N), 0 N)", 2}};
   for (const auto& [force, most] : forces) {
     const Description description = described(std::string("active 9 W\nforce = ") + force);
@@ -257,6 +260,28 @@ TEST(DescribingForces, WhatDrivesTheHandAwayAndASpringThatSlipsAreNoWalls) {
   ASSERT_TRUE(wall.wall);
   EXPECT_NEAR(wall.wall->face.stiffness, 300, 3);
   EXPECT_EQ(wall.unread, 0);
+}
+
+TEST(DescribingForces, AWallWithAPreloadIsReadAlsoIfItsAuthorLimitsIt) {
+  std::mt19937 random(4);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
+  for (int i = 0; i < 10; ++i) {
+    const double place = between(-30, 30), preload = between(0.3, 2.5), stiffness = between(60, 380);
+    // The wall goes on for a centimetre at least before the limit, and its jump is a twelfth of that or more.
+    const double limit = std::min({preload + stiffness * between(0.012, 0.03), 12 * preload, 9.9});
+    if ((limit - preload) / stiffness < 0.01) continue;
+    const char axis = i % 2 == 0 ? 'x' : 'y';
+    const std::string push =
+        fmt::format("if {0} > {1} mm then -{2} N - {3} N/m * ({0} - {1} mm) else 0 N", axis, place, preload, stiffness);
+    const std::string text =
+        fmt::format("force = vector({}, {}) limit {} N", axis == 'x' ? push : "0 N", axis == 'y' ? push : "0 N", limit);
+    const Description description = described(text);
+    ASSERT_TRUE(description.wall) << text;
+    const WallFace& face = description.wall->face;
+    EXPECT_NEAR(axis == 'x' ? face.place.x : face.place.y, 1e-3 * place, 2e-4) << text;
+    EXPECT_NEAR(face.stiffness, stiffness, 0.03 * stiffness) << text;
+    EXPECT_NEAR(face.preload, preload, 0.03 * preload) << text;
+  }
 }
 
 TEST(DescribingForces, SmallFeaturesSwaysAndWhatPushesOnAreTold) {

@@ -101,6 +101,70 @@ TEST(ReadingMotion, ADragOfSomeSpeedsOnlyHasNoNegativeFriction) {
   EXPECT_NEAR(found_in("active 2 W\nforce = 0.3 N * normalise(velocity)").opposing.friction, -0.3, 0.01);
 }
 
+TEST(ReadingMotion, ADragThatSaturatesIsToldWithBothFigures) {
+  for (const double viscosity : {1.0, 3.0, 5.0, 8.0, 20.0})
+    for (const double limit : {0.3, 0.5, 0.8, 1.0, 1.4}) {
+      const double whole = limit / viscosity;
+      if (whole < 0.03 || whole > 0.39) continue;
+      const std::string text = fmt::format("force = viscous({} N s/m) limit {} N", viscosity, limit);
+      const OpposingForce found = found_in(text).opposing;
+      EXPECT_TRUE(found.explained) << text;
+      if (whole >= 0.2) {
+        EXPECT_NEAR(found.damping, viscosity, 0.02 * viscosity) << text;
+        EXPECT_NEAR(found.limit, limit, 0.02 * limit) << text;
+        EXPECT_EQ(found.friction, 0) << text;
+      } else {
+        EXPECT_NEAR(found.friction, limit, 0.02 * limit) << text;
+        EXPECT_NEAR(found.rise(), viscosity, 0.04 * viscosity) << text;
+        EXPECT_EQ(found.damping, 0) << text;
+      }
+    }
+  EXPECT_EQ(found_in("force = sticky(0.3 N)").opposing.rise(), 0);
+  const Cues saturating = cues_in("force = viscous(1 N s/m) limit 0.3 N"), dry = cues_in("force = sticky(0.3 N)");
+  EXPECT_TRUE(saturating[CueKind::viscosity_limit]);
+  EXPECT_FALSE(dry[CueKind::viscosity]);
+  // A smooth curve is neither.
+  const OpposingForce smooth =
+      found_in("force = -0.8 N * tanh(length(velocity) / 200 mm/s) * normalise(velocity)").opposing;
+  EXPECT_FALSE(smooth.explained);
+  EXPECT_NEAR(smooth.unexplained_at(0.05), 0.8 * std::tanh(0.25), 0.01);
+}
+
+TEST(ReadingMotion, ADragThatChangesWithTimeIsToldByItsMeanIfItHasOne) {
+  const OpposingForce swings = found_in("force = viscous(4 N s/m) * (1 + sin(2 pi * phase(3 Hz)))").opposing;
+  EXPECT_TRUE(swings.changes_in_time && swings.explained);
+  EXPECT_NEAR(swings.damping, 4, 0.1);
+  EXPECT_NEAR(swings.least_in_time, 0, 0.02);
+  EXPECT_NEAR(swings.most_in_time, 1.6, 0.02);
+  const OpposingForce fades = found_in("active 1 W\nforce = sticky(0.7 N) * exp(-time / 2 s)").opposing;
+  EXPECT_TRUE(fades.changes_in_time);
+  EXPECT_FALSE(fades.explained);
+  EXPECT_EQ(fades.friction, 0);
+  EXPECT_EQ(fades.damping, 0);
+  for (const char* steady : {"force = sticky(0.7 N)", "force = viscous(4 N s/m) + sticky(0.4 N)",
+                             "active 1 W\nforce = viscous(4 N s/m) + vector(0.5 N * sin(2 pi * phase(30 Hz)), 0 N)"})
+    EXPECT_FALSE(found_in(steady).opposing.changes_in_time) << steady;
+}
+
+TEST(ReadingMotion, AFrictionThatTheDeviceCutsIsSoMuchAtLeast) {
+  for (const char* force : {"force = sticky(40 N, stiffness: 2000 N/m)", "force = sticky(30 N)"}) {
+    const OpposingForce found = found_in(force).opposing;
+    EXPECT_TRUE(found.friction_cut) << force;
+    EXPECT_NEAR(found.friction, 10, 0.01) << force;
+  }
+  const OpposingForce whole = found_in("force = sticky(8 N, stiffness: 90 N/m)").opposing;
+  EXPECT_FALSE(whole.friction_cut);
+  EXPECT_NEAR(whole.friction, 8, 0.2);
+  EXPECT_EQ(whole.one_way(), glm::dvec2(0));
+}
+
+TEST(ReadingMotion, WhatPushesNowhereAlikeIsNoConstantPush) {
+  for (const char* force :
+       {"force = vector(if velocity.x > 0 m/s then -0.5 N else 0 N, 0 N)", "force = vector(1 N * sign(x), 0 N)"})
+    EXPECT_LT(glm::length(found_in(force).constant), least_force) << force;
+  EXPECT_NEAR(glm::length(found_in("force = spring(400 N/m, rest: vector(100 mm, 0 mm))").constant), 10, 0.01);
+}
+
 TEST(ReadingMotion, OneWayAndPartOfThePatchAreSaid) {
   const OpposingForce right =
       found_in("force = vector(if velocity.x > 0 m/s then -5 N s/m * velocity.x else 0 N, 0 N)").opposing;

@@ -1,0 +1,78 @@
+#include "compiler/describe/held_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/describe/describe_figure.hpp"
+#include "compiler/read/tolerances.hpp"
+#include "compiler/text/json_text.hpp"
+#include "compiler/text/readable.hpp"
+
+namespace wale {
+namespace {
+
+constexpr double changes_by = 0.03;                             // of the greater one: less is not told
+constexpr double drag_told_at = 0.2, slow_drag_told_at = 0.05;  // m/s
+
+std::string figure_words(double size, const char* unit) {
+  return size == 0 ? "none" : readable("{:.3g} {}", size, unit);
+}
+
+}  // namespace
+
+std::vector<HeldFigure> held_figures(const ForceReading& found) {
+  std::vector<HeldFigure> figures;
+  if (!found.held) return figures;
+  const auto add = [&](const char* name, const char* unit, double held, double open, double least) {
+    const double greater = std::max(std::abs(held), std::abs(open));
+    if (std::abs(held - open) < std::max(least, changes_by * greater)) return;
+    const auto counting = [&](double size) { return std::abs(size) < least ? 0 : size; };
+    figures.push_back({name, unit, counting(held), counting(open)});
+  };
+  const OpposingForce &held = found.held->opposing, &open = found.opposing;
+  if (held.explained && open.explained && held.limit == open.limit) {
+    add("friction", "N", held.friction, open.friction, least_force);
+    add("viscosity", "N s/m", held.damping, open.damping, least_damping);
+  } else {
+    add("drag at 50 mm/s", "N", held.at(slow_drag_told_at), open.at(slow_drag_told_at), least_force);
+    add("drag at 200 mm/s", "N", held.at(drag_told_at), open.at(drag_told_at), least_force);
+  }
+  add("mass", "kg", found.held->inertia.greatest, found.inertia.greatest, least_mass);
+  const auto add_swing = [&](const char* name, const char* rate, const Swing& with, const Swing& without) {
+    const std::size_t before = figures.size();
+    add(name, "N", with.amplitude, without.amplitude, least_force);
+    if (std::min(with.amplitude, without.amplitude) >= least_force)
+      add(rate, "Hz", with.frequency, without.frequency, 0);
+    else if (figures.size() > before && figures.back().held > 0)
+      figures.back().rate = with.frequency;
+  };
+  add_swing("vibration", "rate of vibration", found.held->vibration, found.vibration);
+  add_swing("sway", "rate of sway", found.held->sway, found.sway);
+  return figures;
+}
+
+std::string held_lines(const std::vector<HeldFigure>& figures) {
+  std::string text;
+  for (const HeldFigure& each : figures)
+    text +=
+        readable("  while the button is held: {} {}{} instead of {}\n", each.name, figure_words(each.held, each.unit),
+                 each.rate > 0 ? readable(" at {:.3g} Hz", each.rate) : "", figure_words(each.open, each.unit));
+  return text;
+}
+
+void add_held(nlohmann::ordered_json& json, const std::vector<HeldFigure>& figures) {
+  for (const HeldFigure& each : figures) {
+    auto& told = json["button_held"][each.name];
+    told = {{"held", figure(each.held)}, {"open", figure(each.open)}, {"unit", each.unit}};
+    if (each.rate > 0) told["held_hz"] = figure(each.rate);
+  }
+}
+
+std::string uneven_line(const Swing& swing) {
+  if (!swing.least) return {};
+  const char* name = swing.noise ? "noise in time" : swing.frequency < slowest_vibration ? "sway" : "vibration";
+  return readable("  the {} differs from place to place: from {} to {}\n", name, figure_words(*swing.least, "N"),
+                  figure_words(swing.amplitude, "N"));
+}
+
+}  // namespace wale
