@@ -99,6 +99,10 @@ ForceReading times_as_strong(ForceReading found, double times) {
                        &found.wall_push,
                        &found.at_first,
                        &found.outward,
+                       &found.directions.aside,
+                       &found.directions.swirl,
+                       &found.directions.drag.greatest,
+                       &found.directions.drag.across,
                        &found.other.later,
                        &opposing.forward.x,
                        &opposing.forward.y,
@@ -108,12 +112,15 @@ ForceReading times_as_strong(ForceReading found, double times) {
                        &opposing.most_by_place})
     *each *= times;
   for (DragAt& each : opposing.by_speed) each.newton *= times;
-  for (glm::dvec2* each : {&found.constant, &found.other.button_push, &found.other.slow_push}) *each *= times;
+  for (glm::dvec2* each : {&found.constant, &found.other.button_push, &found.other.slow_push, &found.coming.later_push,
+                           &found.directions.steps, &found.directions.step_push})
+    *each *= times;
   const auto scale = [&](WallFace& wall) {
     for (double* each : {&wall.stiffness, &wall.damping, &wall.release, &wall.preload}) *each *= times;
   };
   if (found.wall) scale(*found.wall);
   std::ranges::for_each(found.more_walls, scale);
+  for (StaticStep& each : found.steps) each.change *= times;
   return found;
 }
 

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "compiler/declarations/declarations.hpp"
+#include "compiler/read/coming_force.hpp"
+#include "compiler/read/directions.hpp"
 #include "compiler/read/motion.hpp"
 #include "compiler/read/other_force.hpp"
 #include "compiler/read/relief.hpp"
@@ -34,6 +36,8 @@ struct ForceReading {
   Swing sway;            ///< slower than 10 Hz
   Swing vibration;
   OtherForce other;
+  ComingForce coming;
+  Directions directions;
   /// N: the amplitude of single features that push the hand out of their middle, as a hill does; negative if they draw
   /// it in, as a hole does; 0 if they do neither or repeat.
   double outward = 0;
