@@ -26,12 +26,25 @@ double exerts(const CueFacts& facts, const Declarations& declarations) {
 bool is_direction(CueKind kind) {
   return kind == CueKind::orientation || kind == CueKind::push_axis || kind == CueKind::stiffness_axis ||
          kind == CueKind::vibration_axis || kind == CueKind::sway_axis || kind == CueKind::viscosity_axis ||
-         kind == CueKind::friction_axis || kind == CueKind::mass_axis;
+         kind == CueKind::friction_axis || kind == CueKind::mass_axis || kind == CueKind::drag_axis ||
+         kind == CueKind::noise_axis || kind == CueKind::step_axis || kind == CueKind::finest_axis ||
+         kind == CueKind::coarsest_axis || is_full_direction(kind);
+}
+
+/// Up to where two values that are read are the same, and nobody has measured what people notice: as well as the
+/// direction of what travels, and by chance the rate of a noise, are read.
+double same_of(CueKind kind) {
+  switch (kind) {
+    case CueKind::travel: return 0.015;
+    case CueKind::noise_rate: return 0.35;
+    case CueKind::coming: return 0.05;
+    default: return same;
+  }
 }
 
 bool is_across(CueKind kind) {
   return kind == CueKind::stiffness_across || kind == CueKind::viscosity_across || kind == CueKind::friction_across ||
-         kind == CueKind::mass_across;
+         kind == CueKind::mass_across || kind == CueKind::drag_across;
 }
 
 /// A cue's value in a material. Across its axis, what is alike in all directions has its one size.
@@ -65,6 +78,8 @@ std::optional<double> Comparer::noticeable(const CueFacts& facts, const Cues& of
   const std::optional<double> a = value_of(facts.kind, of_a), b = value_of(facts.kind, of_b);
   const auto whole = whole_of(facts.kind);
   if (!facts.exerts && (!a || !b)) {
+    // Unless only one of the two changes at all, which other cues tell, they change in another way.
+    if (facts.kind == CueKind::travel || facts.kind == CueKind::coming) return std::nullopt;
     // If only one material has a texture, its other cues tell the two apart. If both have one, and only one of them has
     // a period or a direction, they differ, and nobody has measured how plainly.
     const bool both = whole && of_a[*whole] && of_b[*whole];
@@ -72,10 +87,10 @@ std::optional<double> Comparer::noticeable(const CueFacts& facts, const Cues& of
   }
   const double x = a.value_or(0), y = b.value_or(0);
   if (is_direction(facts.kind)) {
-    const double turned = std::remainder(x - y, std::numbers::pi);
-    return std::abs(turned) < same * std::numbers::pi ? std::optional(0.0) : std::nullopt;
+    const double turned = std::remainder(x - y, (is_full_direction(facts.kind) ? 2 : 1) * std::numbers::pi);
+    return std::abs(turned) < same_of(facts.kind) * std::numbers::pi ? std::optional(0.0) : std::nullopt;
   }
-  if (std::abs(x - y) <= same * std::max(std::abs(x), std::abs(y))) return 0;
+  if (std::abs(x - y) <= same_of(facts.kind) * std::max(std::abs(x), std::abs(y))) return 0;
   return people_[static_cast<std::size_t>(facts.kind)].distance(x, y);
 }
 

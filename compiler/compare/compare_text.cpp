@@ -29,7 +29,7 @@ std::string cue_text(CueKind kind, const std::optional<double>& value, int more 
     // 180 degrees is the same as 0: a texture has no front.
     const double unit = std::pow(10, -more);
     const double rounded = std::round(*value * 180 / std::numbers::pi / unit) * unit;
-    return in_degrees(fmt::format("{:.{}f}", std::fmod(rounded, 180) + 0.0, more));
+    return in_degrees(fmt::format("{:.{}f}", std::fmod(rounded, is_full_direction(kind) ? 360 : 180) + 0.0, more));
   }
   const CueFacts& facts = facts_of(kind);
   return fmt::format("{}{}{}", with_digits(*value, 3 + more), *facts.unit ? " " : "", facts.unit);
@@ -54,7 +54,9 @@ std::string verdict_text(const Comparison& comparison) {
   const CueDifference* plainest = comparison.plainest();
   switch (comparison.verdict) {
     case Verdict::apart:
-      return fmt::format("people can tell them apart, most easily by their {}", facts_of(plainest->kind).name);
+      return fmt::format(
+          "people can tell them apart, most easily by their {}{}", facts_of(plainest->kind).name,
+          plainest->a.value_or(0) * plainest->b.value_or(0) < 0 ? ", which has the opposite direction" : "");
     case Verdict::alike: return "hard to tell apart: no cue differs by a noticeable amount";
     case Verdict::unknown: break;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
@@ -29,6 +30,33 @@ double axis(const Principal& found, double least) {
   const double turned = std::fmod(angle, std::numbers::pi);
   return std::numbers::pi - turned < 1e-3 ? 0 : turned;
 }
+
+/// rad in [0, 2 pi): towards which a straight wall stands; not-a-number of a round one.
+double wall_direction(const ForceReading& found) {
+  if (!found.wall || found.wall->radius > 0 || found.wall->inward == glm::dvec2(0)) return no_value;
+  const double whole = 2 * std::numbers::pi, angle = std::atan2(found.wall->inward.y, found.wall->inward.x);
+  const double turned = std::fmod(angle + whole, whole);
+  return whole - turned < 1e-3 ? 0 : turned;
+}
+
+/// Of several waves that cross plainly, the one with the least or the greatest period; none of a relief that changes in
+/// one direction.
+template <typename Better>
+ReliefWave crossing_wave(const Relief& relief, Better better) {
+  constexpr double plainly = 0.1, alike = 0.02;
+  ReliefWave best;
+  std::size_t count = 0;
+  for (const ReliefWave& each : relief.waves) {
+    if (each.share < plainly) continue;
+    const bool first = ++count == 1;
+    // Of waves of one period, the one nearest to x is told.
+    const bool same = std::abs(each.period - best.period) <= alike * best.period;
+    if (first || (same ? each.orientation < best.orientation : better(each.period, best.period))) best = each;
+  }
+  return count > 1 && !relief.oriented() ? best : ReliefWave{};
+}
+ReliefWave finest_of(const Relief& relief) { return crossing_wave(relief, std::less()); }
+ReliefWave coarsest_of(const Relief& relief) { return crossing_wave(relief, std::greater()); }
 
 /// N: the force that none of the other cues reads, the largest of some; negative if it mostly pushes a resting hand
 /// away from the middle.
@@ -121,7 +149,12 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::regularity:
     case CueKind::crest:
     case CueKind::abruptness:
+    case CueKind::finest_wave:
+    case CueKind::finest_axis:
+    case CueKind::coarsest_wave:
+    case CueKind::coarsest_axis:
     case CueKind::other_waves: return CueKind::amplitude;
+    case CueKind::wall_direction:
     case CueKind::wall_push:
     case CueKind::wall_preload: return CueKind::wall_stiffness;
     case CueKind::stiffness_across:
@@ -134,6 +167,17 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::mass_axis: return CueKind::mass;
     case CueKind::vibration_frequency:
     case CueKind::vibration_axis: return CueKind::vibration;
+    case CueKind::steps_x:
+    case CueKind::steps_y:
+    case CueKind::step_push_x:
+    case CueKind::step_push_y:
+    case CueKind::step_axis: return CueKind::steps;
+    case CueKind::drag_across:
+    case CueKind::drag_axis: return CueKind::drag;
+    case CueKind::noise_rate:
+    case CueKind::noise_axis: return CueKind::noise_in_time;
+    case CueKind::later_x:
+    case CueKind::later_y: return CueKind::later_force;
     case CueKind::sway_frequency:
     case CueKind::sway_axis: return CueKind::sway;
     case CueKind::outward_push: return CueKind::amplitude;

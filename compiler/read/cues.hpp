@@ -47,6 +47,9 @@ struct Cues {
 /// The cue that a material has too if it has this one: a period is a texture's. Nothing for a cue of its own.
 std::optional<CueKind> whole_of(CueKind kind);
 
+/// Whether a cue is a direction, rad in [0, 2 pi), and half a turn of it is another one.
+constexpr bool is_full_direction(CueKind kind) { return kind == CueKind::travel || kind == CueKind::wall_direction; }
+
 /// The name that a condition of a map or a threshold has for a cue: "wall_stiffness", and "rate" for a vibration's
 /// frequency.
 std::string condition_name(const CueFacts& facts);

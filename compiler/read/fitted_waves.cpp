@@ -12,16 +12,17 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t few_places_a_part = 16;     // of a period, to move a wave by ...
-constexpr std::size_t places_a_part = 48;         // ... and at last, to put it where it is
-constexpr std::size_t places_together = 3000;     // to move several waves by
-constexpr double slow_periods = 12;               // over the patch
-constexpr double few_periods_together = 25;       // over the patch, so that two waves look alike
-constexpr double least_taken = 0.02;              // of what is left, by one more wave
-constexpr double least_parted = 5e-4;             // of the whole mean square: worth it to look for two waves in one
-constexpr double hardly_any = 0.1;                // of what waves leave, if one of them is parted ...
-constexpr double much_less = 0.5;                 // of what waves leave, if they are moved together
-constexpr std::size_t most_joined_harmonic = 24;  // that is found before the wave whose harmonic it is
+constexpr std::size_t few_places_a_part = 16;        // of a period, to move a wave by ...
+constexpr std::size_t places_a_part = 48;            // ... and at last, to put it where it is
+constexpr std::size_t places_together = 3000;        // to move several waves by
+constexpr double slow_periods = 12;                  // over the patch
+constexpr double few_periods_together = 25;          // over the patch, so that two waves look alike
+constexpr double least_taken = 0.02;                 // of what is left, by one more wave
+constexpr double least_parted = 5e-4;                // of the whole mean square: worth it to look for two waves in one
+constexpr double hardly_any = 0.1;                   // of what waves leave, if one of them is parted ...
+constexpr double much_less = 0.5;                    // of what waves leave, if they are moved together
+constexpr double as_strong_as_the_strongest = 0.85;  // of its power
+constexpr std::size_t most_joined_harmonic = 24;     // that is found before the wave whose harmonic it is
 
 }  // namespace
 
@@ -278,6 +279,12 @@ FoundWaves FittedWaves::finished() {
   found_.share = waves + rest > 0 ? waves / (waves + rest) : 0;
   if (found_.lattice) found_.share = std::max(found_.share, found_.lattice->share);
   std::ranges::stable_sort(found_.waves, std::greater(), &FoundWave::power);
+  // Which of some that are as strong is read as the strongest is chance: the finest is told.
+  const auto as_strong = std::ranges::partition_point(found_.waves, [&](const FoundWave& each) {
+    return each.power > as_strong_as_the_strongest * found_.waves.front().power;
+  });
+  std::ranges::stable_sort(found_.waves.begin(), as_strong, std::greater(),
+                           [](const FoundWave& each) { return glm::length(each.felt()); });
   return std::move(found_);
 }
 

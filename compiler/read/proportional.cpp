@@ -98,17 +98,35 @@ ForceReading times_as_strong(ForceReading found, double times) {
   for (std::vector<StaticStep>* steps : {&still.obstacles.steps, &found.steps})
     for (StaticStep& each : *steps) each.change *= times;
   Relief& relief = still.relief;
-  for (double* each :
-       {&relief.amplitude, &relief.maximum, &relief.rms, &relief.mean, &found.stiffness, &found.stiffness_across,
-        &found.breakaway, &found.other.button, &found.other.slowly, &found.other.remembered, &found.other.moving,
-        &found.other.rehearsed, &found.wall_push, &found.at_first, &found.outward, &found.other.later})
+  for (double* each : {&relief.amplitude,
+                       &relief.maximum,
+                       &relief.rms,
+                       &relief.mean,
+                       &found.stiffness,
+                       &found.stiffness_across,
+                       &found.breakaway,
+                       &found.other.button,
+                       &found.other.slowly,
+                       &found.other.remembered,
+                       &found.other.moving,
+                       &found.other.rehearsed,
+                       &found.wall_push,
+                       &found.at_first,
+                       &found.outward,
+                       &found.other.later,
+                       &found.directions.aside,
+                       &found.directions.swirl,
+                       &found.directions.drag.greatest,
+                       &found.directions.drag.across})
     *each *= times;
   scale(found.opposing, times), scale(found.inertia, times), scale(found.sway, times), scale(found.vibration, times);
   if (HeldButton* held = found.held ? &*found.held : nullptr) {
     scale(held->opposing, times), scale(held->inertia, times), scale(held->sway, times);
     scale(held->vibration, times), scale(held->slow, times);
   }
-  for (glm::dvec2* each : {&found.constant, &found.other.button_push, &found.other.slow_push}) *each *= times;
+  for (glm::dvec2* each : {&found.constant, &found.other.button_push, &found.other.slow_push, &found.coming.later_push,
+                           &found.directions.steps, &found.directions.step_push})
+    *each *= times;
   const auto scale_wall = [&](WallFace& wall) {
     for (double* each : {&wall.stiffness, &wall.damping, &wall.release, &wall.preload}) *each *= times;
   };

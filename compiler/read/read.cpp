@@ -15,6 +15,7 @@
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/room.hpp"
 #include "compiler/read/still_forces.hpp"
+#include "compiler/read/strokes.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "runtime/machine/parallel.hpp"
 
@@ -315,6 +316,11 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
     found.other = other_force(bank, felt, slow, found.sway.amplitude + found.vibration.amplitude,
                               std::max(found.opposing.friction, found.breakaway));
     found.other.later = later_force(bank, still_seconds, remembers_time_only(bank.program().description()));
+    const bool swings = std::max(found.sway.amplitude, found.vibration.amplitude) >= least_force;
+    const std::vector<std::vector<Force>> unmoved;
+    look_all_over(bank, swings ? unmoved : felt, found.other);
+    found.coming = coming_force(bank, swings ? unmoved : felt, found.other);
+    found.directions = directions_of_motion(bank, found.opposing, found.sway, found.vibration, found.other);
   };
   const auto part = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -337,6 +343,9 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   tell_obstacles(bank, found);
   if (found.wall) found.wall_push = deepest(bank, *found.wall).newton;
   tell_trend(bank, found, at_first);
+  LinearForce even = found.still.trend;
+  even.mean -= at_first.force;
+  tell_still_directions(found.directions, found.steps, even, half_of(bank));
   found.outward = outward_push(bank, found);
   // What damps the hand in a wall is the wall's.
   if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping)

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "compiler/declarations/declarations.hpp"
+#include "compiler/read/coming_force.hpp"
+#include "compiler/read/directions.hpp"
 #include "compiler/read/held_button.hpp"
 #include "compiler/read/motion.hpp"
 #include "compiler/read/other_force.hpp"
@@ -36,6 +38,8 @@ struct ForceReading {
   Swing vibration;
   OtherForce other;
   std::optional<HeldButton> held;  ///< of a program that reads the button
+  ComingForce coming;
+  Directions directions;
   /// N: the amplitude of single features that push the hand out of their middle, as a hill does; negative if they draw
   /// it in, as a hole does; 0 if they do neither or repeat.
   double outward = 0;

@@ -119,6 +119,17 @@ bool is_noise(const std::vector<double>& powers) {
   return true;
 }
 
+/// The line below which half of the power lies.
+double middle_of(const std::vector<double>& powers) {
+  double whole = 0, below = 0;
+  for (const double power : powers) whole += power;
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    below += powers[i];
+    if (2 * below >= whole) return static_cast<double>(i);
+  }
+  return 0;
+}
+
 /// A size (N) that counts from the mean of the forces, or half of the way between those farthest apart if that is
 /// hardly less: ticks that fall unequally on the halves of a wave move its mean, and no force is larger for that.
 double without_unequal_halves(double size, const std::vector<Force>& forces) {
@@ -245,7 +256,7 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
   }
   if (is_noise(powers)) {
     vibration = {std::min(size_within(spectrum, fade, 1, powers.size() - 1), farthest_from_middle(*at_busiest)), 0,
-                 true};
+                 true, middle_of(powers) / seconds, axis_within(spectrum, 1, powers.size() - 1)};
     return share;
   }
   // A swing at the border belongs to the faster ones with all of its lines, which are three under this window.

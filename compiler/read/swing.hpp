@@ -12,6 +12,7 @@ struct Swing {
   double amplitude = 0;  ///< N: the 99th percentile of its size, as the amplitude of a relief is defined
   double frequency = 0;  ///< Hz: of its strongest component; 0 if the force does not swing, or no one stands out
   bool noise = false;    ///< it changes without a rate
+  double middle = 0;     ///< Hz: of a noise, whose power is half below
   /// rad in [0, pi): along which it swings; nothing if it swings about as much across
   std::optional<double> axis{};
   /// N: about the amplitude at the place where it is least; nothing if that is more than half of the greatest
