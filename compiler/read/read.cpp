@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "compiler/measure/coarseness.hpp"
@@ -117,6 +118,21 @@ glm::dvec2 alike_beside(const std::vector<StaticStep>& steps, glm::dvec2 push, g
   return least;
 }
 
+/// How a trend changes along x and along y as far as a hand can feel it: not in a part that the device cuts (N) in all
+/// of the patch.
+std::pair<glm::dvec2, glm::dvec2> felt_slopes(const StaticForce& still, glm::dvec2 half, double most) {
+  std::pair slopes{still.trend.by_x, still.trend.by_y};
+  for (const int axis : {0, 1}) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const glm::dvec2 corner : {glm::dvec2(1, 1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(-1, -1)}) {
+      const double there = still.trend.at(half * corner)[axis];
+      low = std::min(low, there), high = std::max(high, there);
+    }
+    if (low >= most || high <= -most) slopes.first[axis] = slopes.second[axis] = 0;
+  }
+  return slopes;
+}
+
 /// The linear part: a spring, and a constant push.
 void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) {
   const StaticForce& still = found.still;
@@ -124,7 +140,8 @@ void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) 
   const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
   if (still.features.empty() || !still.obstacles.empty()) {
     const double chance = chance_of_line(found.relief(), half), nearest = std::min(half.x, half.y);
-    Principal spring = principal_of(-still.trend.by_x, -still.trend.by_y, std::max(least_stiffness, chance / nearest));
+    const auto [by_x, by_y] = felt_slopes(still, half, bank.program().description().device.most());
+    Principal spring = principal_of(-by_x, -by_y, std::max(least_stiffness, chance / nearest));
     if (std::abs(spring.greatest) * nearest < chance) spring = {};
     found.stiffness = spring.greatest, found.stiffness_across = spring.across, found.stiffness_axis = spring.axis;
     // Less is what the waves' incomplete periods leave.

@@ -262,6 +262,22 @@ TEST(DescribingForces, WhatDrivesTheHandAwayAndASpringThatSlipsAreNoWalls) {
   EXPECT_EQ(wall.unread, 0);
 }
 
+TEST(DescribingForces, ASpringThatTheDeviceCutsEverywhereIsAPush) {
+  const Description push = described("force = vector(-420 N/m * (x + 100 mm), 0 N)");
+  EXPECT_FALSE(percept(push, "springiness"));
+  EXPECT_NEAR(push.constant_push.x, -10, 0.01);
+  // Along x it is cut, and along y it is a spring.
+  const Description half = described("force = spring(400 N/m, rest: vector(110 mm, 0 mm))");
+  ASSERT_EQ(half.directed.size(), 1u);
+  EXPECT_NEAR(half.directed.front().size.greatest, 400, 8);
+  EXPECT_EQ(half.directed.front().size.across, 0);
+  EXPECT_NEAR(std::abs(half.directed.front().size.axis.y), 1, 1e-6);
+  // One that is not cut in its middle is a spring.
+  const Description spring = described("force = spring(2000 N/m)");
+  ASSERT_TRUE(percept(spring, "springiness"));
+  EXPECT_NEAR(percept(spring, "springiness")->amplitude, 2000, 40);
+}
+
 TEST(DescribingForces, AWallWithAPreloadIsReadAlsoIfItsAuthorLimitsIt) {
   std::mt19937 random(4);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
