@@ -329,11 +329,10 @@ std::string other_forces(const Description& description) {
 }
 
 std::string wall_line(const Description::Wall& wall) {
-  return readable(
-      "  a wall {}: {:.3g} N/m{}, up to {:.3g} N on a hand that goes {:.3g} mm into it, to the patch's edge\n",
-      wall_place(wall.face), wall.face.stiffness,
-      wall.face.preload > 0 ? readable(" from {:.3g} N on", wall.face.preload) : "", wall.depth.newton,
-      1e3 * wall.depth.depth);
+  return readable("  a wall {}: {:.3g} N/m{}, up to {:.3g} N on a hand that goes {:.3g} mm into it, to {}\n",
+                  wall_place(wall.face), wall.face.stiffness,
+                  wall.face.preload > 0 ? readable(" from {:.3g} N on", wall.face.preload) : "", wall.depth.newton,
+                  1e3 * wall.depth.depth, wall.face.fills ? "its middle" : "the patch's edge");
 }
 
 /// A line where the force jumps, and by how much.

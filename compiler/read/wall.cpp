@@ -376,6 +376,32 @@ WallDepth deepest(const Bank& bank, const WallFace& face) {
   return reached;
 }
 
+namespace {
+
+/// Whether the work against a straight face is not given back farther in, as it is on the far side of a hill. `in` (N)
+/// pushes into it outside.
+bool holds_back_inside(const Bank& bank, const WallFace& face, double in) {
+  if (face.radius > 0 || remembers_anything(bank.program().description())) return true;
+  constexpr int places = 400;
+  constexpr double given_back = 0.5;  // of the work
+  const double depth = deepest(bank, face).depth;
+  std::vector<Hand> hands(places);
+  std::vector<Force> forces(places);
+  for (int i = 0; i < places; ++i) {
+    const glm::dvec2 place = face.place + depth * (i + 0.5) / places * face.inward;
+    hands[static_cast<std::size_t>(i)].position = hands[static_cast<std::size_t>(i)].workspace = glm::vec2(place);
+  }
+  tick_coarsely(bank, hands, forces);
+  double work = 0, most = 0;
+  for (const Force& force : forces) {
+    work += in - glm::dot(glm::dvec2(force), face.inward);
+    most = std::max(most, work);
+  }
+  return work >= given_back * most;
+}
+
+}  // namespace
+
 bool pushes_back(const Bank& bank, const WallFace& face) {
   constexpr double least_push = 0.02;        // N
   constexpr double plainly_more = 2.5;       // times what pushes in
@@ -394,7 +420,7 @@ bool pushes_back(const Bank& bank, const WallFace& face) {
   tick_coarsely(bank, hands, forces);
   double in = 0;
   for (const Force& force : forces) in += glm::dot(glm::dvec2(force), face.inward) / (places * places);
-  return out >= least_push && out >= plainly_more * in;
+  return out >= least_push && out >= plainly_more * in && holds_back_inside(bank, face, in);
 }
 
 std::string wall_place(const WallFace& face) {

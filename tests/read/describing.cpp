@@ -300,6 +300,22 @@ TEST(DescribingForces, AWallWithAPreloadIsReadAlsoIfItsAuthorLimitsIt) {
   }
 }
 
+TEST(DescribingForces, TheFlankOfAHillIsNoWall) {
+  for (const char* hill :
+       {"20 N/m * hand * max(0, 1 - length(hand) / 60 mm)", "100 N/m * hand * max(0, 1 - length(hand) / 40 mm)",
+        "20 N/m * hand * max(0, 1 - length(hand) / 40 mm)", "-100 N/m * hand * max(0, 1 - length(hand) / 40 mm)"}) {
+    const Description description = described(std::string("force = ") + hill);
+    EXPECT_FALSE(description.wall) << hill;
+    EXPECT_FALSE(percept(description, "hardness")) << hill;
+  }
+}
+
+TEST(DescribingForces, WhatTheButtonAndTimeBringIsToldWhereItIsLargest) {
+  const std::string ribs = "lateral(grating(x, period: 3 mm), amplitude: 2 N)";
+  EXPECT_NEAR(described("force = if button then " + ribs + " else vector(0 N, 0 N)").other.button, 2, 0.02);
+  EXPECT_NEAR(described("active 1 W\nforce = (if time > 3 s then 1 else 0) * " + ribs).other.slowly, 2, 0.02);
+}
+
 TEST(DescribingForces, SmallFeaturesSwaysAndWhatPushesOnAreTold) {
   const Description ridge =
       described("force = vector(2 N * (if abs(x) < 0.5 mm then sin(2 * pi * x / 1 mm) else 0), 0 N)");
