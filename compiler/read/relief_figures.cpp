@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compiler/read/fundamental.hpp"
+#include "compiler/read/only_direction.hpp"
 #include "compiler/read/sign_changes.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
@@ -15,12 +16,13 @@ namespace wale {
 namespace {
 
 constexpr std::size_t change_places = 1024;
-constexpr double difference = 1e-5;       // m: half the step for the change of the force
-constexpr double small_part = 0.04;       // of the mean square: not worth its own spectrum
-constexpr double no_direction = 0.05;     // below this anisotropy the direction is chance
-constexpr double weak = 0.02;             // of the mean square: a wave that is not told
-constexpr double along_one_axis = 0.95;   // of the mean square of a relief's forces
-constexpr std::size_t octave_parts = 12;  // in which the periods of irregular parts are counted
+constexpr double difference = 1e-5;                          // m: half the step for the change of the force
+constexpr double small_part = 0.04;                          // of the mean square: not worth its own spectrum
+constexpr double no_direction = 0.05;                        // below this anisotropy the direction is chance
+constexpr double perhaps_lines = 0.8, surely_lines = 0.999;  // anisotropies
+constexpr double weak = 0.02;                                // of the mean square: a wave that is not told
+constexpr double along_one_axis = 0.95;                      // of the mean square of a relief's forces
+constexpr std::size_t octave_parts = 12;                     // in which the periods of irregular parts are counted
 
 /// The direction in [0, pi). Hardly less than half a turn is none.
 double half_turned(double angle) {
@@ -249,6 +251,20 @@ class ReliefFigures {
     } else {
       relief_.orientation = half_turned(0.5 * std::arg(doubled));
     }
+    look_along_lines();
+  }
+
+  /// A relief whose parts are fitted a little awry may change along one direction alone.
+  void look_along_lines() {
+    const bool trends = std::ranges::any_of(from_.features, [](const Feature& each) { return each.monotone; });
+    if (trends || relief_.anisotropy < perhaps_lines || relief_.anisotropy >= surely_lines) return;
+    double grain = HUGE_VAL;
+    for (const Relief::Part& each : relief_.parts)
+      if (each.share >= weak) grain = std::min(grain, each.period);
+    const auto found = std::isfinite(grain) ? only_direction(from_.field, from_.whole, from_.trend, relief_.orientation,
+                                                             relief_.rms, grain)
+                                            : std::nullopt;
+    if (found) relief_.anisotropy = 1, relief_.orientation = half_turned(*found);
   }
 
   /// Those of a single wave are known from its waveform.
