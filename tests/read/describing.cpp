@@ -98,6 +98,45 @@ TEST(DescribingForces, ADragOnOneWayInAPartIsToldAsItIsFeltThere) {
   EXPECT_NE(text.find("none to the left, on the mean over the patch"), std::string::npos) << text;
 }
 
+TEST(DescribingForces, ASwirlAndATravellingPatternHaveTheirWords) {
+  const Description swirl = described("active 9 W\nforce = -20 N/m * perpendicular(hand)");
+  EXPECT_NEAR(swirl.swirl, -20, 0.2);
+  EXPECT_NE(description_text(swirl).find("  a swirl of 20 N/m, which turns a resting hand clockwise\n"),
+            std::string::npos)
+      << description_text(swirl);
+  EXPECT_NE(descriptions_json({swirl}).find("\"swirl_newton_per_metre\": -20"), std::string::npos);
+  const Description spring = described("force = -20 N/m * hand");
+  EXPECT_EQ(description_text(spring).find("swirl"), std::string::npos);
+  for (const int degrees : {0, 90, 180, 315}) {
+    const Description travels = described(
+        fmt::format("active 2 W\nforce = vector(1 N * sin(2 pi * ((x * cos({0} deg) + y * sin({0} deg)) / 4 mm - "
+                    "phase(2 Hz))), 0 N)",
+                    degrees));
+    EXPECT_NE(description_text(travels).find(fmt::format("  a pattern that travels towards {} degrees\n", degrees)),
+              std::string::npos)
+        << description_text(travels);
+    EXPECT_NE(descriptions_json({travels}).find("\"travel_rad\": "), std::string::npos);
+  }
+  const Description stands = described("active 2 W\nforce = vector(1 N * sin(2 pi * phase(2 Hz)), 0 N)");
+  EXPECT_EQ(description_text(stands).find("travels"), std::string::npos);
+}
+
+TEST(DescribingForces, WhatComesAndWhatEndsSayWhen) {
+  const auto text_of = [](const std::string& size) {
+    const Description description = described("active 90 W\nforce = vector(" + size + ", 0 N)");
+    return description_text(description) + descriptions_json({description});
+  };
+  const std::string comes = text_of("if time > 3 s then 2 N else 0 N"),
+                    ends = text_of("if time < 3 s then 2 N else 0 N"),
+                    late = text_of("if time > 12 s then 2 N else 0 N"), fades = text_of("3 N * exp(-time / 2 s)");
+  EXPECT_NE(comes.find("up to 2 N that comes with time, half of it after 3 s,"), std::string::npos) << comes;
+  EXPECT_NE(comes.find("\"goes\": false"), std::string::npos) << comes;
+  EXPECT_NE(ends.find("up to 2 N that goes with time, half of it after 3 s,"), std::string::npos) << ends;
+  EXPECT_NE(ends.find("\"goes\": true"), std::string::npos) << ends;
+  EXPECT_NE(late.find("; a push of 2 N towards 0 degrees comes after 12"), std::string::npos) << late;
+  EXPECT_NE(fades.find("that goes with time, half of it after 1.3"), std::string::npos) << fades;
+}
+
 /// sandpaper: 228 mm in 4096 counts. Sampled each count, a wave has as many waves less to the millimetre as the encoder
 /// has counts.
 TEST(DescribingForces, AWaveTooFineForTheEncoderIsItselfAndThePatternThatTheEncoderMakesOfIt) {
