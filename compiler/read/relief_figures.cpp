@@ -72,6 +72,40 @@ double abruptness_of(const std::vector<glm::dvec2>& profile, double most) {
   return change / (2 * most * std::sin(turned));
 }
 
+/// The third moment of some values over their mean square to the power 3/2.
+double skew_of(const std::vector<double>& values) {
+  double squares = 0, cubes = 0;
+  for (const double value : values) squares += value * value, cubes += value * value * value;
+  const auto count = static_cast<double>(values.size());
+  return squares > 0 ? cubes / count / std::pow(squares / count, 1.5) : 0;
+}
+
+/// Adds the sides of a wave, in so great a part of all waves.
+void tell_sides(Relief& relief, const FoldedWave& wave, double part) {
+  constexpr std::size_t parts = 16;  // of a period, over which it rises or falls
+  const std::vector<glm::dvec2>& profile = wave.profile;
+  const auto count = profile.size();
+  const glm::dvec2 along = glm::normalize(wave.waves), left(-along.y, along.x);
+  glm::dvec2 mean{0}, cubes{0};
+  for (const glm::dvec2& force : profile) mean += force / static_cast<double>(count);
+  double squares = 0;
+  std::vector<double> rises, rises_left;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec2 force = profile[i] - mean;
+    squares += glm::dot(force, force), cubes += glm::dot(force, force) * force;
+    const glm::dvec2 rise = profile[(i + std::max<std::size_t>(1, count / parts)) % count] - profile[i];
+    rises.push_back(glm::dot(rise, along)), rises_left.push_back(glm::dot(rise, left));
+  }
+  if (!(squares > 0)) return;
+  const auto of = static_cast<double>(count);
+  relief.skew += part * cubes / of / std::pow(squares / of, 1.5);
+  // A part of the force that is next to none has a shape by chance.
+  double rise = 0, rise_left = 0;
+  for (std::size_t i = 0; i < count; ++i) rise += rises[i] * rises[i], rise_left += rises_left[i] * rises_left[i];
+  if (rise > weak * rise_left) relief.steeper_along += part * skew_of(rises);
+  if (rise_left > weak * rise) relief.steeper_across += part * skew_of(rises_left);
+}
+
 /// Tells the figures of one relief.
 class ReliefFigures {
  public:
@@ -134,6 +168,7 @@ class ReliefFigures {
       for (const WavePart& part : parts)
         relief_.parts.push_back({each.wave.period() / static_cast<double>(part.number), share * part.share});
       regular.add(each.wave.waves, share);
+      tell_sides(relief_, each.wave, each.power / of_waves);
       tell_wave(each, share, parts);
     }
     if (from_.waves.lattice && from_.waves.waves.empty()) {
