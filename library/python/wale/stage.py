@@ -1,6 +1,7 @@
 """Patches under a hand."""
 
 import os
+import signal
 import threading
 from collections import deque
 from collections.abc import Callable, Sequence
@@ -143,6 +144,20 @@ def _hear(of: Any, user: Any) -> None:
                                          vector_of(of.velocity), vector_of(of.force)))
 
 
+def _wait_for_end(over: threading.Event, heard: list[int], pointer: Any) -> None:
+    """Waits for the end of a run, and ends it when an interrupt is heard or another signal's handler raises."""
+    raised: BaseException | None = None
+    while not over.is_set():
+        try:
+            if heard or raised is not None:  # again and again, since the run may not have begun
+                lib.wale_stage_interrupt(pointer)
+            over.wait(0.05)
+        except BaseException as other:
+            raised = other
+    if raised is not None:
+        raise raised
+
+
 def _created(function: Any, of: Any, options: Any) -> Any:
     return made(function, "WaleStage", of, options)
 
@@ -207,19 +222,21 @@ class Stage(Handle):
             finally:
                 over.set()
 
-        # On a thread of its own, since this one must hear an interrupt. The event says when it is over: whether a thread
-        # is alive is no longer known after an interrupted join.
-        threading.Thread(target=serve).start()
-        interrupted: BaseException | None = None
-        while not over.is_set():
-            try:
-                if interrupted is not None:
-                    lib.wale_stage_interrupt(pointer)
-                over.wait(0.1)
-            except BaseException as raised:  # also a second interrupt: the run must be over before this returns
-                interrupted = raised
-        if interrupted is not None:
-            raise interrupted
+        # On a thread of its own, since this one must hear an interrupt. Meanwhile an interrupt raises nothing, since
+        # it might do so anywhere here: it ends the run, and is handed on afterwards.
+        heard: list[int] = []
+        usual = signal.getsignal(signal.SIGINT)
+        hears = threading.current_thread() is threading.main_thread() and callable(usual)
+        if hears:
+            signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
+        try:
+            threading.Thread(target=serve).start()
+            _wait_for_end(over, heard, pointer)
+        finally:
+            if hears:
+                signal.signal(signal.SIGINT, usual)
+        if heard and callable(usual):
+            usual(heard[0], None)
         if isinstance(done[0], BaseException):
             raise done[0]
         run: Run = done[0]
