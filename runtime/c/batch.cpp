@@ -22,6 +22,12 @@ Result<> is_sound(const WaleBatchOptions& given, const WaleVector* forces) {
   if (given.position == nullptr) return about_argument("position", "expected a value, found NULL");
   if (given.setting_count > 0 && given.settings == nullptr)
     return about_argument("settings", "expected a value, found NULL");
+  if (!std::isfinite(given.rim)) return about_argument("rim", "expected a finite number");
+  if (given.time != nullptr)
+    for (const double each : std::span(given.time, given.ticks))
+      if (!std::isfinite(each)) return about_argument("time", "expected finite numbers");
+  for (const WaleVector& each : std::span(given.position, given.hands * given.ticks))
+    if (!std::isfinite(each.x) || !std::isfinite(each.y)) return about_argument("position", "expected finite numbers");
   return is_given("forces", forces);
 }
 

@@ -77,6 +77,7 @@ Result<OpenOptions> read_options(const WaleDeviceOptions* options) {
   const auto keeper = read_path("keeper", given->keeper);
   if (!keeper) return keeper.error();
   read.built_for = *built_for, read.transport = *transport, read.keeper = *keeper;
+  if (!std::isfinite(given->max_force)) return about_argument("max_force", "expected a finite number");
   if (given->max_force != 0) read.max_force = given->max_force;
   if (given->priority != 0) read.priority = given->priority;
   const auto disregard = read_flag("disregard_owner", given->disregard_owner);

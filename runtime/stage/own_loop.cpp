@@ -27,6 +27,7 @@ struct Loop::Parts {
   explicit Parts(const DeviceProfile& profile) : device(profile) {}
 
   HandedDevice device;
+  std::shared_ptr<StageState> stage;
   std::unique_ptr<Session> session;  // ends before the device
   long period = -1;
 };
@@ -43,6 +44,7 @@ Result<Loop> Loop::begin(Stage& stage) {
                                 Session::Clock::own, true, parts->device);
   if (!session) return std::move(session).error();
   parts->session = *std::move(session);
+  parts->stage = state;
   if (auto attended = parts->session->attend_apart(); !attended) return std::move(attended).error();
   return Loop(std::move(parts));
 }
@@ -55,6 +57,7 @@ Force Loop::step(const Reading& reading, long periods) noexcept {
   const long elapsed = first ? 0 : std::min(std::max(1L, periods), last_period - parts.period);
   parts.period += first ? 1 : elapsed;
   parts.device.reading = reading;
+  if (parts.stage->told_to_stop.load(std::memory_order_relaxed)) parts.device.reading.contact = Contact::stale;
   parts.session->player().serve(
       {.period = parts.period, .elapsed = elapsed, .skipped = std::max(0L, elapsed - 1), .lateness = 0});
   return parts.device.commanded;

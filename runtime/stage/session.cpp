@@ -47,6 +47,15 @@ Result<> has_loop_figures(const DeviceProfile& profile) {
                    .place = {.name = name, .text = few_digits(value)}};
     }
   }
+  // The filter tries each length of its window at each tick.
+  constexpr double longest_window = 100;
+  if (!(profile.velocity_window <= longest_window))
+    return Error{.code = Code::unusable_device,
+                 .sentence = "the device " + profile.name + " declares a velocity window of " +
+                             few_digits(profile.velocity_window) + " ticks, expected " + few_digits(longest_window) +
+                             " at most",
+                 .mend = {},
+                 .place = {.name = "velocity_window", .text = few_digits(profile.velocity_window)}};
   return {};
 }
 

@@ -1,10 +1,11 @@
 """Patches under a hand."""
 
+import contextlib
 import os
 import signal
 import threading
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -144,6 +145,23 @@ def _hear(of: Any, user: Any) -> None:
                                          vector_of(of.velocity), vector_of(of.force)))
 
 
+@contextlib.contextmanager
+def _interrupts_later() -> Iterator[list[int]]:
+    """On the main thread, an interrupt meanwhile raises nothing, but is noted, and handed on at the end."""
+    heard: list[int] = []
+    usual = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(usual):
+        yield heard
+        return
+    signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
+    try:
+        yield heard
+    finally:
+        signal.signal(signal.SIGINT, usual)
+    if heard:
+        usual(heard[0], None)
+
+
 def _wait_for_end(over: threading.Event, heard: list[int], pointer: Any) -> None:
     """Waits for the end of a run, and ends it when an interrupt is heard or another signal's handler raises."""
     raised: BaseException | None = None
@@ -187,6 +205,7 @@ class Stage(Handle):
         self._heard: deque[Contact] = deque()
         self._hears: Any = ffi.new_handle(self._heard)
         self._receive: Callable[[Contact], None] | None = None
+        self._dropped = 0  # not told yet, since a receiver raised
 
     def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0,
             shape: Shape | None = None) -> Patch:
@@ -224,19 +243,9 @@ class Stage(Handle):
 
         # On a thread of its own, since this one must hear an interrupt. Meanwhile an interrupt raises nothing, since
         # it might do so anywhere here: it ends the run, and is handed on afterwards.
-        heard: list[int] = []
-        usual = signal.getsignal(signal.SIGINT)
-        hears = threading.current_thread() is threading.main_thread() and callable(usual)
-        if hears:
-            signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
-        try:
+        with _interrupts_later() as heard:
             threading.Thread(target=serve).start()
             _wait_for_end(over, heard, pointer)
-        finally:
-            if hears:
-                signal.signal(signal.SIGINT, usual)
-        if heard and callable(usual):
-            usual(heard[0], None)
         if isinstance(done[0], BaseException):
             raise done[0]
         run: Run = done[0]
@@ -268,9 +277,12 @@ class Stage(Handle):
     def poll(self) -> int:
         """Calls the receiver for all contacts since the last poll. Returns how many were dropped, since too many waited."""
         dropped = ffi.new("size_t*")
-        call(lib.wale_stage_poll, self._pointer, dropped)
+        with _interrupts_later():  # what is raised in a callback is lost, and the contact with it
+            call(lib.wale_stage_poll, self._pointer, dropped)
+        self._dropped += int(dropped[0])
         while self._heard:  # what the receiver has not had when it raises waits for the next poll
             each = self._heard.popleft()
             if self._receive is not None:
                 self._receive(each)
-        return int(dropped[0])
+        lost, self._dropped = self._dropped, 0
+        return lost

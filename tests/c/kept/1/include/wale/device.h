@@ -28,7 +28,7 @@ typedef struct WaleProfile {
   double continuous_force;             /* N per axis, that its motor bears for ever */
   double heating_seconds;              /* s, the time constant of its heating */
   double active_power;                 /* W, the most that a program may give to the hand by itself */
-  double velocity_window;              /* ticks; the longest window of the velocity filter */
+  double velocity_window;              /* ticks, at most 100; the longest window of the velocity filter */
   double velocity_noise_counts;        /* counts; the band that the velocity filter treats as noise */
   double patch_width, patch_height, patch_rim; /* m; the patch of a material that declares none */
   double mass;                         /* kg, moving mass at the handle */
@@ -73,7 +73,8 @@ typedef struct WaleDeviceOptions {
   double max_force;      /* N at the handle: every packet to a real device keeps within it; 0: no other limit than its own */
   int32_t priority;      /* 1 .. 99: SCHED_FIFO for the threads that serve a real device, if it is permitted; 0: ordinary */
   int32_t disregard_owner; /* 1: with the runtime alone, do not refuse a real device whose owner declares devices */
-  double hand_mass;      /* kg; 0: nothing holds it (wale_library_open_device: an ordinary hand that rubs to and fro) */
+  double hand_mass;      /* kg; 0: nothing holds it (wale_library_open_device: an ordinary hand, which
+                            rubs to and fro unless there is a motion) */
   double hand_damping;   /* N s/m */
   double hand_stiffness; /* N/m */
   int32_t motion;        /* WALE_MOTION_… */

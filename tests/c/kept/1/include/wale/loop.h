@@ -8,7 +8,7 @@ extern "C" {
 #endif
 
 /* A run of a stage whose ticks the program serves itself, on a thread of its own and by its own clock. All guards are in it. It
-   may outlive its stage: then no patch is felt. */
+   may outlive its stage: from then on its force is 0. */
 typedef struct WaleLoop WaleLoop;
 
 enum { WALE_READING_good = 0, WALE_READING_stale = 1, WALE_READING_lost = 2 };
