@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace wale {
@@ -91,12 +90,15 @@ std::optional<std::size_t> distance_from(std::string_view word, std::string_view
 
 std::vector<std::string> nearest_spellings(std::string_view word, const std::vector<std::string>& candidates,
                                            std::size_t most) {
-  std::set<std::pair<std::size_t, std::string>> near;
-  for (const std::string& candidate : candidates)
-    if (const auto distance = distance_from(word, candidate)) near.emplace(*distance, candidate);
   std::vector<std::string> nearest;
-  for (const auto& [distance, candidate] : near)
-    if (nearest.size() < most) nearest.push_back(candidate);
+  for (const std::string& candidate : candidates)
+    if (distance_from(word, candidate)) nearest.push_back(candidate);
+  std::sort(nearest.begin(), nearest.end(), [&](const std::string& a, const std::string& b) {
+    const auto of_a = distance_from(word, a), of_b = distance_from(word, b);
+    return of_a != of_b ? of_a < of_b : a < b;
+  });
+  nearest.erase(std::unique(nearest.begin(), nearest.end()), nearest.end());
+  if (nearest.size() > most) nearest.resize(most);
   return nearest;
 }
 
