@@ -49,6 +49,7 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
     say(readable("the last {:.4g} s are measured", measured_seconds));
   RunManner manner = felt.manner();
   manner.versions = versions;
+  manner.most = options.max_force.value_or(HUGE_VAL);
   FeltReport report = felt_report(bank, result, bank.program().description().device, std::move(manner));
   tell_read_percepts(report, bank, common_modules()->declarations);
   felt.device.reset();  // the pointer restores the terminal

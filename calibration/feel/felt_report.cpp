@@ -119,15 +119,29 @@ std::string pressing_into(const WallFace& wall) {
 }
 
 /// "roughness 0.36 and viscosity 0.20": percepts with their levels.
-std::string read_text(const std::vector<std::pair<std::string, double>>& read) {
+std::string read_text(const std::vector<ReadLevel>& read) {
   std::string text;
   for (std::size_t i = 0; i < read.size(); ++i)
-    text += fmt::format("{}{} {:.2f}",
+    text += fmt::format("{}{} {}{:.2f}",
                         i == 0                 ? ""
                         : i + 1 == read.size() ? " and "
                                                : ", ",
-                        read[i].first, read[i].second);
+                        read[i].name, read[i].at_least ? "at least " : "", read[i].level);
   return text;
+}
+
+/// "0.5 of 0.5 N that --max-force lets through (100 %); without it 0.918 N": a size of the carrier against the size
+/// that the program aims at, as far as it may come.
+std::string delivered_text(const FeltReport& report, std::size_t index) {
+  const float size = report.levels[index].size, aimed = report.aimed[index], let = report.let_through[index];
+  const std::string& unit = report.units[index];
+  const std::string share = let > 0 ? readable(" ({:.0f} %)", 100 * size / let) : "";
+  if (let < aimed)
+    return readable("{:.4g} of {:.4g} {} that --max-force lets through{}; it aims at {:.4g} {}", size, let, unit, share,
+                    aimed, unit);
+  // A limit of force bounds no size in another unit, but cuts what shows it.
+  const bool cut = report.guards.user_limit > 0 && unit != (report.felt.vibration ? "m/s^2" : "N");
+  return readable("{:.4g} of {:.4g} {}{}{}", size, aimed, unit, share, cut ? ", with forces that --max-force cut" : "");
 }
 
 /// The largest force of all ticks, if the figures of the actuator leave it out; otherwise empty.
@@ -152,10 +166,9 @@ std::string levels_text(const FeltReport& report) {
       text += fmt::format("  {:<12} no level: {}\n", level.name, in_words(level.back.error()));
       continue;
     }
-    const float aimed = report.aimed[i];
-    text += readable("  delivered    {:.4g} of {:.4g} {}{}\n", level.size, aimed, report.units[i],
-                     aimed > 0 ? readable(" ({:.0f} %)", 100 * level.size / aimed) : "");
-    text += fmt::format("  {:<12} {:.2f}, as its map reads that {}{}\n", level.name, level.back->level,
+    text += readable("  delivered    {}\n", delivered_text(report, i));
+    text += fmt::format("  {:<12} {}{:.2f}, as its map reads that {}{}\n", level.name,
+                        report.at_least[i] ? "at least " : "", level.back->level,
                         felt.vibration           ? "shaking"
                         : report.units[i] == "N" ? "force"
                                                  : "size",
@@ -171,7 +184,10 @@ std::string levels_text(const FeltReport& report) {
     return text +
            fmt::format("  longer       about {:.0f} s of this motion cross it {} times: --seconds \"{:.0f} s\"\n",
                        *report.needed_seconds, least_crossings, *report.needed_seconds);
-  return text + "  longer       another motion may cross it sooner, as in --hand \"lateral along y\"\n";
+  if (report.crossing_motion.empty()) return text;
+  return text + (report.manner.plugged ? fmt::format("  longer       move {}\n", report.crossing_motion)
+                                       : fmt::format("  longer       another motion crosses it sooner: --hand \"{}\"\n",
+                                                     report.crossing_motion));
 }
 
 /// "forces sent x" for "forces_sent_x".
@@ -219,13 +235,14 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
   report.guards = run.guards;
   report.scheduling = run.scheduling;
   report.predicted_amplitude = std::min(predicted_amplitude(bank), static_cast<float>(device.most()));
+  const auto let_through = static_cast<float>(std::min(report.manner.most, device.most()));
   const double settling = std::min(settling_seconds, report.seconds / 2);
   report.settling = settling;
   for (const TickRecord& tick : run.record.ticks)
     if (const double size = glm::length(tick.force); size > report.largest)
       report.largest = size, report.largest_at = tick.time;
   report.felt = measure(run.record, {.position_step = device.position_step(),
-                                     .predicted_amplitude = report.predicted_amplitude,
+                                     .predicted_amplitude = std::min(report.predicted_amplitude, let_through),
                                      .settling = settling,
                                      .vibrates = device.shaker.has_value()});
   report.needed_seconds = needed_seconds(program, report.felt, report.seconds, settling);
@@ -237,6 +254,10 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
     report.units.push_back(percept.unit);
     report.aimed.push_back(limited ? std::min(level.predicted_amplitude, static_cast<float>(device.most()))
                                    : level.predicted_amplitude);
+    // A texture may be one part of the force that is limited.
+    const float share = percept.extractor == Extractor::lateral_force ? percept.basis.share : 1;
+    report.let_through.push_back(limited ? std::min(report.aimed.back(), let_through * share) : report.aimed.back());
+    report.at_least.push_back(false);
     if (!level.back && level.back.error().mend.empty() && percept.alone && needs_wall(percept))
       if (const auto wall = wall_face(bank)) level.back.error().mend = "--hand \"" + pressing_into(*wall) + "\" does";
     const auto& parameter = percept.parameter;
@@ -335,17 +356,20 @@ std::string felt_json(const FeltReport& report) {
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     auto& entry = percepts[report.levels[i].name];
     if (const auto& back = report.levels[i].back)
-      entry = {{"level", back->level},
-               {"magnitude", back->magnitude},
-               {"delivered", report.levels[i].size},
-               {"aimed", report.aimed[i]},
-               {"unit", report.units[i]}};
+      entry = {
+          {"level", back->level},     {"magnitude", back->magnitude},         {"delivered", report.levels[i].size},
+          {"aimed", report.aimed[i]}, {"let_through", report.let_through[i]}, {"at_least", bool(report.at_least[i])},
+          {"unit", report.units[i]}};
     else
       entry = {{"refused", in_words(report.levels[i].back.error())}};
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
   }
-  for (const auto& [name, level] : report.read) percepts[name] = {{"described", level}};
+  for (const ReadLevel& each : report.read)
+    percepts[each.name] = {{"described", each.level}, {"at_least", each.at_least}};
   if (report.needed_seconds && std::isfinite(*report.needed_seconds)) json["needed_seconds"] = *report.needed_seconds;
+  if (!report.crossing_motion.empty()) json["crossing_motion"] = report.crossing_motion;
+  if (std::isfinite(report.manner.most))
+    json[felt.vibration ? "max_force_m_per_s2" : "max_force_newton"] = report.manner.most;
   for (const auto& [name, count] : named(report.guards)) json["guards"][std::string(name)] = count;
   json["guards"]["restored"] = report.guards.restored;
   return json_lines(json);

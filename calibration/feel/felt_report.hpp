@@ -1,8 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "compiler/declarations/declarations.hpp"
@@ -19,6 +19,14 @@ struct RunManner {
   bool virtual_time = false;
   std::optional<HotPlugReport> plugged;  ///< of a real device
   long versions = 1;                     ///< of a watched file, that were felt one after the other
+  double most = HUGE_VAL;                ///< N, on a pad m/s^2: what the person lets through
+};
+
+/// A percept of a program that asks for none, as `describe` reads it of the force.
+struct ReadLevel {
+  std::string name;
+  double level = 0;
+  bool at_least = false;  ///< its carrier is greater than could be read
 };
 
 /// The measured force at the handle, and the force that the program aims at.
@@ -38,14 +46,19 @@ struct FeltReport {
   // For each of `levels`:
   std::vector<double> asked;       ///< the level asked for; negative if none was
   std::vector<float> aimed;        ///< the carrier's size that the program aims at, as far as the device gives it
+  std::vector<float> let_through;  ///< of that, what the person's limit lets through
+  std::vector<bool> at_least;      ///< the carrier is greater than could be read
   std::vector<std::string> units;  ///< the carrier's unit
   /// Where the program has no percepts of its own: those that `describe` reads of its force, and their levels.
-  std::vector<std::pair<std::string, double>> read;
+  std::vector<ReadLevel> read;
   double largest = 0, largest_at = 0;  ///< N: the actuator's largest force of all ticks, and when, s
   double settling = 0;                 ///< s at the beginning that the measured figures leave out
   /// s: about how long such a run must be for the hand to cross the texture often enough, if it did not; infinite if it
   /// crossed nothing.
   std::optional<double> needed_seconds;
+  /// The motion of a hand that crosses the texture more often, "lateral along y"; empty if that of the run does as
+  /// well.
+  std::string crossing_motion;
 };
 
 /// The least number of crossings that a texture needs to be read back.
@@ -58,7 +71,7 @@ inline constexpr double longest_proposed_run = 60;
 FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfile& device, RunManner manner);
 
 /// Adds what `describe` reads of the program: its percepts, if the program has none of its own, and why a level of it
-/// is unknown, as of a texture outside of what its map was measured with.
+/// is unknown, as of a texture outside of what its map was measured with; and the motion that crosses the texture.
 void tell_read_percepts(FeltReport& report, const Bank& bank, const Declarations& declarations);
 
 std::string felt_text(const FeltReport& report);

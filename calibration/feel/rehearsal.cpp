@@ -1,5 +1,7 @@
 #include "calibration/feel/rehearsal.hpp"
 
+#include <utility>
+
 #include "calibration/feel/felt_report.hpp"
 
 namespace wale {
@@ -14,7 +16,9 @@ double seconds_needed(const FeltDevice& felt, const BlindMaterial& material, dou
     if (!patch->set(program.description().parameters[i].name, parameters[i])) return usual;
   const auto result = stage.run({.seconds = usual, .virtual_time = true, .stop = &stop});
   if (!result) return usual;
-  const FeltReport report = felt_report(*patch->bank(), *result, program.description().device, felt.manner());
+  RunManner manner = felt.manner();
+  manner.most = most_newton;
+  const FeltReport report = felt_report(*patch->bank(), *result, program.description().device, std::move(manner));
   const double needed = report.needed_seconds.value_or(usual);
   return needed > usual && needed <= longest_proposed_run ? needed : usual;
 }

@@ -13,6 +13,7 @@
 #include "compiler/measure/measure.hpp"
 #include "compiler/prove/force_bound.hpp"
 #include "compiler/prove/prove.hpp"
+#include "compiler/read/coming_force.hpp"
 #include "compiler/read/motion.hpp"
 #include "compiler/read/other_force.hpp"
 #include "compiler/read/relief.hpp"
@@ -119,6 +120,9 @@ struct Description {
   std::vector<HeldFigure> held;      ///< what holding the button changes
   Swing uneven;                      ///< what swings and differs from place to place, with its least size there
   OtherForce other;                  ///< what no cue explains
+  ComingForce coming;                ///< when what comes or goes with time does so
+  double swirl = 0;                  ///< N/m: turns a resting hand about, counterclockwise; 0 if nothing does
+  std::optional<double> travel;      ///< rad in [0, 2 pi): towards where a pattern that time changes goes
   double aside = 0;                  ///< N: on a hand at 0.2 m/s, square to its way
   double unread = 0;                 ///< N: on a hand at rest or on its way, with no other cause here
   std::string no_percept;            ///< why there is no percept, in a line; empty if there is one

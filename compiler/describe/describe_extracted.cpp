@@ -161,6 +161,9 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
                        .remembered = counting(found.other.remembered),
                        .moving = counting(found.other.moving),
                        .later = counting(found.other.later)};
+  description.coming = found.coming;
+  description.swirl = cues[CueKind::swirl].value_or(0);
+  description.travel = found.directions.travel;
   description.aside = counting(found.opposing.aside);
   const double unread = std::abs(cues[CueKind::other_force].value_or(0));
   if (unread > std::max(description.other.largest(), description.aside)) description.unread = unread;

@@ -237,6 +237,13 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   other("remembered", description.other.remembered);
   other("moving", description.other.moving);
   other("later", description.other.later);
+  if (description.swirl != 0) json["swirl_newton_per_metre"] = figure(description.swirl);
+  if (description.travel) json["travel_rad"] = direction_figure(*description.travel);
+  if (const ComingForce& coming = description.coming; coming.after > 0) {
+    json["coming"] = {{"after_s", figure(coming.after)}, {"goes", coming.goes}};
+    if (coming.later_push != glm::dvec2(0))
+      json["coming"]["later_push_newton"] = {figure(coming.later_push.x), figure(coming.later_push.y)};
+  }
   other("aside", description.aside);
   other("unread", description.unread);
   other("small_feature", description.small_feature);

@@ -62,7 +62,8 @@ std::string motion_lines(const OpposingForce& motion) {
                      size_words(motion.most_in_time),
                      motion.explained ? "and what is told is its mean" : "and no mean tells it");
   if (goes_one_way(motion))
-    text += readable("  the drag differs with the way that a hand goes: at 200 mm/s {}\n", ways_words(motion));
+    text += readable("  the drag differs with the way that a hand goes: at 200 mm/s {}{}\n", ways_words(motion),
+                     motion.uneven() > 0 ? ", on the mean over the patch" : "");
   if (motion.uneven() > 0) {
     const bool part = std::min(std::abs(motion.least_by_place), std::abs(motion.most_by_place)) < least_force;
     text += part ? readable("  a drag in part of the patch only: at 200 mm/s up to {}\n",

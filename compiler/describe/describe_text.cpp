@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "compiler/describe/describe.hpp"
@@ -283,6 +284,27 @@ std::string bound_lines(const Description& description) {
   return line;
 }
 
+/// Of a direction in [0, 2 pi), in rad.
+long whole_degrees(double angle) { return std::lround(angle * 180 / std::numbers::pi) % 360; }
+
+/// "goes with time, half of it after 3 s".
+std::string coming_words(const ComingForce& coming) {
+  const char* const does = coming.goes ? "goes" : "comes";
+  return coming.after > 0 ? readable("{} with time, half of it after {:.3g} s", does, coming.after)
+                          : readable("{} with time", does);
+}
+
+/// "; a push of 2 N towards 0 degrees comes after 12 s": of what was looked for after the first seconds.
+std::string found_later_words(const Description& description) {
+  const glm::dvec2 push = description.coming.later_push;
+  if (push == glm::dvec2(0) || description.other.slowly > 0) return {};
+  const double angle = std::fmod(std::atan2(push.y, push.x) + 2 * std::numbers::pi, 2 * std::numbers::pi);
+  return readable(
+      "; a push of {:.3g} N {}{} after {:.3g} s", glm::length(push),
+      description.coming.goes ? "" : readable("towards {} ", in_degrees(readable("{}", whole_degrees(angle)))),
+      description.coming.goes ? "goes" : "comes", description.coming.after);
+}
+
 /// What resists along one axis, what pushes everywhere alike, and what no percept tells.
 std::string other_forces(const Description& description) {
   std::string text;
@@ -299,6 +321,9 @@ std::string other_forces(const Description& description) {
     text += readable("  {} {:.3g} {} along {}, {} across\n", each.name, each.size.greatest, each.unit, way,
                      across == 0 ? std::string("none") : readable("{:.3g} {}", across, each.unit));
   }
+  if (description.swirl != 0)
+    text += readable("  a swirl of {:.3g} N/m, which turns a resting hand {}\n", std::abs(description.swirl),
+                     description.swirl > 0 ? "counterclockwise" : "clockwise");
   if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
     text +=
         readable("  a constant push of {:.3g} N towards {}\n", std::hypot(push.x, push.y),
@@ -309,6 +334,9 @@ std::string other_forces(const Description& description) {
   if (description.noise.amplitude > 0)
     text += readable("  up to {:.3g} N that changes with time without a rate, which no percept tells\n",
                      description.noise.amplitude);
+  if (description.travel)
+    text += readable("  a pattern that travels towards {}\n",
+                     in_degrees(readable("{}", whole_degrees(*description.travel))));
   text += uneven_line(description.uneven) + motion_lines(description.motion) + held_lines(description.held);
   if (description.small_feature > 0)
     text += readable("  up to {:.3g} N in less than a hundredth of the patch, which no percept tells\n",
@@ -316,12 +344,13 @@ std::string other_forces(const Description& description) {
   const OtherForce& other = description.other;
   if (other.button > 0) text += readable("  up to {:.3g} N by the button, which no percept tells\n", other.button);
   if (other.slowly > 0)
-    text += readable("  up to {:.3g} N that comes with time, which no percept tells\n", other.slowly);
+    text +=
+        readable("  up to {:.3g} N that {}, which no percept tells\n", other.slowly, coming_words(description.coming));
   if (other.remembered > 0)
     text += readable("  up to {:.3g} N by where the hand has been, which no percept tells\n", other.remembered);
   if (other.moving > 0)
     text += readable("  up to {:.3g} N on a hand at 250 mm/s, which no percept tells\n", other.moving);
-  if (other.later > 0) text += readable("  {}\n", later_words(other.later));
+  if (other.later > 0) text += readable("  {}\n", later_words(other.later) + found_later_words(description));
   if (description.aside > 0)
     text += readable("  {:.3g} N aside on a hand at 200 mm/s, which no percept tells\n", description.aside);
   if (description.unread > 0) text += readable("  up to {:.3g} N that no percept tells\n", description.unread);

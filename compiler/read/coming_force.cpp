@@ -28,13 +28,15 @@ constexpr double finest_spread = 1e-5;  // likewise
 /// The root mean square over places of what changed since the first of some moments, and its mean.
 struct ChangeAt {
   double seconds = 0, size = 0;
+  double gained = 0;  ///< N^2: by how much the mean square of the force is more
   glm::dvec2 mean{0};
 };
 
 ChangeAt change_at(double seconds, const std::vector<Force>& first, const std::vector<Force>& now) {
-  ChangeAt found{seconds, 0, {0, 0}};
+  ChangeAt found{.seconds = seconds};
   for (std::size_t i = 0; i < now.size(); ++i) {
     const glm::dvec2 change = glm::dvec2(now[i]) - glm::dvec2(first[i]);
+    found.gained += (glm::dot(now[i], now[i]) - glm::dot(first[i], first[i])) / static_cast<double>(now.size());
     found.size += glm::dot(change, change), found.mean += change / static_cast<double>(now.size());
   }
   found.size = std::sqrt(found.size / static_cast<double>(now.size()));
@@ -49,6 +51,13 @@ double half_there_at(const std::vector<ChangeAt>& changes) {
   const auto there =
       std::ranges::find_if(changes, [&](const ChangeAt& each) { return each.size >= half_there * largest; });
   return there == changes.end() ? 0 : there->seconds;
+}
+
+/// Whether the largest change takes more away than it brings.
+bool takes_away(const std::vector<ChangeAt>& changes) {
+  constexpr double plainly = 0.5;  // of the square of the change, of which a push that ends loses all
+  const auto largest = std::ranges::max_element(changes, {}, &ChangeAt::size);
+  return largest != changes.end() && largest->gained < -plainly * largest->size * largest->size;
 }
 
 /// What hands feel that wait for longer than the others did.
@@ -135,11 +144,11 @@ ComingForce coming_force(const Bank& bank, const std::vector<std::vector<Force>>
       for (std::size_t i = 0; i < felt.size(); ++i) now[i] = felt[i][tick];
       changes.push_back(change_at(static_cast<double>(tick) / rate, first, now));
     }
-    found.after = half_there_at(changes);
+    found.after = half_there_at(changes), found.goes = takes_away(changes);
   }
   if (other.later < least_force) return found;
   const std::vector<ChangeAt> changes = changes_of_waiting(bank);
-  if (found.after == 0) found.after = half_there_at(changes);
+  if (found.after == 0) found.after = half_there_at(changes), found.goes = takes_away(changes);
   const auto largest = std::ranges::max_element(changes, {}, &ChangeAt::size);
   if (largest != changes.end() && largest->size >= least_force &&
       glm::length(largest->mean) >= everywhere_alike * largest->size)

@@ -10,7 +10,8 @@ namespace wale {
 
 /// How a force that comes with time comes to hands that hold still.
 struct ComingForce {
-  double after = 0;  ///< s: half of it is there; 0 if none comes, or beside what swings
+  double after = 0;   ///< s: half of it is there; 0 if none comes, or beside what swings
+  bool goes = false;  ///< it ends: it is there at first, and later no more
   /// N: what comes after the seconds that were looked at, if it is much the same everywhere.
   glm::dvec2 later_push{0};
 };

@@ -39,6 +39,12 @@ double wall_direction(const ForceReading& found) {
   return whole - turned < 1e-3 ? 0 : turned;
 }
 
+/// 1 or -1 if a skew is plain to be one, else 0.
+double side_of(double skew) {
+  constexpr double plainly_skew = 0.5;
+  return std::abs(skew) < plainly_skew ? 0 : std::copysign(1.0, skew);
+}
+
 /// Of several waves that cross plainly, the one with the least or the greatest period; none of a relief that changes in
 /// one direction.
 template <typename Better>
@@ -149,6 +155,10 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::regularity:
     case CueKind::crest:
     case CueKind::abruptness:
+    case CueKind::stronger_x:
+    case CueKind::stronger_y:
+    case CueKind::steep_side:
+    case CueKind::steep_side_across:
     case CueKind::finest_wave:
     case CueKind::finest_axis:
     case CueKind::coarsest_wave:

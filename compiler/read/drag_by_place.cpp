@@ -122,19 +122,20 @@ DragByPlace drag_by_place(const Bank& bank, const std::vector<Stroke>& strokes, 
   const double most = program.device.most();
   std::array<std::vector<double>, 4> against;
   std::array<std::vector<double>, 2> one_way;
-  std::vector<double> resistance;
+  std::vector<double> resistance, greatest;
   for (std::size_t i = 0; i < hands.size(); i += 1 + way_count) {
     const Force* const felt = &forces[i];
     if (!outside.at(glm::dvec2(hands[i].position))) continue;
     if (std::any_of(felt, felt + 1 + way_count, [&](const Force& force) { return at_limit(force, most); })) continue;
-    double mean = 0;
+    double mean = 0, most_on_a_way = 0;
     for (std::size_t way = 1; way <= way_count; ++way) {
       const glm::dvec2 direction = glm::normalize(glm::dvec2(hands[i + way].velocity));
       const double held = -glm::dot(glm::dvec2(felt[way] - felt[0]), direction);
       mean += held / way_count;
+      if (std::abs(held) > std::abs(most_on_a_way)) most_on_a_way = held;
       if (way <= against.size()) against[way - 1].push_back(held);
     }
-    resistance.push_back(mean);
+    resistance.push_back(mean), greatest.push_back(most_on_a_way);
     for (const std::size_t axis : {0, 1})
       one_way[axis].push_back(0.5 * (against[axis + 2].back() - against[axis].back()));
   }
@@ -148,6 +149,11 @@ DragByPlace drag_by_place(const Bank& bank, const std::vector<Stroke>& strokes, 
   std::ranges::sort(resistance);
   const auto rank = static_cast<std::size_t>(rarest * static_cast<double>(resistance.size()));
   tell_places(found, resistance[rank], resistance[resistance.size() - 1 - rank]);
+  if (found.least == found.most) return found;
+  // What resists on one way only is felt there, and not in the mean.
+  std::ranges::sort(greatest);
+  const double low = greatest[rank], high = greatest[greatest.size() - 1 - rank];
+  if (high - low > found.most - found.least) found.least = if_it_counts(low), found.most = if_it_counts(high);
   return found;
 }
 

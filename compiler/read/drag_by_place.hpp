@@ -10,7 +10,7 @@ namespace wale {
 /// How the resistance to a hand at 0.2 m/s differs; all N, 0 where it does not.
 struct DragByPlace {
   glm::dvec2 forward{0}, backward{0};  ///< of hands towards +x and +y, and towards -x and -y; means over places
-  double least = 0, most = 0;          ///< over places, without the rarest: means over ways
+  double least = 0, most = 0;          ///< over places, without the rarest: on the way that is resisted most
 };
 
 /// Of hands all over the patch outside of a wall; of a program that remembers, by strokes along x and then as many

@@ -362,7 +362,10 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   tell_trend(bank, found, at_first);
   LinearForce even = found.still.trend;
   even.mean -= at_first.force;
-  tell_still_directions(found.directions, found.steps, even, half_of(bank));
+  const glm::dvec2 half = half_of(bank);
+  tell_still_directions(found.directions, found.steps, even, half);
+  if (std::abs(found.directions.swirl) * std::min(half.x, half.y) < chance_of_line(found.relief(), half))
+    found.directions.swirl = 0;
   found.outward = outward_push(bank, found);
   // What damps the hand in a wall is the wall's.
   if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping)

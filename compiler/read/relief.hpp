@@ -37,6 +37,13 @@ struct Relief {
   /// How suddenly the strongest waveform changes: the largest change within a 16th of a period, against that of a sine
   /// of the same maximum. 1 of a sine, 0.64 of a triangle, 5.1 where it jumps from end to end; 0 without a wave.
   double abruptness = 0;
+  /// By how much its pushes are stronger to one side than to the other, in the mean of its waves: the third moment of
+  /// the force over the mean square to the power 3/2. A push to the right in a tenth of a period has (2.7, 0).
+  glm::dvec2 skew{0};
+  /// By how much it rises more steeply than it falls along a wave's direction: the same moment of its rises, of the
+  /// force along that direction, and of that across it, to its left. Which way the hand goes changes nothing. A
+  /// sawtooth that falls in a jump has about -3.6.
+  double steeper_along = 0, steeper_across = 0;
   /// The waves, strongest first. A wave whose parts have a small common multiple is listed by its parts.
   std::vector<ReliefWave> waves;
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compiler/read/fundamental.hpp"
+#include "compiler/read/only_direction.hpp"
 #include "compiler/read/sign_changes.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
@@ -15,12 +16,13 @@ namespace wale {
 namespace {
 
 constexpr std::size_t change_places = 1024;
-constexpr double difference = 1e-5;       // m: half the step for the change of the force
-constexpr double small_part = 0.04;       // of the mean square: not worth its own spectrum
-constexpr double no_direction = 0.05;     // below this anisotropy the direction is chance
-constexpr double weak = 0.02;             // of the mean square: a wave that is not told
-constexpr double along_one_axis = 0.95;   // of the mean square of a relief's forces
-constexpr std::size_t octave_parts = 12;  // in which the periods of irregular parts are counted
+constexpr double difference = 1e-5;                          // m: half the step for the change of the force
+constexpr double small_part = 0.04;                          // of the mean square: not worth its own spectrum
+constexpr double no_direction = 0.05;                        // below this anisotropy the direction is chance
+constexpr double perhaps_lines = 0.8, surely_lines = 0.999;  // anisotropies
+constexpr double weak = 0.02;                                // of the mean square: a wave that is not told
+constexpr double along_one_axis = 0.95;                      // of the mean square of a relief's forces
+constexpr std::size_t octave_parts = 12;                     // in which the periods of irregular parts are counted
 
 /// The direction in [0, pi). Hardly less than half a turn is none.
 double half_turned(double angle) {
@@ -68,6 +70,40 @@ double abruptness_of(const std::vector<glm::dvec2>& profile, double most) {
     change = std::max(change, glm::length(profile[(i + apart) % count] - profile[i]));
   const double turned = std::numbers::pi * static_cast<double>(apart) / static_cast<double>(count);
   return change / (2 * most * std::sin(turned));
+}
+
+/// The third moment of some values over their mean square to the power 3/2.
+double skew_of(const std::vector<double>& values) {
+  double squares = 0, cubes = 0;
+  for (const double value : values) squares += value * value, cubes += value * value * value;
+  const auto count = static_cast<double>(values.size());
+  return squares > 0 ? cubes / count / std::pow(squares / count, 1.5) : 0;
+}
+
+/// Adds the sides of a wave, in so great a part of all waves.
+void tell_sides(Relief& relief, const FoldedWave& wave, double part) {
+  constexpr std::size_t parts = 16;  // of a period, over which it rises or falls
+  const std::vector<glm::dvec2>& profile = wave.profile;
+  const auto count = profile.size();
+  const glm::dvec2 along = glm::normalize(wave.waves), left(-along.y, along.x);
+  glm::dvec2 mean{0}, cubes{0};
+  for (const glm::dvec2& force : profile) mean += force / static_cast<double>(count);
+  double squares = 0;
+  std::vector<double> rises, rises_left;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec2 force = profile[i] - mean;
+    squares += glm::dot(force, force), cubes += glm::dot(force, force) * force;
+    const glm::dvec2 rise = profile[(i + std::max<std::size_t>(1, count / parts)) % count] - profile[i];
+    rises.push_back(glm::dot(rise, along)), rises_left.push_back(glm::dot(rise, left));
+  }
+  if (!(squares > 0)) return;
+  const auto of = static_cast<double>(count);
+  relief.skew += part * cubes / of / std::pow(squares / of, 1.5);
+  // A part of the force that is next to none has a shape by chance.
+  double rise = 0, rise_left = 0;
+  for (std::size_t i = 0; i < count; ++i) rise += rises[i] * rises[i], rise_left += rises_left[i] * rises_left[i];
+  if (rise > weak * rise_left) relief.steeper_along += part * skew_of(rises);
+  if (rise_left > weak * rise) relief.steeper_across += part * skew_of(rises_left);
 }
 
 /// Tells the figures of one relief.
@@ -132,6 +168,7 @@ class ReliefFigures {
       for (const WavePart& part : parts)
         relief_.parts.push_back({each.wave.period() / static_cast<double>(part.number), share * part.share});
       regular.add(each.wave.waves, share);
+      tell_sides(relief_, each.wave, each.power / of_waves);
       tell_wave(each, share, parts);
     }
     if (from_.waves.lattice && from_.waves.waves.empty()) {
@@ -249,6 +286,20 @@ class ReliefFigures {
     } else {
       relief_.orientation = half_turned(0.5 * std::arg(doubled));
     }
+    look_along_lines();
+  }
+
+  /// A relief whose parts are fitted a little awry may change along one direction alone.
+  void look_along_lines() {
+    const bool trends = std::ranges::any_of(from_.features, [](const Feature& each) { return each.monotone; });
+    if (trends || relief_.anisotropy < perhaps_lines || relief_.anisotropy >= surely_lines) return;
+    double grain = HUGE_VAL;
+    for (const Relief::Part& each : relief_.parts)
+      if (each.share >= weak) grain = std::min(grain, each.period);
+    const auto found = std::isfinite(grain) ? only_direction(from_.field, from_.whole, from_.trend, relief_.orientation,
+                                                             relief_.rms, grain)
+                                            : std::nullopt;
+    if (found) relief_.anisotropy = 1, relief_.orientation = half_turned(*found);
   }
 
   /// Those of a single wave are known from its waveform.

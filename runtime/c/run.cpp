@@ -1,5 +1,6 @@
 #include "runtime/c/run.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "runtime/c/program.hpp"
@@ -36,9 +37,10 @@ WaleGuards guards_of(const GuardCounts& counts) noexcept {
           .restored = counts.restored};
 }
 
-void hand_out_run(RunResult result, const DeviceProfile& profile, WaleRun** to) {
+void hand_out_run(RunResult result, const DeviceProfile& profile, double most, WaleRun** to) {
   if (to == nullptr) return;
-  auto run = std::make_unique<WaleRun>(WaleRun{std::move(result), profile.position_step()});
+  auto run =
+      std::make_unique<WaleRun>(WaleRun{std::move(result), profile.position_step(), std::min(most, profile.most())});
   if (run->result.record_problem) run->problem = handle_of(*run->result.record_problem);
   hand_out(std::move(run), to);
 }
@@ -105,10 +107,11 @@ WaleCode wale_felt_measure(const WaleRun* run, const WalePatch* patch, const Wal
         return about_argument("options", "expected finite numbers that are not negative");
     const auto bank = patch->patch.bank();
     if (!bank) return bank.error();
-    wale::MeasureOptions measured{.position_step = run->position_step,
-                                  .predicted_amplitude = wale::predicted_amplitude(*bank),
-                                  .settling = given->settling,
-                                  .vibrates = run->result.record.vibrates};
+    wale::MeasureOptions measured{
+        .position_step = run->position_step,
+        .predicted_amplitude = std::min(wale::predicted_amplitude(*bank), static_cast<float>(run->most)),
+        .settling = given->settling,
+        .vibrates = run->result.record.vibrates};
     if (given->stuck_seconds != 0) measured.stuck_seconds = given->stuck_seconds;
     if (given->stuck_counts != 0) measured.stuck_counts = given->stuck_counts;
     auto made = std::make_unique<WaleFelt>();

@@ -57,14 +57,15 @@ TEST(HandMotion, RefusesWhatNobodyCanMean) {
   EXPECT_NE(error("lateral at 20 N, 3 N"), "none");
 }
 
-/// The report of so many seconds of a hand on a simulated device.
-FeltReport felt(const Program& program, const std::string& hand, double seconds) {
+/// The report of so many seconds of a hand on a simulated device, whose person lets so much through (N).
+FeltReport felt(const Program& program, const std::string& hand, double seconds, double most = HUGE_VAL) {
   SimulatedJoystick joystick(program.description().device, {person().mass, person().damping, person().stiffness},
                              motion(hand));
-  Stage stage(joystick);
+  Stage stage(joystick, {.max_force = most});
   Patch patch = *stage.add(program);
   const auto run = stage.run({.seconds = seconds, .virtual_time = true});
-  return felt_report(*patch.bank(), *run, program.description().device, {"simulated", hand, true, std::nullopt});
+  return felt_report(*patch.bank(), *run, program.description().device,
+                     {"simulated", hand, true, std::nullopt, 1, most});
 }
 
 TEST(HandMotion, AHandAlongYCrossesWhatLiesAcrossY) {
@@ -101,6 +102,49 @@ TEST(FeltPercepts, AreThoseThatDescribeReads) {
   EXPECT_NE(felt_text(report).find("no level: outside what was measured (period 14 mm, measured to 10)"),
             std::string::npos)
       << felt_text(report);
+}
+
+// A limit of 0.3 N bounds a texture of 0.78 N: the hand crosses it as often as without, and gets all of the 0.3 N.
+TEST(FeltPercepts, AreJudgedAgainstWhatThePersonLetsThrough) {
+  Declared declared(
+      "material m { perceptual { roughness 0.3 } physical { force = lateral(grating(x, period: 4 mm)) } }\n");
+  const Program program = declared.program();
+  const FeltReport whole = felt(program, "lateral", 10), limited = felt(program, "lateral", 10, 0.3);
+  ASSERT_GT(whole.aimed.at(0), 0.7);
+  EXPECT_NEAR(static_cast<double>(limited.felt.crossings), static_cast<double>(whole.felt.crossings),
+              0.1 * static_cast<double>(whole.felt.crossings));
+  ASSERT_TRUE(limited.levels.at(0).back);
+  EXPECT_LT(limited.levels[0].back->level, whole.levels.at(0).back->level);
+  EXPECT_NEAR(limited.let_through.at(0), 0.3, 1e-6);
+  EXPECT_NE(felt_text(limited).find(" of 0.3 N that --max-force lets through (99 %); it aims at 0.7765 N\n"),
+            std::string::npos)
+      << felt_text(limited);
+  EXPECT_NE(felt_json(limited).find("\"max_force_newton\": 0.3"), std::string::npos) << felt_json(limited);
+  EXPECT_EQ(felt_text(whole).find("--max-force"), std::string::npos);
+}
+
+// Advice helps: a hand that crosses the ridges already, or that no direction serves better, gets none.
+TEST(FeltPercepts, AreCrossedByTheMotionThatIsProposed) {
+  Declared declared(
+      "material m { perceptual { roughness 0.6 } physical { force = lateral(grating(y, period: 2.5 mm)) } }\n");
+  const Program program = declared.program();
+  const auto advised = [&](const std::string& hand) {
+    FeltReport report = felt(program, hand, 1);
+    report.needed_seconds = HUGE_VAL;
+    tell_read_percepts(report, Bank(program), declared.declarations());
+    return report.crossing_motion;
+  };
+  for (const char* hand : {"lateral", "lateral along 10 deg", "rest"}) EXPECT_EQ(advised(hand), "lateral along y");
+  for (const char* hand : {"lateral along y", "lateral along 60 deg at 5 mm, 0 mm", "circular"})
+    EXPECT_EQ(advised(hand), "");
+}
+
+TEST(FeltPercepts, SayAtLeastWhereTheFrictionIsCut) {
+  Declared declared("material m { physical { force = sticky(20 N) } }\n");
+  const Program program = declared.program();
+  FeltReport report = felt(program, "lateral", 2);
+  tell_read_percepts(report, Bank(program), declared.declarations());
+  EXPECT_NE(felt_text(report).find("  stickiness   at least "), std::string::npos) << felt_text(report);
 }
 
 // A push in the first moments only is the largest, though the figures leave them out.

@@ -264,6 +264,10 @@ TEST(Feeling, WithNoMoreForceThanTheUserAllows) {
   EXPECT_LE(limited.at("actuator").at("max_newton").get<double>(), 1.005);
   EXPECT_GT(limited.at("guards").at("user_limit").get<long>(), 100);
   EXPECT_EQ(felt("9 N").json().at("guards").at("user_limit"), 0);
+  // The crossings are the hand's, and what is delivered is judged against what may come.
+  const auto& roughness = limited.at("percepts").at("roughness");
+  EXPECT_NEAR(roughness.at("let_through").get<double>(), 1, 1e-6);
+  EXPECT_NEAR(roughness.at("delivered").get<double>(), 1, 0.02);
   for (const char* wrong : {"0 N", "-2 N", "3", "5 mm", "much"}) {
     EXPECT_EQ(felt(wrong).status, 2) << wrong;
     EXPECT_FALSE(felt(wrong).err.empty()) << wrong;

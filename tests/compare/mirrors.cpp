@@ -65,6 +65,11 @@ TEST(CompareMirrors, ASignIsHeard) {
       {"travelling slowly", "1 N * sin(2 pi * (X / 20 mm - P * phase(0.2 Hz))) * U"},
       {"travelling aslant", "1 N * sin(2 pi * (X / 9 mm + Y / 12 mm - P * phase(3 Hz))) * V"},
       {"jumping on", "1 N * sign(sin(2 pi * (X / 6 mm - P * phase(2 Hz)))) * U"},
+      {"sawtooth", "P * 1 N * (2 * fract(X / 5 mm) - 1) * U"},
+      {"sawtooth across", "P * 1 N * (2 * fract(X / 5 mm) - 1) * V"},
+      {"pulses", "P * ((if fract(X / 10 mm) < 0.1 then 1 N else 0 N) - 0.1 N) * U"},
+      {"pulses across", "P * ((if fract(X / 10 mm) < 0.1 then 1 N else 0 N) - 0.1 N) * V"},
+      {"sawtooth on a wave", "(P * 1 N * (2 * fract(X / 5 mm) - 1) + 0.8 N * sin(2 pi * X / 13.3 mm)) * U"},
       {"wall", "(if P * X > 20 mm then -P * 300 N/m * (P * X - 20 mm) else 0 N) * U"}};
   for (const OneOfAKind& each : all)
     for (const bool turned : {false, true}) {
@@ -91,7 +96,9 @@ TEST(CompareMirrors, AnAxisIsHeard) {
 TEST(CompareMirrors, WhereTheOriginLiesIsNotFelt) {
   const char* const all[] = {"vector(0.5 N * sin(2 pi * (x + S) / 2 mm) + 0.5 N * sin(2 pi * (x + S) / 2.718 mm), 0 N)",
                              "vector(0.5 N * sin(2 pi * (x + S) / 3 mm), 0.5 N * sin(2 pi * (y + S) / 7 mm))",
-                             "vector(1 N * sin(2 pi * ((x + S) / 4 mm - phase(2 Hz))), 0 N)"};
+                             "vector(1 N * sin(2 pi * ((x + S) / 4 mm - phase(2 Hz))), 0 N)",
+                             "vector(1 N * (2 * fract((x + S) / 5 mm) - 1), 0 N)",
+                             "vector((if fract((x + S) / 10 mm) < 0.1 then 1 N else 0 N) - 0.1 N, 0 N)"};
   for (std::string force : all) {
     const auto shifted = [&](const std::string& by) {
       std::string text = "active 3 W\nforce = " + force;

@@ -196,6 +196,15 @@ def test_contacts(stage: wale.Stage, corduroy: wale.Program) -> None:
     assert stage.poll() == 0
 
 
+def test_a_limit_of_the_user_is_crossed_as_often(device: wale.Device, corduroy: wale.Program) -> None:
+    """The hand crosses the ridges as often, whatever part of their force is let through."""
+    with wale.Stage(device, max_force=0.3) as stage:
+        patch = stage.add(corduroy)
+        felt = stage.run(2, virtual_time=True).measure(patch, settling=0.5, least_crossings=10)
+    assert felt.crossings > 10
+    assert felt.force.p99 == pytest.approx(0.3, rel=0.02)
+
+
 def test_a_loop_of_ones_own(corduroy: wale.Program) -> None:
     profile = wale.profile("sandpaper")
     with wale.Stage(profile, max_force=1) as stage:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -60,6 +61,80 @@ TEST(DescribingForces, AQuarterOfTheForceIsAThirdAsRough) {
   ASSERT_TRUE(roughness->intervals.people);
   EXPECT_GT(roughness->intervals.people->high, 1.2 * roughness->intervals.means.high);
   EXPECT_LT(roughness->intervals.people->low, roughness->intervals.means.low / 1.2);
+}
+
+// What depends on one coordinate alone changes along one direction, whatever its waves and however it is turned.
+TEST(DescribingForces, AReliefOfOneCoordinateIsOfOneDimension) {
+  const char* const profiles[] = {"sin(2 pi * (u / 3 mm + 0.4 * sin(2 pi * u / 35 mm)))",
+                                  "sin(2 pi * u / 3 mm) + 0.7 * sin(2 pi * u / 4.3 mm) + 0.4 * sin(2 pi * u / 7.7 mm)",
+                                  "noise(u / 4 mm) - 0.5", "2 * fract(u / 5 mm) - 1"};
+  for (std::string profile : profiles)
+    for (const double degrees : {0.0, 1.0, 37.0}) {
+      const std::string axis = fmt::format("(x * cos({0} deg) + y * sin({0} deg))", degrees);
+      std::string text = profile;
+      for (std::size_t at; (at = text.find("u / ")) != std::string::npos;) text.replace(at, 1, axis);
+      const Description description = described("active 2 W\nforce = vector(1 N * (" + text + "), 0 N)");
+      ASSERT_TRUE(description.texture) << text;
+      const Relief& relief = description.texture->force;
+      EXPECT_NEAR(relief.anisotropy, 1, 1e-3) << text;
+      const double angle = degrees * std::numbers::pi / 180;
+      EXPECT_NEAR(std::remainder(relief.orientation - angle, std::numbers::pi), 0, 2e-3) << text;
+      EXPECT_EQ(description_text(description).find("two dimensions"), std::string::npos)
+          << description_text(description);
+    }
+  // A wave of a fifth across the other is felt as a second dimension.
+  const Description crossed =
+      described("active 2 W\nforce = vector(1 N * (sin(2 pi * x / 3 mm) + 0.2 * sin(2 pi * y / 3 mm)), 0 N)");
+  EXPECT_LT(crossed.texture->force.anisotropy, 0.98);
+}
+
+// 5 N s/m on hands that go in, beyond 20 mm: 1 N at 0.2 m/s there.
+TEST(DescribingForces, ADragOnOneWayInAPartIsToldAsItIsFeltThere) {
+  const Description description = described("force = crisp(5 N s/m)");
+  EXPECT_NEAR(description.motion.most_by_place, 1, 0.03);
+  EXPECT_EQ(description.motion.least_by_place, 0);
+  const std::string text = description_text(description);
+  EXPECT_NE(text.find("a drag in part of the patch only: at 200 mm/s up to 1 N"), std::string::npos) << text;
+  EXPECT_NE(text.find("none to the left, on the mean over the patch"), std::string::npos) << text;
+}
+
+TEST(DescribingForces, ASwirlAndATravellingPatternHaveTheirWords) {
+  const Description swirl = described("active 9 W\nforce = -20 N/m * perpendicular(hand)");
+  EXPECT_NEAR(swirl.swirl, -20, 0.2);
+  EXPECT_NE(description_text(swirl).find("  a swirl of 20 N/m, which turns a resting hand clockwise\n"),
+            std::string::npos)
+      << description_text(swirl);
+  EXPECT_NE(descriptions_json({swirl}).find("\"swirl_newton_per_metre\": -20"), std::string::npos);
+  const Description spring = described("force = -20 N/m * hand");
+  EXPECT_EQ(description_text(spring).find("swirl"), std::string::npos);
+  for (const int degrees : {0, 90, 180, 315}) {
+    const Description travels = described(
+        fmt::format("active 2 W\nforce = vector(1 N * sin(2 pi * ((x * cos({0} deg) + y * sin({0} deg)) / 4 mm - "
+                    "phase(2 Hz))), 0 N)",
+                    degrees));
+    EXPECT_NE(description_text(travels).find(fmt::format("  a pattern that travels towards {} degrees\n", degrees)),
+              std::string::npos)
+        << description_text(travels);
+    EXPECT_NE(descriptions_json({travels}).find("\"travel_rad\": "), std::string::npos);
+  }
+  const Description stands = described("active 2 W\nforce = vector(1 N * sin(2 pi * phase(2 Hz)), 0 N)");
+  EXPECT_EQ(description_text(stands).find("travels"), std::string::npos);
+}
+
+TEST(DescribingForces, WhatComesAndWhatEndsSayWhen) {
+  const auto text_of = [](const std::string& size) {
+    const Description description = described("active 90 W\nforce = vector(" + size + ", 0 N)");
+    return description_text(description) + descriptions_json({description});
+  };
+  const std::string comes = text_of("if time > 3 s then 2 N else 0 N"),
+                    ends = text_of("if time < 3 s then 2 N else 0 N"),
+                    late = text_of("if time > 12 s then 2 N else 0 N"), fades = text_of("3 N * exp(-time / 2 s)");
+  EXPECT_NE(comes.find("up to 2 N that comes with time, half of it after 3 s,"), std::string::npos) << comes;
+  EXPECT_NE(comes.find("\"goes\": false"), std::string::npos) << comes;
+  EXPECT_NE(ends.find("up to 2 N that goes with time, half of it after 3 s,"), std::string::npos) << ends;
+  EXPECT_NE(ends.find("\"goes\": true"), std::string::npos) << ends;
+  EXPECT_NE(late.find("; a push of 2 N towards 0 degrees comes after 12"), std::string::npos) << late;
+  EXPECT_NE(fades.find("that goes with time, half of it after 1.3"), std::string::npos) << fades;
 }
 
 /// sandpaper: 228 mm in 4096 counts. Sampled each count, a wave has as many waves less to the millimetre as the encoder
