@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "compiler/check_legibility.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/compile_workspace.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
@@ -35,8 +36,10 @@ Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<st
     compile_material(module, material.name, default_device, sources, source, *resolver, of_material);
     for (const auto& diagnostic : of_material.all()) diagnostics.report(diagnostic);
   }
-  for (const auto& workspace : module.workspaces)
-    compile_workspace(workspace, module, default_device, sources, source, *resolver, diagnostics);
+  for (const auto& workspace : module.workspaces) {
+    const auto laid = compile_workspace(workspace, module, default_device, sources, source, *resolver, diagnostics);
+    if (laid) check_legibility(*laid, module.declarations(), default_device, diagnostics);
+  }
   return diagnostics;
 }
 

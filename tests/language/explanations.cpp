@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "compiler/check_legibility.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/compile_workspace.hpp"
 #include "compiler/diagnostics/explain.hpp"
@@ -103,7 +104,8 @@ Outcome outcome_of(const std::string& text, bool needs_material) {
   for (const auto& workspace : module.workspaces) {
     if (diagnostics.has_errors()) break;
     Diagnostics of_workspace;
-    compile_workspace(workspace, module, default_device, sources, source, resolver, of_workspace);
+    const auto laid = compile_workspace(workspace, module, default_device, sources, source, resolver, of_workspace);
+    if (laid) check_legibility(*laid, module.declarations(), default_device, of_workspace);
     all.insert(all.end(), of_workspace.all().begin(), of_workspace.all().end());
   }
   Outcome outcome;
