@@ -33,7 +33,7 @@ constexpr double same_rate = 0.02;
 constexpr double plainly_less = 0.5;     // of the greatest, where it is least
 constexpr double beats_of_ticks = 0.05;  // of a vibration's power, below its band: the rate of the ticks is no multiple
 constexpr double pure = 0.995;           // of the power: a sine has as much in the lines around its own
-constexpr double missed = 1.2;            // most that the ticks of a sine may miss of its peak: at three a period, 1.155
+constexpr double missed = 1.2;           // most that the ticks of a sine may miss of its peak: at three a period, 1.155
 
 /// Forces as changes, without their mean and their drift: a parabola in time.
 std::vector<std::complex<float>> without_drift(const std::vector<Force>& forces) {

@@ -72,6 +72,8 @@ class Code(enum.IntEnum):
     delivered_otherwise = 425  # a level that the finished program does not have
     pushes_away = 426  # a force that drives a hand away from where it rests
     beyond_reach = 427  # a patch of a workspace that the device does not reach
+    indistinct_neighbours = 428  # patches side by side that people cannot tell apart
+    hidden_patch = 429  # a patch that lies wholly behind others
     jumping_height = 430  # a height that jumps, which no force can follow
     beyond_devices = 431  # a force far beyond what any device gives
     never_pushes = 432  # a material whose force is zero everywhere
