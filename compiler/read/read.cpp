@@ -285,6 +285,10 @@ double ForceReading::stepped() const {
   return sum;
 }
 
+double ForceReading::cut_spring() const {
+  return still.cut_off && !wall && stiffness >= least_stiffness ? still.largest : 0;
+}
+
 double ForceReading::held_drag(double speed) const { return held ? held->opposing.at(speed) - opposing.at(speed) : 0; }
 
 double ForceReading::held_mass() const { return held ? held->inertia.greatest - inertia.greatest : 0; }

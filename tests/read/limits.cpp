@@ -54,6 +54,7 @@ TEST(Limits, OfSpringsAndWallsAreNoBumps) {
     const ForceReading found = reading(spring);
     EXPECT_NEAR(found.stiffness, x, exact * x) << spring;
     EXPECT_NEAR(found.stiffness_across, y, exact * y) << spring;
+    EXPECT_NEAR(found.cut_spring(), limit, exact * limit) << spring;
     EXPECT_FALSE(found.wall) << spring;
     EXPECT_TRUE(found.steps.empty()) << spring;
     EXPECT_EQ(found.relief().amplitude, 0) << spring;
