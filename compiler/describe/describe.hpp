@@ -115,6 +115,7 @@ struct Description {
   Swing sway;                        ///< slower than 10 Hz, which no percept tells; of amplitude 0 if there is none
   Swing noise;                       ///< what changes with time without a rate; of amplitude 0 if nothing does
   OpposingForce motion;              ///< what resists a moving hand
+  double spring_force = 0;           ///< N: at which a spring's force grows no more; 0 if nothing limits it
   double small_feature = 0;          ///< N: the largest force of what fills less than a hundredth of the patch
   glm::dvec2 constant_push{0};       ///< N: everywhere alike
   std::vector<HeldFigure> held;      ///< what holding the button changes

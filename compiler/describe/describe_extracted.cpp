@@ -153,6 +153,7 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
   description.motion = found.opposing;
   description.held = held_figures(found);
   description.uneven = found.sway.least ? found.sway : found.vibration;
+  description.spring_force = cues[CueKind::spring_force].value_or(0);
   description.small_feature = cues[CueKind::small_feature].value_or(0);
   if (glm::length(found.constant) >= least_force) description.constant_push = found.constant;
   const auto counting = [](double force) { return force >= least_force ? force : 0; };

@@ -321,6 +321,10 @@ std::string other_forces(const Description& description) {
     text += readable("  {} {:.3g} {} along {}, {} across\n", each.name, each.size.greatest, each.unit, way,
                      across == 0 ? std::string("none") : readable("{:.3g} {}", across, each.unit));
   }
+  // What the device cuts is told with its bounds.
+  constexpr double plainly_less = 0.99;
+  if (description.spring_force > 0 && description.spring_force < plainly_less * description.device.most())
+    text += readable("  a spring whose force ends at {:.3g} N\n", description.spring_force);
   if (description.swirl != 0)
     text += readable("  a swirl of {:.3g} N/m, which turns a resting hand {}\n", std::abs(description.swirl),
                      description.swirl > 0 ? "counterclockwise" : "clockwise");

@@ -167,6 +167,7 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::wall_direction:
     case CueKind::wall_push:
     case CueKind::wall_preload: return CueKind::wall_stiffness;
+    case CueKind::spring_force:
     case CueKind::stiffness_across:
     case CueKind::stiffness_axis: return CueKind::stiffness;
     case CueKind::viscosity_across:

@@ -21,7 +21,7 @@ constexpr double nearly_all = 0.9;       // of the mean square
 constexpr double exactly = 0.015;        // of the mean square, left by features that are all there is
 constexpr double worth_a_feature = 0.3;  // of what is left
 constexpr double plainly = 0.06;         // of a profile's range: a turn that counts
-constexpr double jump = 0.2;             // of a profile's range, between the second next values
+constexpr double plain_jump = 0.2;       // of a profile's range, between the second next values
 constexpr double hardly_bent = 0.01;     // of a profile's range: its deviation from a line is rounding
 constexpr int most_turns = 4;            // of a profile; a texture has more
 
@@ -284,11 +284,12 @@ void add_feature(const Feature& feature, double times, std::span<const glm::dvec
 }
 
 bool Feature::jumps_at(glm::dvec2 place) const {
+  if (jump && std::abs(coordinate(place) - *jump) < step) return true;
   const double at = std::round((coordinate(place) - low) / step);
   const auto last = static_cast<double>(profile.size() - 1);
   const auto index = static_cast<std::size_t>(std::clamp(at, 0.0, last));
   const glm::dvec2 change = profile[std::min(index + 1, profile.size() - 1)] - profile[index == 0 ? 0 : index - 1];
-  return glm::length(change) > jump * range;
+  return glm::length(change) > plain_jump * range;
 }
 
 glm::dvec2 beside(const std::vector<Feature>& features, glm::dvec2 place, glm::dvec2 force) {

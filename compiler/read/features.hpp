@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct Feature {
   double low = 0, step = 0;  ///< m: the coordinate of the profile's first value, and between values
   /// N: the force; for a radial feature, x is outward and y is around the point, counterclockwise.
   std::vector<glm::dvec2> profile;
-  double range = 0;  ///< N: between the least and the greatest of the profile
+  double range = 0;            ///< N: between the least and the greatest of the profile
+  std::optional<double> jump;  ///< m: the coordinate at which it is known to jump, however little
   /// It pushes ever more one way and never comes back: a wall, an edge or a spring. Otherwise it is a hill.
   bool monotone = false;
 

@@ -315,17 +315,26 @@ class ObstacleSearch {
     fit.even = line_;
     double left = by_line_;
     const std::size_t most = kinds.round ? 1 : most_obstacles;
+    std::vector<ObstacleFit> fewer;
     for (std::size_t number = 0; number < most && left > all_explained * by_line_; ++number) {
       ObstacleFit more = fit;
       const double here = add(more, kinds, left);
       if (!(here < (1 - worth_an_obstacle) * left) || (number >= 2 && here > 0.5 * by_line_)) break;
+      if (number > 0 && left < far_from_all * by_line_) fewer.push_back(fit);
       fit = std::move(more), left = here;
     }
     if (fit.found.walls.size() + fit.found.steps.size() > 1 && left > all_explained * by_line_ &&
         left < 0.15 * by_line_)
       left = seat_anew(fit, kinds, left);
     if (fit.found.empty() || left > far_from_all * by_line_) return std::nullopt;
-    return accepted(std::move(fit));
+    auto all = accepted(std::move(fit));
+    // In the means over cells that a step crosses, some of it is left, where one more seems to be.
+    const auto jumps = [](const StaticStep& each) { return each.width < first_width; };
+    for (; !all && !fewer.empty(); fewer.pop_back()) {
+      all = accepted(std::move(fewer.back()));
+      if (all && !std::ranges::all_of(all->found.steps, jumps)) all.reset();
+    }
+    return all;
   }
 
  private:
@@ -443,11 +452,13 @@ Feature feature_of(const Wall& wall, std::span<const glm::dvec2> places) {
     low = std::min(low, at), high = std::max(high, at);
   }
   feature.step = (high - low) / static_cast<double>(profile_values);
-  // One of the profile's places is where the wall begins.
+  // One of the profile's places is where the wall begins; a jump is in the middle between two.
   const auto before = static_cast<std::size_t>(std::max(1.0, std::ceil((wall.offset - low) / feature.step)));
-  feature.low = wall.offset - static_cast<double>(before) * feature.step;
+  const double begins = static_cast<double>(before) + (wall.preload != 0 ? 0.5 : 0);
+  if (wall.preload != 0) feature.jump = wall.offset;
+  feature.low = wall.offset - begins * feature.step;
   for (std::size_t i = 0; feature.low + feature.step * (static_cast<double>(i) - 1) < high || i < before + 2; ++i) {
-    const double beyond = feature.step * (static_cast<double>(i) - static_cast<double>(before));
+    const double beyond = feature.step * (static_cast<double>(i) - begins);
     const double deep = wall.fills ? -beyond : beyond;
     const double push = deep > 0 ? wall.preload + wall.stiffness * deep : 0;
     // Outward from a round wall's centre.

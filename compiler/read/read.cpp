@@ -18,6 +18,7 @@
 #include "compiler/read/still_forces.hpp"
 #include "compiler/read/strokes.hpp"
 #include "compiler/read/tolerances.hpp"
+#include "compiler/read/unlimited.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
@@ -118,8 +119,8 @@ glm::dvec2 alike_beside(const std::vector<StaticStep>& steps, glm::dvec2 push, g
   return least;
 }
 
-/// How a trend changes along x and along y as far as a hand can feel it: not in a part that the device cuts (N) in all
-/// of the patch.
+/// How a trend changes along x and along y as far as a hand can feel it: not in a part that is cut (N) in all of the
+/// patch.
 std::pair<glm::dvec2, glm::dvec2> felt_slopes(const StaticForce& still, glm::dvec2 half, double most) {
   std::pair slopes{still.trend.by_x, still.trend.by_y};
   for (const int axis : {0, 1}) {
@@ -140,7 +141,8 @@ void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) 
   const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
   if (still.features.empty() || !still.obstacles.empty()) {
     const double chance = chance_of_line(found.relief(), half), nearest = std::min(half.x, half.y);
-    const auto [by_x, by_y] = felt_slopes(still, half, bank.program().description().device.most());
+    const ForceLimit limit = limit_of(bank);
+    const auto [by_x, by_y] = felt_slopes(still, half, limit.least());
     Principal spring = principal_of(-by_x, -by_y, std::max(least_stiffness, chance / nearest));
     if (std::abs(spring.greatest) * nearest < chance) spring = {};
     found.stiffness = spring.greatest, found.stiffness_across = spring.across, found.stiffness_axis = spring.axis;
@@ -149,11 +151,9 @@ void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) 
         {chance, misfit_of_relief * found.relief().amplitude, misfit_of_spring * std::abs(spring.greatest) * nearest,
          misfit_of_swing * std::max(found.sway.amplitude, found.vibration.amplitude),
          found.vibration.noise ? misfit_of_noise * found.vibration.amplitude : 0, at_first.uncertain});
-    // Where the device cuts it, the middle is pushed less than the law asks for.
-    const glm::dvec2 most(bank.program().description().device.most());
-    const glm::dvec2 push = glm::clamp(
-        alike_beside(still.obstacles.steps, at_first.slow.remaining(still.trend.mean - at_first.force), half), -most,
-        most);
+    // Where it is cut, the middle is pushed less than the law asks for.
+    const glm::dvec2 push = limit.cut(
+        alike_beside(still.obstacles.steps, at_first.slow.remaining(still.trend.mean - at_first.force), half));
     if (glm::length(push) >= std::max(least_force, certain)) found.constant = push;
   } else {
     found.stiffness = found.stiffness_across = even_stiffness(still, patch);
@@ -283,6 +283,10 @@ double ForceReading::stepped() const {
   double sum = 0;
   for (const StaticStep& each : steps) sum += glm::length(each.change);
   return sum;
+}
+
+double ForceReading::cut_spring() const {
+  return still.cut_off && !wall && stiffness >= least_stiffness ? still.largest : 0;
 }
 
 double ForceReading::held_drag(double speed) const { return held ? held->opposing.at(speed) - opposing.at(speed) : 0; }

@@ -48,6 +48,8 @@ struct ForceReading {
   double more_wall_stiffness() const;
   /// N: of all steps together.
   double stepped() const;
+  /// N: at which a spring that its author or the device limits grows no more; 0 if nothing limits it.
+  double cut_spring() const;
   /// What holding the button adds: to the drag at a speed (m/s), N; to the mass, kg; and to what swings, N.
   double held_drag(double speed) const;
   double held_mass() const;

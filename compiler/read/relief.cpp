@@ -26,6 +26,7 @@ constexpr double much_better = 0.3;         // of what a line leaves, left by fe
 constexpr double a_micrometre = 1e-6;       // m: heights are read in these, since the least that counts is for newtons
 constexpr double misfit = 0.03;             // of the largest force: what a trend may leave as if it were relief
 constexpr double least_cut = 2e-3;          // of the places: cut off by a device's limit
+constexpr double least_cut_by_author = 1.5 * (1 - percentile_of_amplitude);  // `lateral` cuts all above it
 
 /// The patch without its rim, m.
 glm::dvec2 inside_of(PatchSize patch) {
@@ -36,13 +37,13 @@ glm::dvec2 inside_of(PatchSize patch) {
 /// Reads the relief of one program.
 class ReliefReader {
  public:
-  /// `limit` (N): beyond it along x or y, a device cuts the field's forces off.
-  ReliefReader(const StillField& field, PatchSize patch, double limit = HUGE_VAL)
+  /// `limit`: what is beyond it, a device or the program's author cuts off.
+  ReliefReader(const StillField& field, PatchSize patch, const ForceLimit& limit = {})
       : field_(field), whole_(still_forces(field, {0, 0}, inside_of(patch), side_of_whole)), limit_(limit) {}
 
   /// Whether some forces are at this limit.
-  bool reaches(double limit) const {
-    return std::ranges::any_of(whole_.forces, [&](glm::dvec2 force) { return at_limit(force, limit); });
+  bool reaches(const ForceLimit& limit) const {
+    return std::ranges::any_of(whole_.forces, [&](glm::dvec2 force) { return limit.reached_by(force); });
   }
 
   StaticForce read() {
@@ -96,29 +97,31 @@ class ReliefReader {
     drop_small_trend();
   }
 
-  /// A texture is felt less where the device's limit takes a part of it, and not at all where a trend alone is beyond.
-  bool felt_at(std::size_t i) const { return !at_limit(whole_.forces[i] - relief_[i], limit_); }
+  /// A texture is felt less where the limit takes a part of it, and not at all where a trend alone is beyond.
+  bool felt_at(std::size_t i) const { return !limit_.reached_by(whole_.forces[i] - relief_[i]); }
   glm::dvec2 felt(std::size_t i) const {
-    if (limit_ == HUGE_VAL) return relief_[i];
     const glm::dvec2 trend = whole_.forces[i] - relief_[i];
-    return glm::clamp(whole_.forces[i], -limit_, limit_) - trend;
+    return limit_.least() == HUGE_VAL ? relief_[i] : limit_.cut(whole_.forces[i]) - trend;
   }
 
   /// Tells where the limit cuts trends off, and the forces that are left.
   void tell_cut() {
-    if (limit_ == HUGE_VAL) return;
+    if (limit_.least() == HUGE_VAL) return;
     std::vector<double> sizes;
     std::size_t cut = 0;
     for (std::size_t i = 0; i < relief_.size(); ++i) {
-      cut += !felt_at(i);
-      sizes.push_back(glm::length(glm::clamp(whole_.forces[i], -limit_, limit_)));
+      // A trend that is fitted awry asks for more than the law does.
+      cut += !felt_at(i) && limit_.reached_by(whole_.forces[i]);
+      sizes.push_back(glm::length(limit_.cut(whole_.forces[i])));
     }
     found_.largest = percentile(sizes, percentile_of_amplitude);
     // What pushes everywhere alike has no law beyond what is felt of it.
     const LinearForce& line = found_.trend;
-    const bool slopes = glm::length(line.by_x) * whole_.size.x + glm::length(line.by_y) * whole_.size.y > limit_;
+    const bool slopes =
+        glm::length(line.by_x) * whole_.size.x + glm::length(line.by_y) * whole_.size.y > limit_.least();
+    const double least = limit_.any_way > limit_.along_axis ? least_cut : least_cut_by_author;
     found_.cut_off =
-        static_cast<double>(cut) > least_cut * static_cast<double>(relief_.size()) && (cut < relief_.size() || slopes);
+        static_cast<double>(cut) > least * static_cast<double>(relief_.size()) && (cut < relief_.size() || slopes);
   }
 
   /// Fits features anew beside the waves that were found. What the features took of the waves goes back to them.
@@ -253,6 +256,8 @@ class ReliefReader {
   /// A slope that is hardly more than the waves' incomplete periods is none.
   void drop_small_trend() {
     const LinearForce& line = found_.trend;
+    // Beside walls and steps alone, no waves leave any.
+    if (!found_.obstacles.empty() && waves_.waves.empty()) return;
     const glm::dvec2 half = 0.5 * whole_.size;
     const double slope = glm::length(line.by_x) * half.x + glm::length(line.by_y) * half.y;
     if (glm::length(line.mean) + slope > 0.01 * found_.largest) return;
@@ -271,7 +276,7 @@ class ReliefReader {
 
   const StillField& field_;
   StillForces whole_;
-  double limit_;  // N
+  ForceLimit limit_;
   StaticForce found_;
   FoundWaves waves_;
   std::vector<glm::dvec2> relief_;  // N, at the places of the whole
@@ -283,8 +288,8 @@ StaticForce static_force(const Bank& bank) {
   const StillField field = [&](std::span<const glm::dvec2> places) { return forces_at(bank, places); };
   if (depends_on_place(bank.program().description())) {
     ReliefReader reader(field, bank.size());
-    const double most = bank.program().description().device.most();
-    if (!reader.reaches(most)) return reader.read();
+    const ForceLimit limit = limit_of(bank);
+    if (!reader.reaches(limit)) return reader.read();
     for (const int times : {1, 2}) {
       const auto unlimited = without_limit(bank, times);
       if (!unlimited) break;
@@ -294,8 +299,8 @@ StaticForce static_force(const Bank& bank) {
         for (glm::dvec2& force : forces) force *= unlimited->scale;
         return forces;
       };
-      ReliefReader without(whole, bank.size(), most);
-      if (times == 1 && without.reaches(most * unlimited->scale)) continue;
+      ReliefReader without(whole, bank.size(), limit);
+      if (times == 1 && without.reaches(limit * unlimited->scale)) continue;
       StaticForce found = without.read();
       return found.cut_off ? found : reader.read();
     }

@@ -76,7 +76,7 @@ struct StaticForce {
   std::vector<Feature> features;  ///< walls, edges, springs that saturate, single hills
   /// Walls and steps that explain all beside the linear part and the relief: then they are the features.
   Obstacles obstacles;
-  /// The device's limit cuts trends off. They are told as they are where it does not.
+  /// The device's limit, or the author's, cuts trends off. They are told as they are where it does not.
   bool cut_off = false;
   Relief relief;
 };

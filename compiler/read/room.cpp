@@ -7,6 +7,7 @@
 
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/still_forces.hpp"
+#include "compiler/read/unlimited.hpp"
 
 namespace wale {
 namespace {
@@ -23,10 +24,11 @@ std::vector<double> used_in_cells(const Bank& bank, glm::dvec2 half, std::size_t
   for (std::size_t row = 0; row < side; ++row)
     for (std::size_t column = 0; column < side; ++column)
       places.push_back(half * ((glm::dvec2(column, row) + 0.5) / (0.5 * static_cast<double>(side)) - 1.0));
-  const double most = bank.program().description().device.most();
+  const ForceLimit limit = limit_of(bank);
   std::vector<double> used;
   for (const glm::dvec2& force : forces_at(bank, places))
-    used.push_back(std::max(std::abs(force.x), std::abs(force.y)) / most);
+    used.push_back(std::max(std::max(std::abs(force.x), std::abs(force.y)) / limit.along_axis,
+                            glm::length(force) / limit.any_way));
   return used;
 }
 

@@ -1,8 +1,10 @@
 #include "compiler/read/unlimited.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <vector>
 
 namespace wale {
@@ -10,34 +12,135 @@ namespace {
 
 constexpr double just_below = 1 - 1e-5;  // of the limit: 32-bit floats round
 
-/// The tick's last instruction that writes this register.
-std::vector<Instruction>::iterator last_writer(std::vector<Instruction>& code, RegisterNumber number) {
-  const auto found =
-      std::find_if(code.rbegin(), code.rend(), [&](const Instruction& each) { return each.destination == number; });
-  return found == code.rend() ? code.end() : std::prev(found.base());
+using TickCode = std::vector<Instruction>;
+
+bool is(const Instruction& instruction, Operation operation) {
+  return instruction.operation == static_cast<std::uint8_t>(operation);
+}
+
+bool writes(const Instruction& instruction, RegisterNumber number) {
+  const int results = operation_table[instruction.operation].results;
+  return number >= instruction.destination && number < instruction.destination + results;
+}
+
+bool reads(const Instruction& instruction, RegisterNumber number) {
+  const int operands = operation_table[instruction.operation].operands;
+  return (operands > 0 && instruction.a == number) || (operands > 1 && instruction.b == number) ||
+         (operands > 2 && instruction.c == number);
+}
+
+/// The last instruction before `end` that writes this register.
+std::optional<std::size_t> writer_before(const TickCode& code, std::size_t end, RegisterNumber number) {
+  while (end > 0)
+    if (writes(code[--end], number)) return end;
+  return std::nullopt;
+}
+
+/// The same if it is of this operation.
+std::optional<std::size_t> made_by(const TickCode& code, std::size_t end, RegisterNumber number, Operation operation) {
+  const auto found = writer_before(code, end, number);
+  return found && is(code[*found], operation) ? found : std::nullopt;
+}
+
+/// Whether what an instruction makes is read by one other instruction only.
+bool is_only_for(const PatchProgram& program, std::size_t made, std::size_t reader) {
+  const RegisterNumber number = program.tick[made].destination;
+  for (std::size_t i = made + 1; i < program.tick.size(); ++i) {
+    if (i != reader && reads(program.tick[i], number)) return false;
+    if (writes(program.tick[i], number)) return true;
+  }
+  return std::ranges::none_of(program.states, [&](const State& each) { return each.next == number; });
+}
+
+/// A `limit` of the whole force, as the compiler writes it: both parts times one factor, which is the ceiling over the
+/// force's size where that is less than 1.
+struct AuthorLimit {
+  RegisterNumber ceiling = 0;
+  std::array<std::size_t, 2> multiply{};  ///< where each part becomes smaller
+  std::array<RegisterNumber, 2> asked{};  ///< each part before, read there
+};
+
+std::optional<AuthorLimit> author_limit(const PatchProgram& program) {
+  const TickCode& code = program.tick;
+  if (program.outputs.size() != 2) return std::nullopt;
+  AuthorLimit found;
+  std::array<std::size_t, 2> inner{};
+  for (const std::size_t axis : {0, 1}) {
+    const auto last = made_by(code, code.size(), program.outputs[axis].value, Operation::limit);
+    if (!last) return std::nullopt;
+    const auto limit = made_by(code, *last, code[*last].a, Operation::limit);
+    if (!limit || !is_only_for(program, *limit, *last)) return std::nullopt;
+    const auto multiply = made_by(code, *limit, code[*limit].a, Operation::multiply);
+    if (!multiply || !is_only_for(program, *multiply, *limit)) return std::nullopt;
+    inner[axis] = *limit, found.multiply[axis] = *multiply;
+  }
+  found.ceiling = code[inner[0]].b;
+  if (code[inner[1]].b != found.ceiling || writer_before(code, code.size(), found.ceiling)) return std::nullopt;
+  const Instruction &x = code[found.multiply[0]], &y = code[found.multiply[1]];
+  for (const auto& [factor, asked] : {std::pair(x.a, x.b), std::pair(x.b, x.a)}) {
+    const auto made = made_by(code, found.multiply[0], factor, Operation::minimum);
+    if (!made || (y.a != factor && y.b != factor)) continue;
+    if (writer_before(code, found.multiply[1], factor) != made) continue;
+    for (const RegisterNumber share : {code[*made].a, code[*made].b}) {
+      const auto divide = made_by(code, *made, share, Operation::divide);
+      if (!divide || code[*divide].a != found.ceiling) continue;
+      if (!made_by(code, *divide, code[*divide].b, Operation::square_root)) continue;
+      found.asked = {asked, y.a == factor ? y.b : y.a};
+      return found;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
+glm::dvec2 ForceLimit::cut(glm::dvec2 force) const {
+  const double size = glm::length(force);
+  if (size > any_way) force *= any_way / size;
+  return glm::clamp(force, -along_axis, along_axis);
+}
+
+bool ForceLimit::reached_by(glm::dvec2 force) const {
+  return at_limit(force, along_axis) || glm::length(force) >= just_below * any_way;
+}
+
+ForceLimit limit_of(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  ForceLimit limit{.along_axis = program.device.most()};
+  if (program.vibrates()) return limit;
+  if (const auto author = author_limit(program)) limit.any_way = bank.registers()[author->ceiling];
+  return limit;
+}
+
 std::optional<Unlimited> without_limit(const Bank& bank, int times) {
   PatchProgram program = bank.program().description();
   if (program.vibrates()) return std::nullopt;
-  // Every force must end in a limit of at most the device's. A force over a second's ticks is so small that the limit
-  // does not reach it, and the number of ticks is there as an input.
-  for (const Output& output : program.outputs) {
-    const auto limit = last_writer(program.tick, output.value);
-    if (limit == program.tick.end() || limit->operation != static_cast<std::uint8_t>(Operation::limit))
-      return std::nullopt;
-    const Instruction smaller{static_cast<std::uint8_t>(Operation::multiply), output.value, limit->a,
-                              static_cast<RegisterNumber>(Input::seconds_per_tick), 0};
-    const Instruction limited{static_cast<std::uint8_t>(Operation::limit), output.value, output.value, output.ceiling,
-                              0};
-    *limit = limited;
-    auto at = program.tick.insert(limit, smaller);
-    const Instruction again{static_cast<std::uint8_t>(Operation::multiply), output.value, output.value,
-                            static_cast<RegisterNumber>(Input::seconds_per_tick), 0};
-    for (int i = 1; i < times; ++i) at = program.tick.insert(at + 1, again);
+  // A force over a second's ticks is so small that no limit reaches it, and the number of ticks is there as an input.
+  const auto seconds = static_cast<RegisterNumber>(Input::seconds_per_tick);
+  const auto smaller = [&](RegisterNumber to, RegisterNumber from) {
+    return Instruction{static_cast<std::uint8_t>(Operation::multiply), to, from, seconds, 0};
+  };
+  // The author's limit is in what makes its force smaller; a device's becomes one of something smaller.
+  const auto author = author_limit(program);
+  std::vector<std::pair<std::size_t, Instruction>> added;  // before which instruction, last first
+  for (std::size_t axis = 0; axis < program.outputs.size(); ++axis) {
+    const Output& output = program.outputs[axis];
+    const auto last = made_by(program.tick, program.tick.size(), output.value, Operation::limit);
+    if (!last) return std::nullopt;
+    if (author) {
+      Instruction& first = program.tick[author->multiply[axis]];
+      first = smaller(first.destination, author->asked[axis]);
+      for (int i = 1; i < times; ++i)
+        added.emplace_back(author->multiply[axis] + 1, smaller(first.destination, first.destination));
+      continue;
+    }
+    Instruction& limit = program.tick[*last];
+    for (int i = 0; i < times; ++i) added.emplace_back(*last, smaller(output.value, i == 0 ? limit.a : output.value));
+    limit.a = output.value;
   }
+  std::ranges::stable_sort(added, std::less(), [](const auto& each) { return each.first; });
+  for (std::size_t i = added.size(); i-- > 0;)
+    program.tick.insert(program.tick.begin() + static_cast<std::ptrdiff_t>(added[i].first), added[i].second);
   std::vector<float> parameters;
   for (std::size_t i = 0; i < program.parameters.size(); ++i)
     parameters.push_back(bank.registers()[program.first_parameter() + i]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <glm/vec2.hpp>
 #include <optional>
 
@@ -7,7 +8,24 @@
 
 namespace wale {
 
-/// A program as if its device gave any force, so that a law shows whole where the device cuts it off.
+/// The largest force that a program gives, N.
+struct ForceLimit {
+  double along_axis = HUGE_VAL;  ///< along x and along y: its device's
+  double any_way = HUGE_VAL;     ///< its author's, of the whole force; infinite if there is none
+
+  double least() const { return std::fmin(along_axis, any_way); }
+  /// What is left of a force.
+  glm::dvec2 cut(glm::dvec2 force) const;
+  /// Whether a force is at the limit, so that its law may ask for more.
+  bool reached_by(glm::dvec2 force) const;
+  ForceLimit operator*(double times) const { return {times * along_axis, times * any_way}; }
+};
+
+/// What limits the force of a bank's program: the device, and the author if the last that is done to the whole force is
+/// a `limit`.
+ForceLimit limit_of(const Bank& bank);
+
+/// A program as if nothing limited its force, so that a law shows whole where it is cut off.
 struct Unlimited {
   Bank bank;         ///< at the same parameters; its forces are smaller
   double scale = 1;  ///< the forces of `bank` times this are those that the formulas ask for, N

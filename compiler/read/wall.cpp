@@ -13,6 +13,7 @@
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/still_forces.hpp"
+#include "compiler/read/unlimited.hpp"
 #include "compiler/text/readable.hpp"
 #include "wale/batch.hpp"
 
@@ -228,8 +229,8 @@ std::array<double, 3> against_at(const Bank& bank, glm::dvec2 place, glm::dvec2 
 
 /// The damping of a face: what it adds to what drags the hand in front of it too.
 void tell_damping(const Bank& bank, WallFace& face) {
-  // Not so deep that the device's limit takes a part.
-  const double most = bank.program().description().device.most();
+  // Not so deep that a limit takes a part.
+  const double most = limit_of(bank).least();
   const double depth = std::clamp(0.3 * (most - face.preload) / face.stiffness, 1e-5, 2e-3);
   const auto inside = against_at(bank, face.place + depth * face.inward, face.inward);
   const auto outside = against_at(bank, face.place - 2e-3 * face.inward, face.inward);
@@ -368,7 +369,7 @@ WallDepth deepest(const Bank& bank, const WallFace& face) {
   const PatchProgram& program = bank.program().description();
   if (!program.states.empty() || !program.grids.empty()) {
     // A hand that is put inside the wall has not come in through its face, and the program may not resist it.
-    reached.newton = std::min(face.stiffness * reached.depth, program.device.most());
+    reached.newton = std::min(face.stiffness * reached.depth, limit_of(bank).least());
     return reached;
   }
   for (const Force& force : forces)

@@ -43,6 +43,18 @@ Verdict between(const std::string& one, const std::string& other) {
   return Comparer(common->declarations, default_device).compare(cues_of_force(one), cues_of_force(other)).verdict;
 }
 
+TEST(CompareLimits, AreNeverCalledAlike) {
+  const std::string spring = "active 3 W\nforce = -vector(150 N/m * x, 90 N/m * y)";
+  EXPECT_NE(between(spring, spring + " limit 5 N"), Verdict::alike);
+  EXPECT_NE(between(spring + " limit 2 N", spring + " limit 5 N"), Verdict::alike);
+  EXPECT_EQ(between(spring + " limit 5 N", spring + " limit 5 N"), Verdict::alike);
+  const std::string flat = "active 3 W\nforce = firm(600 N/m, face: 40 mm) limit 8 N";
+  const std::string round =
+      "active 3 W\nforce = (if length(hand) > 40 mm then -600 N/m * (length(hand) - 40 mm) * normalise(hand) else "
+      "vector(0 N, 0 N)) limit 8 N";
+  EXPECT_NE(between(flat, round), Verdict::alike);
+}
+
 TEST(CompareMirrors, ASignIsHeard) {
   const OneOfAKind all[] = {
       {"push", "P * 1 N * U"},

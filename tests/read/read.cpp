@@ -309,9 +309,10 @@ TEST(Reading, ASumHasTheFiguresOfItsParts) {
 }
 
 // A limit of the author's is a law: from there on nothing gets stiffer. One of the device cuts a law off.
-TEST(Reading, ALimitedSpringHasNoStiffnessAndIsNoHill) {
+TEST(Reading, ALimitedSpringKeepsItsStiffnessAndIsNoHill) {
   const ForceReading limited = reading_of(pushing("force = -300 N/m * hand limit 3 N"));
-  EXPECT_EQ(limited.stiffness, 0);
+  EXPECT_NEAR(limited.stiffness, 300, 1);
+  EXPECT_FALSE(limited.wall);
   EXPECT_EQ(limited.relief().amplitude, 0);
   const ForceReading cut_off = reading_of(pushing("force = -300 N/m * hand"));
   EXPECT_NEAR(cut_off.stiffness, 300, 1);
