@@ -7,10 +7,10 @@
 #include <tuple>
 #include <utility>
 
-#include "compiler/check_legibility.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/compile_workspace.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
+#include "compiler/legibility/check_legibility.hpp"
 #include "compiler/solve/level_scale.hpp"
 #include "compiler/text/other_file.hpp"
 #include "compiler/text/output_file.hpp"
@@ -38,7 +38,7 @@ Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<st
   }
   for (const auto& workspace : module.workspaces) {
     const auto laid = compile_workspace(workspace, module, default_device, sources, source, *resolver, diagnostics);
-    if (laid) check_legibility(*laid, module.declarations(), default_device, diagnostics);
+    if (laid) check_legibility(workspace, *laid, module.declarations(), default_device, diagnostics);
   }
   return diagnostics;
 }

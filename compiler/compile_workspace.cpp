@@ -19,8 +19,6 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-/// m; of a patch that does not give its own. Neighbours fade into one another over no more than this.
-constexpr double usual_rim = 1e-3;
 /// The rim takes no more than this share of a patch's shorter side.
 constexpr double widest_rim = 0.25;
 /// m; a proposed place is a multiple of it.

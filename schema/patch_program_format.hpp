@@ -15,7 +15,7 @@ namespace wale::patch_program_format {
 /// As in PNG: a byte that no text has, the name, then line ends and an end-of-file mark, which text transfers change.
 inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'P', 'P', '\r', '\n', 0x1a, '\n'};
 inline constexpr std::uint16_t major_version = 1;
-inline constexpr std::uint16_t minor_version = 1;
+inline constexpr std::uint16_t minor_version = 2;
 
 inline constexpr std::size_t header_size = 32;
 inline constexpr std::size_t checksum_offset = 24;

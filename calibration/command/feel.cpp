@@ -283,7 +283,9 @@ Run declare_feel(CLI::App& verb) {
       ->excludes(virtual_time);
   virtual_time->excludes("--blind");  // nobody feels it
   offer_json(verb, options->json, "the report as a JSON object");
-  verb.footer("for example: wale feel velvet --against denim --blind");
+  verb.footer(
+      "FILE may also be a workspace file, NAME.wws, of `wale build --workspace`;  for example: wale feel velvet "
+      "--against denim --blind");
   return [options] {
     if (!options->choice.device_option.empty()) options->built_for = options->choice.device;
     return feel(*options);

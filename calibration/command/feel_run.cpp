@@ -11,7 +11,7 @@
 #include "calibration/command/devices_here.hpp"
 #include "calibration/command/trusted_here.hpp"
 #include "compiler/command/print.hpp"
-#include "compiler/compile_workspace.hpp"
+#include "compiler/command/workspace_choice.hpp"
 #include "compiler/declarations/declared_devices.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/solve/level_scale.hpp"
@@ -124,27 +124,15 @@ constexpr std::size_t largest_workspace_file = std::size_t{1} << 30;
 
 /// Compiles the workspace that was named. Errors: W0609; W0801 for a patch program, and for a workspace without
 /// patches.
-OrStatus<Workspace> workspace_in(const OpenedFile& opened, const FeelOptions& options, const Choice& built) {
-  if (!opened.module)
-    return refuse(Error{Code::malformed_value,
-                        fmt::format("expected a Wale file, found `{}`, a patch program", opened.name),
-                        "name the Wale file that declares the workspace",
-                        {.name = "--workspace"}});
-  const auto found = find_workspace(*opened.module, options.workspace, opened.name);
-  if (!found) return refuse(found.error());
-  const FileRequest request = built.recording_request();
-  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
-  Diagnostics diagnostics = opened.diagnostics;
-  const auto laid =
-      compile_workspace(**found, *opened.module, built.device, opened.sources, opened.source, *resolver, diagnostics);
-  print_diagnostics(stderr, diagnostics, opened.sources);
-  if (!laid) return refused;
-  if (laid->empty())
+OrStatus<Workspace> workspace_to_feel(const OpenedFile& opened, const FeelOptions& options, const Choice& built) {
+  const auto chosen = compiled_workspace(opened, options.workspace, built);
+  if (!chosen) return chosen.status();
+  if (chosen->laid.empty())
     return refuse(Error{Code::malformed_value,
                         fmt::format("`{}` has no patch to feel", options.workspace),
                         "put one into it, as in `patch board = oak`",
                         {.name = "--workspace"}});
-  return workspace_of(**found, *laid);
+  return chosen->made();
 }
 
 /// The recording to make of the run, if the person asked for one.
@@ -248,7 +236,7 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
     material = *std::move(chosen);
   } else {
     if (workspace.patches.empty()) {
-      auto found = workspace_in(*opened, options, built);
+      auto found = workspace_to_feel(*opened, options, built);
       if (!found) return found.status();
       workspace = *std::move(found);
     }

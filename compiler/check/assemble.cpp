@@ -134,7 +134,7 @@ class Assembler {
     if (const auto* use = std::get_if<NameUse>(&node)) return named(use->name);
     if (const auto* text = std::get_if<TextLiteral>(&node)) return named(text->text);
     if (const auto* call = std::get_if<Call>(&node))
-      return call->callee.text == "between" ? between(from, expr, *call) : instance(from, *call);
+      return call->callee.text == "between" && !call->quoted ? between(from, expr, *call) : instance(from, *call);
     if (std::holds_alternative<Erroneous>(node)) return nullptr;
     return blend(from, expr);
   }

@@ -4,6 +4,7 @@
 
 #include "compiler/check/check_material.hpp"
 #include "compiler/check/check_names.hpp"
+#include "compiler/check/check_presentation.hpp"
 #include "compiler/check/check_workspace.hpp"
 #include "compiler/modules/library_index.hpp"
 
@@ -72,6 +73,7 @@ CheckedModule check(ModuleSet modules, const SourceSet& sources, Resolver& resol
       if (const auto* declared = checked.declarations().workspaces.find(node->name.text);
           declared && declared->node == node)
         checked.workspaces.push_back(check_workspace(*declared, surroundings, whole));
+  check_presentations(*own, surroundings, checked);
   if (whole && !diagnostics.has_errors() && !all.modules.empty()) warn_of_unused_declarations(all, surroundings);
   return checked;
 }

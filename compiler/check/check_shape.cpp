@@ -7,6 +7,7 @@
 #include <span>
 
 #include "compiler/check/check_workspace.hpp"
+#include "compiler/check/picture_argument.hpp"
 #include "compiler/image/image.hpp"
 
 namespace wale {
@@ -64,7 +65,7 @@ class ShapeChecker {
   bool check(const SettingItem& item) {
     const auto* call = item.value ? std::get_if<Call>(&tree_.expr(*item.value)) : nullptr;
     const auto* use = item.value ? std::get_if<NameUse>(&tree_.expr(*item.value)) : nullptr;
-    const bool is_word = item.words.size() == 1 && !item.value, is_call = call && item.words.empty();
+    const bool is_word = item.words.size() == 1 && !item.value, is_call = call && item.words.empty() && !call->quoted;
     if (item.equals || item.range_end || !item.trailing.empty() || (!is_word && !is_call && !use))
       return refuse(Code::wrong_type, item.span, "expected a shape",
                     "it is `rectangle`, `ellipse`, `polygon(…)` or `mask(…)`");
@@ -127,35 +128,14 @@ class ShapeChecker {
   }
 
   bool mask(const Call& call, Span span) {
-    const std::span<const Argument> arguments = tree_.arguments(call);
-    const auto* name = arguments.empty() ? nullptr : std::get_if<TextLiteral>(&tree_.expr(arguments[0].value));
-    if (!name || arguments[0].name || arguments.size() > 2)
-      return refuse(Code::wrong_type, span, "a mask is a picture and its scale", example_of_mask);
-    if (arguments.size() < 2)
-      return refuse(Code::missing_argument, span, "a mask needs its scale: the size of a pixel", example_of_mask);
-    if (arguments[1].name && arguments[1].name->text != "scale")
-      return refuse(Code::unknown_argument, arguments[1].name->span,
-                    fmt::format("`mask` has no argument `{}`", arguments[1].name->text), example_of_mask);
-    Scope scope;
-    const Span scale_span = tree_.span(arguments[1].value), name_span = tree_.span(arguments[0].value);
-    const auto scale =
-        checker_.constant(tree_, arguments[1].value, scope, surroundings_.declarations.dimension("scale"));
-    if (!scale) return false;
-    if (!(*scale > 0))
-      return refuse(Code::value_out_of_range, scale_span, "the scale must be greater than zero",
-                    "write something like `0.5 mm/px`");
-    Resolver* resolver = surroundings_.resolver;
-    if (!resolver) return refuse(Code::unreadable_file, name_span, "no picture can be read here", "leave the mask out");
-    const auto file = resolver->file(std::string(name->text), surroundings_.sources[tree_.source].name);
-    if (!file)
-      return refuse(file.error().code, name_span,
-                    fmt::format("`{}` cannot be read: {}", name->text, file.error().sentence),
-                    "give the path relative to the folder of this file");
-    const auto read = read_height_image(std::as_bytes(std::span(file->bytes)), file->name, 0, resolver->sandbox());
+    const auto picture = picture_argument(call, span, "mask", example_of_mask, tree_, surroundings_, checker_);
+    if (!picture) return false;
+    const auto read = read_height_image(std::as_bytes(std::span(picture->file.bytes)), picture->file.name, 0,
+                                        surroundings_.resolver->sandbox());
     if (!read)
-      return refuse(read.error().code, name_span, fmt::format("`{}`: {}", name->text, read.error().sentence),
+      return refuse(read.error().code, picture->span, fmt::format("`{}`: {}", picture->written, read.error().sentence),
                     read.error().mend);
-    return take(*read, std::string(name->text), *scale, name_span);
+    return take(*read, picture->written, picture->scale, picture->span);
   }
 
   bool take(const HeightImage& picture, std::string file, double scale, Span span) {

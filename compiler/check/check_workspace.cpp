@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "compiler/check/check_material.hpp"
+#include "compiler/check/check_picture.hpp"
+#include "compiler/parse/made_from.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {
@@ -34,6 +37,9 @@ class WorkspaceChecker {
     workspace_.name = node.name.text;
     workspace_.documentation = node.documentation;
     workspace_.span = node.name.span;
+    workspace_.statement = node.span;
+    for (const PlacedStatement& placed : node.placed)
+      if (const auto* patch = std::get_if<PlacedPatch>(&placed)) own_names_.emplace(patch->material.name.text);
     for (const PlacedStatement& placed : node.placed) {
       if (const auto* patch = std::get_if<PlacedPatch>(&placed))
         check(*patch);
@@ -46,14 +52,16 @@ class WorkspaceChecker {
  private:
   void check(const PlacedPatch& node) {
     const Word& name = node.material.name;
-    const auto [first, is_new] = names_.emplace(name.text, name.span);
+    const auto [first, is_new] = names_.emplace(std::string(name.text), name.span);
     if (!is_new)
       return report(Code::declared_twice, name.span,
                     fmt::format("`{}` has two patches `{}`", workspace_.name, name.text),
                     Advice("give one of them another name").see(first->second, "the first one"));
     const std::size_t errors_before = surroundings_.diagnostics.error_count();
     CheckedPatch patch;
-    patch.made_of = surroundings_.sources.text(tree_.span(*node.material.derived_from));
+    patch.statement = node.span;
+    patch.made_of_span = tree_.span(*node.material.derived_from);
+    patch.made_of = surroundings_.sources.text(patch.made_of_span);
     patch.material = check_material({&tree_, &node.material, declared_.home}, surroundings_, whole_);
     settings_.clear();
     outlined_.reset();
@@ -64,6 +72,7 @@ class WorkspaceChecker {
 
   void read(const Setting& setting, CheckedPatch& patch) {
     const std::string key(setting.key.text);
+    patch.settings.emplace_back(key, setting.span);
     if (std::ranges::find(placements, key) == placements.end())
       return report(Code::unknown_setting, setting.key.span, fmt::format("a patch of a workspace has no `{}`", key),
                     did_you_mean(setting.key.span, key, placements, "it has: at, size, shape, rim, mark"));
@@ -161,9 +170,45 @@ class WorkspaceChecker {
     return values;
   }
 
+  /// Each colour of the picture is a patch. It has the name of its material, with a number where that is taken.
   void check(const PlacedPicture& node) {
-    report(Code::unknown_setting, node.span, "this Wale lays out no patches from a picture yet",
-           "lay out each of them, as in `patch board = oak { at 0 mm, 0 mm; size 80 mm, 60 mm }`");
+    for (ColouredArea& area : check_picture(node, declared_, surroundings_)) {
+      const std::size_t errors_before = surroundings_.diagnostics.error_count();
+      const std::string name = free_name(area.material);
+      names_.emplace(name, area.colour_span);
+      MaterialDecl material;
+      material.name = {name, area.colour_span};
+      material.derived_from = area.material;
+      material.span = area.statement;
+      CheckedPatch patch;
+      patch.statement = area.statement;
+      patch.made_of_span = tree_.span(area.material);
+      patch.made_of = surroundings_.sources.text(patch.made_of_span);
+      patch.material = check_material({&tree_, &material, declared_.home}, surroundings_, whole_);
+      patch.material.patch = std::array{area.outline.column * static_cast<double>(area.outline.columns),
+                                        area.outline.row * static_cast<double>(area.outline.rows)};
+      patch.material.patch_span = area.colour_span;
+      patch.at = area.at;
+      patch.rim = area.rim;
+      patch.outline = std::move(area.outline);
+      rim_span_ = area.colour_span;
+      check_rim(patch);
+      if (surroundings_.diagnostics.error_count() == errors_before) workspace_.patches.push_back(std::move(patch));
+    }
+  }
+
+  /// "brick" for `brick` and `brick(roughness: 0.3)`, "wet_glass" for `"wet glass"`; "area" for others.
+  std::string free_name(ExprId material) const {
+    const auto words = made_from(material, tree_);
+    std::string name;
+    if (words.size() == 1)
+      for (const char c : words.front().text)
+        name += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9' && !name.empty()) ? c : '_';
+    if (name.find_first_not_of('_') == std::string::npos) name = "area";
+    const auto is_taken = [&](const std::string& each) { return names_.contains(each) || own_names_.contains(each); };
+    std::string free = name;
+    for (int number = 2; is_taken(free); ++number) free = fmt::format("{}_{}", name, number);
+    return free;
   }
 
   void report(Code code, Span span, std::string message, Advice advice) {
@@ -178,9 +223,10 @@ class WorkspaceChecker {
   std::vector<HeightTable> tables_;
   ExpressionChecker checker_;
   CheckedWorkspace workspace_;
-  std::map<std::string_view, Span> names_;  ///< of the patches so far
-  std::map<std::string, Span> settings_;    ///< of this patch so far
-  std::optional<Span> outlined_;            ///< the polygon or mask of this patch
+  std::map<std::string, Span, std::less<>> names_;  ///< of the patches so far
+  std::set<std::string, std::less<>> own_names_;    ///< of all patches that have names in the text
+  std::map<std::string, Span> settings_;            ///< of this patch so far
+  std::optional<Span> outlined_;                    ///< the polygon or mask of this patch
   Span rim_span_;
 };
 

@@ -9,8 +9,7 @@
 #include "compiler/build_stage.hpp"
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
-#include "compiler/compile_workspace.hpp"
-#include "compiler/modules/load_modules.hpp"
+#include "compiler/command/workspace_choice.hpp"
 #include "compiler/text/readable.hpp"
 #include "schema/visible_text.hpp"
 
@@ -49,20 +48,9 @@ int build_one(const BuildOptions& options) {
 int build_workspace(const BuildOptions& options) {
   auto opened = open(options.choice);
   if (!opened) return opened.status();
-  if (!opened->module)
-    return refuse(Error{.code = Code::malformed_value,
-                        .sentence = fmt::format("expected a Wale file, found `{}`, a patch program", opened->name),
-                        .mend = "name the Wale file that declares the workspace",
-                        .place = {.name = "--workspace"}});
-  const auto found = find_workspace(*opened->module, options.workspace, opened->name);
-  if (!found) return refuse(found.error());
-  const FileRequest request = options.choice.recording_request();
-  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
-  const auto laid = compile_workspace(**found, *opened->module, request.device, opened->sources, opened->source,
-                                      *resolver, opened->diagnostics);
-  print_diagnostics(stderr, opened->diagnostics, opened->sources);
-  if (!laid) return refused;
-  const auto bytes = write_workspace(workspace_of(**found, *laid));
+  const auto workspace = compiled_workspace(*opened, options.workspace, options.choice);
+  if (!workspace) return workspace.status();
+  const auto bytes = write_workspace(workspace->made());
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const auto written = write_file(options.out, text, *options.choice.inputs);
   return written ? done : refuse(written.error());

@@ -10,11 +10,11 @@
 
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
+#include "compiler/command/workspace_choice.hpp"
 #include "compiler/describe/describe_module.hpp"
 #include "compiler/describe/describe_workspace.hpp"
 #include "compiler/describe/fates.hpp"
 #include "compiler/measure/coarseness.hpp"
-#include "compiler/modules/load_modules.hpp"
 
 namespace wale::command {
 namespace {
@@ -28,13 +28,8 @@ struct DescribeOptions {
 
 /// The workspaces of a file that were asked for. Errors: W0609; W0801 for a patch program.
 Result<std::vector<const CheckedWorkspace*>> chosen_workspaces(const OpenedFile& opened, const std::string& name) {
-  if (!opened.module)
-    return Error{.code = Code::malformed_value,
-                 .sentence = fmt::format("expected a Wale file, found `{}`, a patch program", opened.name),
-                 .mend = "name the Wale file that declares the workspace",
-                 .place = {.name = "--workspace"}};
-  if (!name.empty()) {
-    auto found = find_workspace(*opened.module, name, opened.name);
+  if (!opened.module || !name.empty()) {
+    auto found = workspace_in(opened, name);
     if (!found) return found.error();
     return std::vector{*found};
   }
@@ -46,16 +41,13 @@ Result<std::vector<const CheckedWorkspace*>> chosen_workspaces(const OpenedFile&
 /// Describes workspaces of a file. Empty after errors, which are printed.
 std::optional<std::vector<WorkspaceDescription>> described_workspaces(
     const OpenedFile& opened, const std::vector<const CheckedWorkspace*>& chosen, const DescribeOptions& options) {
-  const FileRequest request = options.choice.recording_request();
   const auto declarations = declarations_of(opened, options.choice);
-  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
   std::vector<WorkspaceDescription> descriptions;
   Diagnostics found;
   for (const CheckedWorkspace* workspace : chosen) {
-    const auto laid =
-        compile_workspace(*workspace, *opened.module, request.device, opened.sources, opened.source, *resolver, found);
+    const auto laid = laid_in(opened, *workspace, options.choice, found);
     if (!laid) break;
-    descriptions.push_back(describe_workspace(*workspace, *laid, request.device, *declarations));
+    descriptions.push_back(describe_workspace(*workspace, *laid, options.choice.device, *declarations));
   }
   print_diagnostics(stderr, found, opened.sources);
   return descriptions.size() == chosen.size() ? std::optional(std::move(descriptions)) : std::nullopt;

@@ -10,10 +10,9 @@
 
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
-#include "compiler/compile_workspace.hpp"
+#include "compiler/command/workspace_choice.hpp"
 #include "compiler/describe/describe_workspace.hpp"
 #include "compiler/measure/coarseness.hpp"
-#include "compiler/modules/load_modules.hpp"
 #include "compiler/preview/preview.hpp"
 #include "compiler/preview/workspace_page.hpp"
 #include "compiler/text/readable.hpp"
@@ -104,33 +103,24 @@ int preview(const PreviewOptions& options) {
 int preview_workspace(const PreviewOptions& options) {
   auto opened = open(options.choice);
   if (!opened) return opened.status();
-  if (!opened->module)
-    return refuse(Error{.code = Code::malformed_value,
-                        .sentence = fmt::format("expected a Wale file, found `{}`, a patch program", opened->name),
-                        .mend = "name the Wale file that declares the workspace",
-                        .place = {.name = "--workspace"}});
-  const auto found = find_workspace(*opened->module, options.workspace, opened->name);
-  if (!found) return refuse(found.error());
-  const FileRequest request = options.choice.recording_request();
-  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
-  const auto laid = compile_workspace(**found, *opened->module, request.device, opened->sources, opened->source,
-                                      *resolver, opened->diagnostics);
-  print_diagnostics(stderr, opened->diagnostics, opened->sources);
-  if (!laid) return refused;
+  const auto workspace = compiled_workspace(*opened, options.workspace, options.choice);
+  if (!workspace) return workspace.status();
+  const std::string& device = options.choice.device;
   const auto declarations = declarations_of(*opened, options.choice);
-  const WorkspaceDescription described = describe_workspace(**found, *laid, request.device, *declarations);
+  const WorkspaceDescription described =
+      describe_workspace(*workspace->checked, workspace->laid, device, *declarations);
   std::map<const Program*, std::optional<double>> felt;
   std::vector<PatchWords> words;
-  for (std::size_t i = 0; i < laid->size(); ++i) {
-    const Program& program = *(*laid)[i].program;
+  for (std::size_t i = 0; i < workspace->laid.size(); ++i) {
+    const Program& program = *workspace->laid[i].program;
     const auto [level, is_new] = felt.try_emplace(&program);
     if (is_new)
       level->second =
           preview_text(Bank(program, program.default_parameters(), program.default_size()), *declarations).felt;
-    words.push_back({described.patches[i].made_of, described.patches[i].feels, level->second});
+    words.push_back({described.patches[i].feels, level->second});
   }
-  const DeviceDeclaration* device = opened->module->declarations().devices.find(request.device);
-  const auto page = draw_workspace(workspace_of(**found, *laid), device->profile, words);
+  const DeviceDeclaration* declared = opened->module->declarations().devices.find(device);
+  const auto page = draw_workspace(workspace->made(), declared->profile, words);
   return page ? write_page(**page, options) : refuse(page.error());
 }
 

@@ -176,6 +176,7 @@ enum class Classified {
   texture,     ///< a texture that repeats, by what people call it
   size,        ///< the elements of such a texture, by how they are felt
   confidence,  ///< a surface, by how sure people are that it is a texture
+  layout,      ///< what lies side by side, by what makes it hard to tell
 };
 
 /// A classification of stimuli: the first case whose conditions hold.

@@ -56,7 +56,10 @@ std::string outline_text(const Outline& outline) {
           [](const RectangleOutline&) -> std::string { return "rectangle"; },
           [](const EllipseOutline&) -> std::string { return "ellipse"; },
           [](const PolygonOutline& polygon) { return fmt::format("polygon, {} corners", polygon.corners.size()); },
-          [](const MaskOutline& mask) { return fmt::format("mask {}", mask.file); },
+          [](const MaskOutline& mask) {
+            return mask.colour.empty() ? fmt::format("mask {}", mask.file)
+                                       : fmt::format("colour {} of {}", mask.colour, mask.file);
+          },
       },
       outline);
 }

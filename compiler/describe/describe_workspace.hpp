@@ -38,7 +38,7 @@ std::string workspace_text(const WorkspaceDescription& description);
 /// JSON: an object for one description, an array for several.
 std::string workspaces_json(const std::vector<WorkspaceDescription>& descriptions);
 
-/// "rectangle", "ellipse", "polygon, 5 corners", "mask river.png".
+/// "rectangle", "ellipse", "polygon, 5 corners", "mask river.png", "colour #c04020 of map.png".
 std::string outline_text(const Outline& outline);
 
 }  // namespace wale

@@ -313,6 +313,9 @@ Value expanded(ExpressionReading& reading, const Declared<FunctionDecl>& functio
 Value value_of_call(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
   const Span span = tree.span(expr);
   const std::string_view callee = call.callee.text;
+  if (call.quoted)
+    return reading.calls.report(Code::wrong_type, call.callee.span, "a text is no function", "",
+                                "write the name of a function, without quotes");
   auto* binding = scope.find(callee);
   if (binding && binding->value.type == Value::Type::field) {
     binding->used = true;

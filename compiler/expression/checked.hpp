@@ -150,6 +150,8 @@ struct PolygonOutline {
 };
 struct MaskOutline {
   std::string file;
+  std::string colour =
+      {};  ///< "#c04020": the one that it has in a picture of several; otherwise it is where it is light
   std::size_t columns = 0, rows = 0;
   double column = 0, row = 0;  ///< m, of one sample
   std::vector<bool> inside;    ///< row by row from the top, `columns` in each
@@ -166,6 +168,9 @@ struct SliderMark {
   Span span;
 };
 
+/// m; the rim of a patch that does not give its own. Neighbours fade into one another over no more than this.
+inline constexpr double usual_rim = 1e-3;
+
 /// A patch of a workspace.
 struct CheckedPatch {
   CheckedMaterial material;     ///< named as the patch is; its `patch` is the size that the workspace gives
@@ -175,14 +180,59 @@ struct CheckedPatch {
   Outline outline;
   std::optional<double> rim;  ///< m; the device's if none is given
   std::vector<SliderMark> marks;
+  Span statement;     ///< all that is written of it: `patch board = oak { … }`, or a colour of a picture
+  Span made_of_span;  ///< of `made_of`
+  std::vector<std::pair<std::string, Span>> settings;  ///< those in its braces, in the order written
 };
 
 /// The patches of a workspace, the last in front.
 struct CheckedWorkspace {
   std::string name;
   std::string documentation;
-  Span span;
+  Span span;       ///< of the name
+  Span statement;  ///< of the whole declaration
   std::vector<CheckedPatch> patches;
+};
+
+/// A name of something that another declaration uses, with its place.
+struct NamedThing {
+  std::string name;
+  Span span;
+};
+
+/// `movie demo { frames kitchen, workshop }`: workspaces that are stepped through.
+struct CheckedMovie {
+  NamedThing named;
+  Span statement;
+  std::string documentation;
+  std::vector<NamedThing> frames;  ///< workspaces of the file
+};
+
+/// `keys sorting { of kitchen; area 80 mm, 80 mm }`: each patch of a workspace is chosen by a key with the mouse, and
+/// felt in one area. Lengths are in m.
+struct CheckedKeys {
+  NamedThing named;
+  Span statement;
+  std::string documentation;
+  NamedThing workspace;
+  std::array<double, 2> area{};     ///< width and height of the area in which a chosen patch is felt
+  std::array<double, 2> at{};       ///< its centre, from the workspace's centre
+  std::optional<double> key;        ///< side of a key
+  bool numbered_at_random = false;  ///< three digits on each, new before each sort; otherwise the patch's name
+};
+
+/// `groups sorted { of kitchen; group board, cloth, "rough" }`: how somebody sorted the patches of a workspace.
+struct CheckedGroups {
+  struct Group {
+    std::vector<NamedThing> patches;
+    std::string says;  ///< may be empty
+    Span span;
+  };
+  NamedThing named;
+  Span statement;
+  std::string documentation;
+  NamedThing workspace;
+  std::vector<Group> groups;
 };
 
 /// A checked file with all modules that it refers to. The modules are kept because declarations point into them.
@@ -190,6 +240,9 @@ struct CheckedModule {
   ModuleSet modules;
   std::vector<CheckedMaterial> materials;  ///< those of the file itself, in the order written
   std::vector<CheckedWorkspace> workspaces;
+  std::vector<CheckedMovie> movies;
+  std::vector<CheckedKeys> keys;
+  std::vector<CheckedGroups> groups;
 
   const Declarations& declarations() const { return modules.declarations(); }
   /// The material with that name, or with an empty name the first one of the file; null if there is none.

@@ -101,6 +101,7 @@ bool spaced(const std::vector<Piece>& pieces, std::size_t index, std::size_t par
     case TokenKind::left_parenthesis:
       // After the key of a setting, where values are aligned, it has the space of an argument.
       if (roles.setting_keys.count(previous.token.begin) > 0) return true;
+      if (previous.is(TokenKind::text)) return roles.called.count(previous.token.begin) == 0;
       if (previous.is(TokenKind::name)) return roles.called.count(previous.token.begin) == 0 && !piece.touches;
       break;
     case TokenKind::slash:

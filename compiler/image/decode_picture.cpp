@@ -219,12 +219,10 @@ Error reason(const Received& received, const std::optional<int>& status) {
                         : "the decoder gave no valid answer");
 }
 
-}  // namespace
-
-std::vector<std::string> decoder_programs() { return companion_paths("wale-decoder"); }
-
-Result<HeightImage> decode_picture(std::span<const std::byte> bytes, const DecoderArguments& arguments,
-                                   const std::vector<std::string>& programs) {
+/// Runs the decoder, and reads its answer by `read`.
+template <class Image, class Read>
+Result<Image> answer_of_decoder(std::span<const std::byte> bytes, const DecoderArguments& arguments,
+                                const std::vector<std::string>& programs, const Read& read) {
   const auto picture = sealed_copy(bytes);
   if (!picture) return picture.error();
   auto pipe = new_pipe();
@@ -234,8 +232,24 @@ Result<HeightImage> decode_picture(std::span<const std::byte> bytes, const Decod
   pipe->in = Descriptor();  // the decoder has the only end to write to, so its end is the end of the answer
   const Received received = receive(pipe->out.number());
   const std::optional<int> status = end(*process);
-  if (auto answer = read_answer(received.bytes)) return *std::move(answer);
+  if (auto answer = read(received.bytes)) return *std::move(answer);
   return reason(received, status);
+}
+
+}  // namespace
+
+std::vector<std::string> decoder_programs() { return companion_paths("wale-decoder"); }
+
+Result<HeightImage> decode_picture(std::span<const std::byte> bytes, const DecoderArguments& arguments,
+                                   const std::vector<std::string>& programs) {
+  return answer_of_decoder<HeightImage>(bytes, arguments, programs,
+                                        [](std::span<const std::byte> answer) { return read_answer(answer); });
+}
+
+Result<ColourImage> decode_colours(std::span<const std::byte> bytes, const DecoderArguments& arguments,
+                                   const std::vector<std::string>& programs) {
+  return answer_of_decoder<ColourImage>(bytes, arguments, programs,
+                                        [](std::span<const std::byte> answer) { return read_colour_answer(answer); });
 }
 
 }  // namespace wale

@@ -25,5 +25,8 @@ std::vector<std::string> decoder_programs();
 /// `missing_library` if there is no decoder, `short_of_resources` if the system has no memory or descriptors.
 Result<HeightImage> decode_picture(std::span<const std::byte> bytes, const DecoderArguments& arguments,
                                    const std::vector<std::string>& programs = decoder_programs());
+/// The same for its colours; `arguments.samples` asks for them.
+Result<ColourImage> decode_colours(std::span<const std::byte> bytes, const DecoderArguments& arguments,
+                                   const std::vector<std::string>& programs = decoder_programs());
 
 }  // namespace wale

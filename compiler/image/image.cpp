@@ -16,10 +16,14 @@
 namespace wale {
 namespace {
 
-/// The pictures that were decoded last, with their heights. A material asks for the same one several times.
+std::size_t bytes_of(const HeightImage& image) { return image.table.heights.size() * sizeof(image.table.heights[0]); }
+std::size_t bytes_of(const ColourImage& image) { return image.pixels.size() * sizeof(image.pixels[0]); }
+
+/// The pictures that were decoded last, with their heights or colours. A material asks for the same one several times.
+template <class Image>
 class DecodedPictures {
  public:
-  std::optional<HeightImage> find(std::span<const std::byte> bytes, const DecoderArguments& arguments) {
+  std::optional<Image> find(std::span<const std::byte> bytes, const DecoderArguments& arguments) {
     const std::lock_guard lock(mutex_);
     const auto found = std::ranges::find_if(pictures_, [&](const Picture& each) {
       return each.extension == arguments.extension && each.smooth_pixels == arguments.smooth_pixels &&
@@ -30,7 +34,7 @@ class DecodedPictures {
     return found->image;
   }
 
-  void remember(std::span<const std::byte> bytes, const DecoderArguments& arguments, const HeightImage& image) {
+  void remember(std::span<const std::byte> bytes, const DecoderArguments& arguments, const Image& image) {
     const std::lock_guard lock(mutex_);
     pictures_.push_front({arguments.extension, arguments.smooth_pixels, {bytes.begin(), bytes.end()}, image});
     held_ += pictures_.front().size();
@@ -48,9 +52,9 @@ class DecodedPictures {
     std::string extension;
     double smooth_pixels = 0;
     std::vector<std::byte> bytes;
-    HeightImage image;
+    Image image;
 
-    std::size_t size() const { return bytes.size() + image.table.heights.size() * sizeof(image.table.heights[0]); }
+    std::size_t size() const { return bytes.size() + bytes_of(image); }
   };
 
   std::mutex mutex_;
@@ -67,9 +71,12 @@ std::string extension_of(const std::string& name) {
   return plain && extension.size() <= 16 ? extension : "";
 }
 
-Result<HeightImage> decoded(std::span<const std::byte> bytes, const DecoderArguments& arguments) {
-  const auto unreadable = [](std::string sentence, std::string mend) {
-    return Error{Code::unreadable_image, std::move(sentence), std::move(mend)};
+/// The picture, decoded by `decode` unless it is remembered.
+template <class Image, class Decode>
+Result<Image> decoded(std::span<const std::byte> bytes, const std::string& name, const DecoderArguments& arguments,
+                      const Decode& decode) {
+  const auto unreadable = [&](std::string sentence, std::string mend) {
+    return Error{Code::unreadable_image, std::move(sentence), std::move(mend), {.name = name}};
   };
   if (!(arguments.smooth_pixels >= 0))
     return unreadable("a picture cannot be smoothed by a negative number of pixels", "write a positive length");
@@ -78,10 +85,13 @@ Result<HeightImage> decoded(std::span<const std::byte> bytes, const DecoderArgum
     return unreadable(fmt::format("the file has {} MB, and pictures of up to {} MB are read", bytes.size() >> 20,
                                   largest_asset >> 20),
                       "save it as PNG");
-  static DecodedPictures pictures;
+  static DecodedPictures<Image> pictures;
   if (auto known = pictures.find(bytes, arguments)) return *std::move(known);
-  auto image = decode_picture(bytes, arguments);
-  if (image) pictures.remember(bytes, arguments, *image);
+  auto image = decode(bytes, arguments);
+  if (image)
+    pictures.remember(bytes, arguments, *image);
+  else if (image.error().place.name.empty())
+    image.error().place.name = name;
   return image;
 }
 
@@ -89,9 +99,13 @@ Result<HeightImage> decoded(std::span<const std::byte> bytes, const DecoderArgum
 
 Result<HeightImage> read_height_image(std::span<const std::byte> bytes, const std::string& name, double smooth_pixels,
                                       Sandbox sandbox) {
-  auto image = decoded(bytes, {extension_of(name), smooth_pixels, sandbox});
-  if (!image && image.error().place.name.empty()) image.error().place.name = name;
-  return image;
+  return decoded<HeightImage>(bytes, name, {extension_of(name), smooth_pixels, sandbox},
+                              [](const auto& picture, const auto& how) { return decode_picture(picture, how); });
+}
+
+Result<ColourImage> read_colour_image(std::span<const std::byte> bytes, const std::string& name, Sandbox sandbox) {
+  return decoded<ColourImage>(bytes, name, {extension_of(name), 0, sandbox, Samples::colours},
+                              [](const auto& picture, const auto& how) { return decode_colours(picture, how); });
 }
 
 }  // namespace wale

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "compiler/text/resolver.hpp"
 #include "wale/patch_program.hpp"
@@ -18,6 +20,13 @@ struct HeightImage {
   double pixels_per_column = 1, pixels_per_row = 1;
 };
 
+/// A picture in its colours.
+struct ColourImage {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint32_t> pixels;  ///< row by row from the top: 0xAARRGGBB, of which AA is 0 where it is transparent
+  double pixels_per_column = 1, pixels_per_row = 1;  ///< of the file, as in `HeightImage`
+};
+
 /// The smallest and largest side of a height table, in samples. A spline needs four; larger pictures are resized down.
 inline constexpr int smallest_image_side = 4;
 inline constexpr int largest_image_side = 4096;
@@ -26,6 +35,12 @@ inline constexpr int largest_image_side = 4096;
 inline constexpr long long most_image_pixels = 1LL * largest_image_side * largest_image_side;
 /// The widest smoothing, in pixels of the table.
 inline constexpr double widest_smoothing = 64;
+
+/// Decodes a picture in its colours: as `read_height_image`, with these differences. Red, green and blue have 8 bits
+/// each, a picture with one colour channel is grey, and alpha is kept. A side may have a single pixel. A picture that
+/// is too large is reduced by leaving pixels out, so that no colour arises that it does not have.
+Result<ColourImage> read_colour_image(std::span<const std::byte> bytes, const std::string& name,
+                                      Sandbox sandbox = Sandbox::required);
 
 /// Decodes a picture (PNG, TIFF, JPEG, EXR, BMP, GIF, WebP, HDR, PNM, TGA, JPEG 2000, SGI, RLA, FITS: what
 /// OpenImageIO reads, without the decoders that crash on damaged files) and takes its luminance as height.

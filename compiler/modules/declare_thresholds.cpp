@@ -111,7 +111,8 @@ namespace {
 const std::pair<const char*, Classified> classified_words[] = {{"surface", Classified::surface},
                                                                {"texture", Classified::texture},
                                                                {"size", Classified::size},
-                                                               {"confidence", Classified::confidence}};
+                                                               {"confidence", Classified::confidence},
+                                                               {"layout", Classified::layout}};
 
 /// Reads `classifies texture`: what the cases of a rule are classes of.
 Classified classified_by(RecordReader& reader) {
@@ -125,7 +126,7 @@ Classified classified_by(RecordReader& reader) {
   }
   reader.report(Code::unknown_name, setting->span, fmt::format("nothing called `{}` is classified", name),
                 did_you_mean(setting->items[0].span, name, known,
-                             "write `surface`, `texture`, `size` or `confidence`, or leave it out"));
+                             "write `surface`, `texture`, `size`, `confidence` or `layout`, or leave it out"));
   return Classified::none;
 }
 

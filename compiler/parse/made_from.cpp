@@ -18,7 +18,7 @@ void add_names(ExprId expr, const SyntaxTree& tree, std::vector<Word>& names) {
             if (const auto suffix = tree.suffix(number); !suffix.empty()) names.push_back(suffix.back().name);
           },
           [&](const Call& call) {
-            if (call.callee.text != "between") return names.push_back(call.callee);
+            if (call.quoted || call.callee.text != "between") return names.push_back(call.callee);
             for (const Argument& each : tree.arguments(call).first(std::min<std::size_t>(2, call.arguments.count)))
               add_names(each.value, tree, names);
           },

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "compiler/diagnostics/fix.hpp"
@@ -16,12 +17,12 @@ namespace {
 constexpr int known_version = 1;
 
 /// Declarations whose blocks hold settings. Later stages know what the settings mean.
-const std::vector<std::string> record_words = {"percept", "map",    "threshold", "rule",
-                                               "class",   "device", "levels",    "hand"};
+const std::vector<std::string> record_words = {"percept", "map",  "threshold", "rule", "class", "device",
+                                               "levels",  "hand", "movie",     "keys", "groups"};
 
-const std::vector<std::string> declaration_words = {"material", "percept", "map",       "threshold", "rule",
-                                                    "class",    "device",  "levels",    "hand",      "function",
-                                                    "let",      "unit",    "dimension", "import",    "workspace"};
+const std::vector<std::string> declaration_words = {"material",  "percept", "map",       "threshold", "rule", "class",
+                                                    "device",    "levels",  "hand",      "function",  "let",  "unit",
+                                                    "dimension", "import",  "workspace", "movie",     "keys", "groups"};
 
 bool holds(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -170,12 +171,17 @@ void Parser::declaration() {
   const Span exporting = span_of(here());
   if (exported) {
     advance();
-    if (is_word(at_, "material") || is_word(at_, "import") || is_word(at_, "workspace")) {
+    const bool presents = std::ranges::any_of(std::array{"workspace", "movie", "keys", "groups"},
+                                              [&](const char* word) { return is_word(at_, word); });
+    if (is_word(at_, "material") || is_word(at_, "import") || presents) {
       const bool material = is_word(at_, "material"), import = is_word(at_, "import");
       complain_at(Code::unexpected_token, exporting,
-                  material ? "a material needs no `export`: every file that imports this one may use it"
-                  : import ? "an import cannot be exported"
-                           : "a workspace cannot be exported: no other file names it",
+                  material ? std::string("a material needs no `export`: every file that imports this one may use it")
+                  : import ? std::string("an import cannot be exported")
+                           : fmt::format("a {} cannot be exported: no other file names it",
+                                         is_word(at_, "keys")     ? "set of keys"
+                                         : is_word(at_, "groups") ? "sorting into groups"
+                                                                  : spelling(here())),
                   "", "`export`", import ? "let the files that need it import it too" : "leave `export` out");
     }
   }
@@ -213,7 +219,7 @@ void Parser::declaration() {
     }
     complain_at(Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
                 "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, "
-                "`class`, `device`, `levels`, `hand` or `workspace`",
+                "`class`, `device`, `levels`, `hand`, `workspace`, `movie`, `keys` or `groups`",
                 shown(here()), std::move(help),
                 borrowed && *borrowed == "let" && !meant ? std::vector{replace(span_of(here()), *borrowed)}
                 : meant                                  ? respell_here(declaration_words)

@@ -100,6 +100,7 @@ SettingItem Parser::setting_item() {
     fail("expected a value" + after_previous(), "a value", mend_here(), fixes_here());
   if (at(TokenKind::equals)) {
     advance();
+    in_origin_ = in_origin_ || in_placed_;  // `colour "#c04020" = brick`
     item.equals = expression();
   }
   if (item.value && at(TokenKind::name) && followed_by(TokenKind::text) &&

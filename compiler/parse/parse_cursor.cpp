@@ -55,8 +55,8 @@ bool Parser::begins_declaration(std::size_t index) const {
     case TokenKind::left_parenthesis: return is_word(index, "function");
     case TokenKind::word_from: return is_word(index, "map");
     case TokenKind::left_brace:
-      return is_one_of(
-          {"material", "map", "percept", "threshold", "rule", "class", "device", "levels", "hand", "workspace"});
+      return is_one_of({"material", "map", "percept", "threshold", "rule", "class", "device", "levels", "hand",
+                        "workspace", "movie", "keys", "groups"});
     default: return false;
   }
 }

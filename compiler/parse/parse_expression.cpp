@@ -252,6 +252,8 @@ bool Parser::suffix_factor() {
 }
 
 ExprId Parser::text() {
+  // `"wet glass"(roughness: 0.3)`: a material has its arguments behind whichever of its names is written.
+  if (in_origin_ && followed_by(TokenKind::left_parenthesis) && !token(at_ + 1).starts_line) return call();
   const std::size_t begin = at_;
   const TextLiteral literal{input_.texts[here().value]};
   advance();
@@ -265,7 +267,13 @@ ExprId Parser::name() {
 
 ExprId Parser::call() {
   const std::size_t begin = at_;
-  Call call{take_word(), {}};
+  Call call{{}, {}, at(TokenKind::text)};
+  if (call.quoted) {
+    call.callee = {input_.texts[here().value], span_of(here())};
+    advance();
+  } else {
+    call.callee = take_word();
+  }
   const std::size_t first_argument = open_arguments_.size();
   open_parentheses_.push_back(at_);
   advance();

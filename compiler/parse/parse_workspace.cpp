@@ -62,10 +62,10 @@ PlacedPatch Parser::placed_patch() {
   material.derived_from = expression();
   material.span = since(begin);
   // The brace may be on the next line, since nothing else begins with one.
-  if (here().kind == TokenKind::left_brace)
-    patch.settings = placed_settings();
-  else
-    end_statement();
+  const bool has_settings = here().kind == TokenKind::left_brace;
+  if (has_settings) patch.settings = placed_settings();
+  patch.span = since(begin);
+  if (!has_settings) end_statement();
   return patch;
 }
 

@@ -58,7 +58,7 @@ struct ExpressionPrinter {
     return fmt::format("({} {} {})", spelled(binary.op), print(binary.left), print(binary.right));
   }
   std::string operator()(const Call& call) const {
-    std::string result = "(" + text_of(call.callee);
+    std::string result = "(" + (call.quoted ? quoted(call.callee.text) : text_of(call.callee));
     for (const Argument& argument : tree.arguments(call)) {
       result += ' ';
       if (argument.name) result += text_of(*argument.name) + ": ";

@@ -75,8 +75,9 @@ struct Argument {
   ExprId value;
 };
 struct Call {
-  Word callee;
+  Word callee;  ///< of a material by a title, `"wet glass"(roughness: 0.3)`, without the quotes; its span has them
   Row arguments;
+  bool quoted = false;  ///< `callee` is written in quotes
 };
 struct Conditional {
   ExprId condition, yes, no;
@@ -252,6 +253,7 @@ struct MaterialDecl {
 struct PlacedPatch {
   MaterialDecl material;
   std::vector<Setting> settings;
+  Span span;
 };
 
 /// `patches from picture("map.png", scale: 0.3 mm/px) { colour "#c04020" = brick }` in a workspace.

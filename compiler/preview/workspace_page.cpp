@@ -120,7 +120,7 @@ void write_list(Canvas& canvas, const Workspace& workspace, std::span<const Patc
   double top = plane.top + 14;
   for (std::size_t i = 0; i < listed; ++i, top += entry_height) {
     const WorkspacePatch& patch = workspace.patches[i];
-    const std::string name = patch.name == words[i].made_of ? patch.name : patch.name + ": " + words[i].made_of;
+    const std::string name = patch.name == patch.made_of ? patch.name : patch.name + ": " + patch.made_of;
     draw_number(canvas, {list_left + 14, top}, i + 1);
     canvas.write_within({list_left + 44, top + 6}, width - 44, name, style::heading);
     canvas.write_within({list_left + 44, top + 29}, width - 44, words[i].feels, style::label);

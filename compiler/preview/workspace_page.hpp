@@ -12,7 +12,6 @@ namespace wale {
 
 /// The words about a patch of a workspace.
 struct PatchWords {
-  std::string made_of;         ///< "denim(roughness: 0.3)"
   std::string feels;           ///< "roughness 0.30"
   std::optional<double> felt;  ///< the level of the texture, by which its relief is drawn; empty if there is none
 };

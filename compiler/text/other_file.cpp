@@ -25,6 +25,7 @@ constexpr OtherFile binary{"a binary file", "Wale files are plain text and begin
 
 constexpr Beginning beginnings[] = {
     {"\x89WPP"sv, {"a patch program", "name the Wale file that it was built from"}},
+    {"\x89WWS"sv, {"a workspace file", "name the Wale file that it was built from; `wale feel` plays it"}},
     {"\x89WRC"sv, {"a recording", "`wale replay` reads it"}},
     {"\x89PNG"sv, picture},
     {"\xff\xd8\xff"sv, picture},

@@ -13,6 +13,7 @@
 #include "compiler/open_file.hpp"
 #include "library/by_name/told.hpp"
 #include "library/by_name/worker.hpp"
+#include "library/by_name/workspaces.hpp"
 #include "schema/owners_devices_file.hpp"
 
 namespace wale {
@@ -165,6 +166,21 @@ Result<Compiled> Library::open(std::span<const std::byte> bytes, const CompileOp
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (auto right = is_wale_or_program(options.name, text); !right) return std::move(right.error());
   return parts_->compiled({.name = options.name, .bytes = std::string(text)}, options);
+}
+
+Result<CompiledWorkspace> Library::workspace(std::string_view text, const WorkspaceOptions& options) const {
+  return workspace_of_file({.name = options.name, .bytes = std::string(text)},
+                           parts_->request({.device = options.device}), options);
+}
+
+Result<CompiledWorkspace> Library::open_workspace(const std::string& path, const WorkspaceOptions& options) const {
+  auto named = read_workspace(path);
+  if (!named) return std::move(named).error();
+  return workspace_of_file(*std::move(named), parts_->request({.device = options.device}), options);
+}
+
+Result<Presentation> Library::presentation(std::string_view text, const std::string& name) const {
+  return presentation_of({.name = name, .bytes = std::string(text)}, parts_->request({}));
 }
 
 std::future<Result<Compiled>> Library::find_later(std::string name, CompileOptions options) const {

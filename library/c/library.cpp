@@ -10,6 +10,7 @@
 #include "runtime/c/profile.hpp"
 #include "runtime/c/program.hpp"
 #include "runtime/c/sized.hpp"
+#include "runtime/c/workspace.hpp"
 #include "wale/library.h"
 
 struct WaleLibrary {
@@ -76,6 +77,43 @@ WaleCode make_program(WaleLibrary* library, const WaleCompileOptions* options, W
     const auto read = read_compile_options(options);
     if (!read) return read.error();
     return hand_out_program(make(library->library, *read), program);
+  });
+}
+
+Result<WorkspaceOptions> read_workspace_options(const WaleWorkspaceOptions* options) {
+  const auto given = read_sized("options", options);
+  if (!given) return given.error();
+  WorkspaceOptions read;
+  auto device = read_text("device", given->device);
+  if (!device) return std::move(device).error();
+  auto workspace = read_text("workspace", given->workspace);
+  if (!workspace) return std::move(workspace).error();
+  auto name = read_path("name", given->name);
+  if (!name) return std::move(name).error();
+  const auto legibility = read_flag("legibility", given->legibility);
+  if (!legibility) return legibility.error();
+  read.device = *std::move(device), read.workspace = *std::move(workspace), read.legibility = *legibility;
+  if (!name->empty()) read.name = *std::move(name);
+  return read;
+}
+
+/// A call of the library that gives a workspace: `make(library, options)`.
+template <class Make>
+WaleCode make_workspace(WaleLibrary* library, const WaleWorkspaceOptions* options, WaleWorkspace** workspace,
+                        WaleError** error, const Make& make) {
+  return call(error, [&]() -> Result<> {
+    if (auto clear = clear_result("workspace", workspace); !clear) return clear;
+    if (auto given = is_given("library", library); !given) return given;
+    const auto read = read_workspace_options(options);
+    if (!read) return read.error();
+    Result<CompiledWorkspace> compiled = make(library->library, *read);
+    if (!compiled) return std::move(compiled).error();
+    auto made = std::unique_ptr<WaleWorkspace>(new WaleWorkspace{std::move(compiled->workspace)});
+    for (const PatchInText& each : compiled->in_text)
+      made->statements.emplace_back(each.statement.begin, each.statement.end);
+    for (Error& each : compiled->warnings) made->warnings.push_back(handle_of(std::move(each)));
+    hand_out(std::move(made), workspace);
+    return {};
   });
 }
 
@@ -153,6 +191,24 @@ WaleCode wale_library_open_bytes(WaleLibrary* library, const void* bytes, size_t
     if (auto given = is_given("bytes", bytes); !given) return std::move(given).error();
     return in.open(std::span(static_cast<const std::byte*>(bytes), length), read);
   });
+}
+
+WaleCode wale_library_workspace(WaleLibrary* library, WaleText text, const WaleWorkspaceOptions* options,
+                                WaleWorkspace** workspace, WaleError** error) {
+  return make_workspace(library, options, workspace, error,
+                        [&](const wale::Library& in, const auto& read) -> wale::Result<wale::CompiledWorkspace> {
+                          const auto bytes = bytes_of("text", text);
+                          return bytes ? in.workspace(*bytes, read) : bytes.error();
+                        });
+}
+
+WaleCode wale_library_open_workspace(WaleLibrary* library, WaleText path, const WaleWorkspaceOptions* options,
+                                     WaleWorkspace** workspace, WaleError** error) {
+  return make_workspace(library, options, workspace, error,
+                        [&](const wale::Library& in, const auto& read) -> wale::Result<wale::CompiledWorkspace> {
+                          const auto file = read_path("path", path);
+                          return file ? in.open_workspace(*file, read) : file.error();
+                        });
 }
 
 WaleCode wale_library_find_later(WaleLibrary* library, WaleText name, const WaleCompileOptions* options,

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "compiler/check_legibility.hpp"
+#include "compiler/legibility/check_legibility.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/compile_workspace.hpp"
 #include "compiler/diagnostics/explain.hpp"
@@ -25,6 +25,8 @@ const std::map<std::string, std::string> not_as_one_file = {
     {"W0109", "the file would have more than 4 MB"},
     {"W0215", "needs a second file that keeps a name to itself"},
     {"W0216", "needs a second file"},
+    {"W0315", "needs a picture"},
+    {"W0434", "needs a picture"},
     {"W0502", "needs a second file that is no picture"},
     {"W0503", "needs a picture of that size"},
     {"W0504", "needs a second file that is no table"},
@@ -105,7 +107,7 @@ Outcome outcome_of(const std::string& text, bool needs_material) {
     if (diagnostics.has_errors()) break;
     Diagnostics of_workspace;
     const auto laid = compile_workspace(workspace, module, default_device, sources, source, resolver, of_workspace);
-    if (laid) check_legibility(*laid, module.declarations(), default_device, of_workspace);
+    if (laid) check_legibility(workspace, *laid, module.declarations(), default_device, of_workspace);
     all.insert(all.end(), of_workspace.all().begin(), of_workspace.all().end());
   }
   Outcome outcome;

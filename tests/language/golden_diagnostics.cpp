@@ -24,7 +24,7 @@
 #include <regex>
 #include <set>
 
-#include "compiler/check_legibility.hpp"
+#include "compiler/legibility/check_legibility.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/compile_workspace.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
@@ -150,7 +150,7 @@ std::vector<Diagnostic> checked(SourceSet& sources, SourceId source) {
     Diagnostics of_workspace;
     const auto laid =
         compile_workspace(workspace, module, default_device, sources, source, *resolver, of_workspace);
-    if (laid) check_legibility(*laid, module.declarations(), default_device, of_workspace);
+    if (laid) check_legibility(workspace, *laid, module.declarations(), default_device, of_workspace);
     all.insert(all.end(), of_workspace.all().begin(), of_workspace.all().end());
   }
   return all;

@@ -9,9 +9,6 @@
 
 namespace wale::decoder {
 
-/// Loads all that decoding needs, so that `height_image` opens no file and starts no thread.
-void prepare();
-
 /// The heights of a picture, as `read_height_image` describes them. `extension` is in lower case and without its dot.
 /// Errors: `Code::unreadable_image` and `image_size`, without a place.
 Result<HeightImage> height_image(std::span<const std::byte> bytes, const std::string& extension, double smooth_pixels);

@@ -14,7 +14,9 @@
 #include <span>
 #include <string>
 
+#include "compiler/image/decoder/colour_image.hpp"
 #include "compiler/image/decoder/height_image.hpp"
+#include "compiler/image/decoder/read_picture.hpp"
 #include "compiler/image/decoder/sandbox.hpp"
 #include "compiler/image/decoder_answer.hpp"
 
@@ -33,8 +35,7 @@ std::optional<std::span<const std::byte>> mapped_input() {
 }
 
 /// Ends the process without anything that libraries do at the end.
-[[noreturn]] void answer(const Result<HeightImage>& image) {
-  const auto bytes = write_answer(image);
+[[noreturn]] void answer(const std::vector<std::byte>& bytes) {
   for (std::size_t at = 0; at < bytes.size();) {
     const ssize_t written = write(STDOUT_FILENO, &bytes[at], bytes.size() - at);
     if (written <= 0) _exit(1);
@@ -62,6 +63,8 @@ int main(int count, char** words) {
   decoder::prepare();
   std::string problem = decoder::limit_resources() ? "" : "its memory and time cannot be limited";
   if (problem.empty()) problem = decoder::enter_sandbox();
-  if (!problem.empty() && arguments->sandbox == Sandbox::required) answer(no_sandbox(problem));
-  answer(decoder::height_image(*picture, arguments->extension, arguments->smooth_pixels));
+  if (!problem.empty() && arguments->sandbox == Sandbox::required) answer(write_answer(no_sandbox(problem)));
+  if (arguments->samples == Samples::colours)
+    answer(write_colour_answer(decoder::colour_image(*picture, arguments->extension)));
+  answer(write_answer(decoder::height_image(*picture, arguments->extension, arguments->smooth_pixels)));
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wale/compiled_workspace.hpp"
 #include "wale/declared_device.hpp"
 #include "wale/devices.hpp"
 #include "wale/program.hpp"
@@ -98,7 +99,17 @@ class Library {
   /// The same for the bytes of such a file; which of the two they are is seen by how they begin.
   Result<Compiled> open(std::span<const std::byte> bytes, const CompileOptions& options = {}) const;
 
-  /// The same on the library's own thread. Arguments are copied. Error besides: `short_of_resources` if the system
+  /// A workspace of a Wale text with the programs, places and shapes of its patches. A patch whose material has an error
+  /// is the error. Errors: those in the text; `unknown_workspace`. It takes the time of each different material.
+  Result<CompiledWorkspace> workspace(std::string_view text, const WorkspaceOptions& options = {}) const;
+  /// The same of a Wale file (.wale), or a workspace file (.wws). Errors also: `unreadable_file`, `damaged_file`,
+  /// `newer_file`, and `other_device` for a workspace file that is built for another device.
+  Result<CompiledWorkspace> open_workspace(const std::string& path, const WorkspaceOptions& options = {}) const;
+  /// The workspaces of a Wale text by name, and its movies, keys and groups, checked. `name` is as in `CompileOptions`.
+  /// Error: the first one in the text.
+  Result<Presentation> presentation(std::string_view text, const std::string& name = "text") const;
+
+  /// As the calls without `_later`, on the library's own thread. Arguments are copied. Error besides: `short_of_resources` if the system
   /// gives no thread.
   std::future<Result<Compiled>> find_later(std::string name, CompileOptions options = {}) const;
   std::future<Result<Compiled>> level_later(std::string percept, std::string level, CompileOptions options = {}) const;

@@ -18,12 +18,13 @@ from wale.run import Felt, ForceSize, Guards, Level, Now, Run, Times
 from wale.shape import Shape
 from wale.snapshot import Mark, Snapshot
 from wale.stage import Contact, Edit, Patch, Stage
+from wale.workspace import SliderMark, Workspace, WorkspacePatch, load_workspace
 
 __version__: str = _read(_lib.wale_version())
 
 __all__ = [
     "Code", "Contact", "ContactKind", "Device", "DeviceInfo", "DeviceKind", "Edit", "Error", "Felt", "ForceSize", "Future",
     "Guards", "Hand", "Level", "Library", "Loop", "Mark", "MarkKind", "Motion", "Now", "Parameter", "Patch", "Percept",
-    "Profile", "Program", "ReadingContact", "Recording", "Replay", "Run", "Shape", "Snapshot", "Span", "Stage", "Times",
-    "batch", "devices", "open_device", "profile",
+    "Profile", "Program", "ReadingContact", "Recording", "Replay", "Run", "Shape", "SliderMark", "Snapshot", "Span", "Stage",
+    "Times", "Workspace", "WorkspacePatch", "batch", "devices", "load_workspace", "open_device", "profile",
 ]

@@ -155,60 +155,6 @@ WaleCode wale_program_details(const WaleProgram* program, WaleProgramDetails* de
 WaleCode wale_program_parameter(const WaleProgram* program, size_t index, WaleParameter* parameter, WaleError** error);
 WaleCode wale_program_percept(const WaleProgram* program, size_t index, WalePercept* percept, WaleError** error);
 const WaleError* wale_program_warning(const WaleProgram* program, size_t index);
-typedef struct WaleLibrary WaleLibrary;
-typedef struct WaleFuture WaleFuture;
-typedef struct WaleLibraryOptions {
-  size_t size;
-  const WaleText* folders;
-  size_t folder_count;
-  int32_t unsandboxed_pictures;
-  int32_t reserved;
-} WaleLibraryOptions;
-typedef struct WaleCompileOptions {
-  size_t size;
-  WaleText device;
-  WaleText material;
-  WaleText name;
-} WaleCompileOptions;
-WaleCode wale_library_create(const WaleLibraryOptions* options, WaleLibrary** library, WaleError** error);
-void wale_library_free(WaleLibrary* library);
-WaleCode wale_library_find(WaleLibrary* library, WaleText name, const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
-WaleCode wale_library_level(WaleLibrary* library, WaleText percept, WaleText level, const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
-WaleCode wale_library_compile(WaleLibrary* library, WaleText text, const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
-WaleCode wale_library_open(WaleLibrary* library, WaleText path, const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
-WaleCode wale_library_open_bytes(WaleLibrary* library, const void* bytes, size_t length, const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
-WaleCode wale_library_find_later(WaleLibrary* library, WaleText name, const WaleCompileOptions* options, WaleFuture** future, WaleError** error);
-WaleCode wale_library_level_later(WaleLibrary* library, WaleText percept, WaleText level, const WaleCompileOptions* options, WaleFuture** future, WaleError** error);
-WaleCode wale_library_compile_later(WaleLibrary* library, WaleText text, const WaleCompileOptions* options, WaleFuture** future, WaleError** error);
-WaleCode wale_library_open_later(WaleLibrary* library, WaleText path, const WaleCompileOptions* options, WaleFuture** future, WaleError** error);
-int32_t wale_future_poll(const WaleFuture* future);
-int32_t wale_future_wait(const WaleFuture* future, double seconds);
-WaleCode wale_future_take(WaleFuture* future, WaleProgram** program, WaleError** error);
-void wale_future_free(WaleFuture* future);
-WaleCode wale_library_devices(WaleLibrary* library, WaleDevices** devices, WaleError** error);
-WaleCode wale_library_profile(WaleLibrary* library, WaleText name, WaleProfile* profile, WaleError** error);
-WaleCode wale_library_open_device(WaleLibrary* library, WaleText spelling, const WaleDeviceOptions* options, WaleDevice** device, WaleError** error);
-typedef struct WaleSetting {
-  WaleText name;
-  double value;
-} WaleSetting;
-typedef struct WaleBatchOptions {
-  size_t size;
-  size_t hands, ticks;
-  const WaleVector* position;
-  const WaleVector* velocity;
-  const WaleVector* acceleration;
-  const WaleVector* raw_velocity;
-  const WaleVector* raw_acceleration;
-  const WaleVector* workspace;
-  const double* time;
-  const uint8_t* button;
-  const WaleSetting* settings;
-  size_t setting_count;
-  float width, height, rim;
-  float reserved;
-} WaleBatchOptions;
-WaleCode wale_batch(const WaleProgram* program, const WaleBatchOptions* options, WaleVector* forces, WaleError** error);
 typedef struct WaleRun WaleRun;
 typedef struct WaleFelt WaleFelt;
 typedef struct WaleGuards {
@@ -382,6 +328,106 @@ WaleCode wale_edit_bring(WaleEdit* edit, const WalePatch* patch, float layer, Wa
 WaleCode wale_edit_remove(WaleEdit* edit, const WalePatch* patch, WaleError** error);
 WaleCode wale_edit_commit(WaleEdit* edit, WaleError** error);
 void wale_edit_free(WaleEdit* edit);
+typedef struct WaleWorkspace WaleWorkspace;
+typedef struct WaleWorkspaceDetails {
+  size_t size;
+  WaleText name, documentation;
+  WaleText device;
+  size_t patches;
+  size_t warnings;
+} WaleWorkspaceDetails;
+typedef struct WaleWorkspacePatch {
+  size_t size;
+  WaleText name;
+  WaleText made_of;
+  float x, y;
+  float width, height, rim;
+  int32_t has_shape;
+  size_t marks;
+  size_t text_begin, text_end;
+} WaleWorkspacePatch;
+typedef struct WaleWorkspaceMark {
+  size_t size;
+  WaleText slider;
+  WaleText says;
+  float low, high;
+  int32_t is_percept;
+  int32_t reserved;
+} WaleWorkspaceMark;
+WaleCode wale_workspace_load(const void* bytes, size_t length, WaleWorkspace** workspace, WaleError** error);
+void wale_workspace_free(WaleWorkspace* workspace);
+WaleCode wale_workspace_bytes(const WaleWorkspace* workspace, void* to, size_t capacity, size_t* length, WaleError** error);
+WaleCode wale_workspace_details(const WaleWorkspace* workspace, WaleWorkspaceDetails* details, WaleError** error);
+WaleCode wale_workspace_patch(const WaleWorkspace* workspace, size_t index, WaleWorkspacePatch* patch, WaleError** error);
+WaleCode wale_workspace_mark(const WaleWorkspace* workspace, size_t patch, size_t index, WaleWorkspaceMark* mark, WaleError** error);
+WaleCode wale_workspace_program(const WaleWorkspace* workspace, size_t patch, WaleProgram** program, WaleError** error);
+WaleCode wale_workspace_shape(const WaleWorkspace* workspace, size_t patch, WaleShape** shape, WaleError** error);
+const WaleError* wale_workspace_warning(const WaleWorkspace* workspace, size_t index);
+WaleCode wale_stage_add_workspace(WaleStage* stage, const WaleWorkspace* workspace, WalePatch** patches, WaleError** error);
+typedef struct WaleLibrary WaleLibrary;
+typedef struct WaleFuture WaleFuture;
+typedef struct WaleLibraryOptions {
+  size_t size;
+  const WaleText* folders;
+  size_t folder_count;
+  int32_t unsandboxed_pictures;
+  int32_t reserved;
+} WaleLibraryOptions;
+typedef struct WaleCompileOptions {
+  size_t size;
+  WaleText device;
+  WaleText material;
+  WaleText name;
+} WaleCompileOptions;
+typedef struct WaleWorkspaceOptions {
+  size_t size;
+  WaleText device;
+  WaleText workspace;
+  WaleText name;
+  int32_t legibility;
+  int32_t reserved;
+} WaleWorkspaceOptions;
+WaleCode wale_library_create(const WaleLibraryOptions* options, WaleLibrary** library, WaleError** error);
+void wale_library_free(WaleLibrary* library);
+WaleCode wale_library_find(WaleLibrary* library, WaleText name, const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
+WaleCode wale_library_level(WaleLibrary* library, WaleText percept, WaleText level, const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
+WaleCode wale_library_compile(WaleLibrary* library, WaleText text, const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
+WaleCode wale_library_open(WaleLibrary* library, WaleText path, const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
+WaleCode wale_library_open_bytes(WaleLibrary* library, const void* bytes, size_t length, const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
+WaleCode wale_library_workspace(WaleLibrary* library, WaleText text, const WaleWorkspaceOptions* options, WaleWorkspace** workspace, WaleError** error);
+WaleCode wale_library_open_workspace(WaleLibrary* library, WaleText path, const WaleWorkspaceOptions* options, WaleWorkspace** workspace, WaleError** error);
+WaleCode wale_library_find_later(WaleLibrary* library, WaleText name, const WaleCompileOptions* options, WaleFuture** future, WaleError** error);
+WaleCode wale_library_level_later(WaleLibrary* library, WaleText percept, WaleText level, const WaleCompileOptions* options, WaleFuture** future, WaleError** error);
+WaleCode wale_library_compile_later(WaleLibrary* library, WaleText text, const WaleCompileOptions* options, WaleFuture** future, WaleError** error);
+WaleCode wale_library_open_later(WaleLibrary* library, WaleText path, const WaleCompileOptions* options, WaleFuture** future, WaleError** error);
+int32_t wale_future_poll(const WaleFuture* future);
+int32_t wale_future_wait(const WaleFuture* future, double seconds);
+WaleCode wale_future_take(WaleFuture* future, WaleProgram** program, WaleError** error);
+void wale_future_free(WaleFuture* future);
+WaleCode wale_library_devices(WaleLibrary* library, WaleDevices** devices, WaleError** error);
+WaleCode wale_library_profile(WaleLibrary* library, WaleText name, WaleProfile* profile, WaleError** error);
+WaleCode wale_library_open_device(WaleLibrary* library, WaleText spelling, const WaleDeviceOptions* options, WaleDevice** device, WaleError** error);
+typedef struct WaleSetting {
+  WaleText name;
+  double value;
+} WaleSetting;
+typedef struct WaleBatchOptions {
+  size_t size;
+  size_t hands, ticks;
+  const WaleVector* position;
+  const WaleVector* velocity;
+  const WaleVector* acceleration;
+  const WaleVector* raw_velocity;
+  const WaleVector* raw_acceleration;
+  const WaleVector* workspace;
+  const double* time;
+  const uint8_t* button;
+  const WaleSetting* settings;
+  size_t setting_count;
+  float width, height, rim;
+  float reserved;
+} WaleBatchOptions;
+WaleCode wale_batch(const WaleProgram* program, const WaleBatchOptions* options, WaleVector* forces, WaleError** error);
 typedef struct WaleLoop WaleLoop;
 enum { WALE_READING_good = 0, WALE_READING_stale = 1, WALE_READING_lost = 2 };
 typedef struct WaleReading {

@@ -45,6 +45,7 @@ class Code(enum.IntEnum):
     not_radians = 312  # an angle that does not seem to be in radians
     swapped_arguments = 313  # arguments that seem to be swapped
     unusable_shape = 314  # a shape that crosses itself, or that has no inside
+    narrow_area = 315  # an area of a picture that is too narrow to be felt
     open_amplitude = 401  # a lateral force without an amplitude
     several_open = 402  # several quantities left open for one percept
     percept_conflict = 403  # a percept that contradicts the physics
@@ -78,6 +79,9 @@ class Code(enum.IntEnum):
     beyond_devices = 431  # a force far beyond what any device gives
     never_pushes = 432  # a material whose force is zero everywhere
     too_fast_for_loop = 433  # a rate that the device's loop cannot follow
+    unmatched_colours = 434  # a part of a picture that has none of the colours
+    too_small_for_hand = 435  # a patch or a gap of a workspace that is too small for a hand
+    many_textures = 436  # more textures side by side than people recognise
     unreadable_file = 501  # a file that cannot be read
     unreadable_image = 502  # an image that cannot be read
     image_size = 503  # an image too small or too large

@@ -7,6 +7,7 @@ from typing import Any
 from wale._abi import Arguments, Handle, call, ffi, lib, made, sized
 from wale.device import Device, DeviceInfo, Hand, Motion, Profile, device_options, devices_of, profile_of
 from wale.program import Program
+from wale.workspace import Workspace
 
 
 class Future(Handle):
@@ -70,6 +71,26 @@ class Library(Handle):
         arguments = Arguments()
         options = arguments.struct("WaleCompileOptions", device=device, material=material, name=name)
         return Program(made(lib.wale_library_open_bytes, "WaleProgram", self._pointer, ffi.from_buffer(data), len(data), options))
+
+    def _workspace(self, function: Any, text: str | os.PathLike[str], **options: str | int) -> Workspace:
+        arguments = Arguments()
+        wanted = arguments.text(text)
+        return Workspace(made(function, "WaleWorkspace", self._pointer, wanted, arguments.struct("WaleWorkspaceOptions", **options)))
+
+    def workspace(self, text: str, *, device: str = "", workspace: str = "", name: str = "text",
+                  legibility: bool = False) -> Workspace:
+        """A workspace of the text of a Wale file, by default its first; errors call the text `name`.
+
+        With `legibility` it warns also of what a hand cannot tell, which takes up to a second for each material.
+        """
+        return self._workspace(lib.wale_library_workspace, text, device=device, workspace=workspace, name=name,
+                               legibility=int(legibility))
+
+    def open_workspace(self, path: str | os.PathLike[str], *, device: str = "", workspace: str = "",
+                       legibility: bool = False) -> Workspace:
+        """The same of a Wale file (.wale), or a workspace file (.wws)."""
+        return self._workspace(lib.wale_library_open_workspace, os.fspath(path), device=device, workspace=workspace,
+                               legibility=int(legibility))
 
     def find_later(self, name: str, *, device: str = "", material: str = "") -> Future:
         """As `find`, on a thread of the library's own; so the other calls that end in `_later`."""

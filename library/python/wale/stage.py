@@ -17,6 +17,7 @@ from wale.program import Program
 from wale.run import Now, Run, Vector, now_of, vector_of
 from wale.shape import Shape
 from wale.snapshot import Snapshot
+from wale.workspace import Workspace
 
 Size = Sequence[float]
 """m: width, height and, if it has one, rim."""
@@ -215,6 +216,12 @@ class Stage(Handle):
         """
         placed = _placed(at, size, layer, shape)
         return Patch(made(lib.wale_stage_add, "WalePatch", self._pointer, program._pointer, placed))
+
+    def add_workspace(self, workspace: Workspace) -> list[Patch]:
+        """Puts all patches of a workspace on the stage at once, the last in front, and gives them in their order."""
+        places = ffi.new("WalePatch*[]", max(1, len(workspace)))
+        call(lib.wale_stage_add_workspace, self._pointer, workspace._pointer, places)
+        return [Patch(places[i]) for i in range(len(workspace))]
 
     def edit(self) -> Edit:
         """Begins an edit: `with stage.edit() as edit: edit.move(patch, (0.01, 0))`."""

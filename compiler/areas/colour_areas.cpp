@@ -1,0 +1,181 @@
+#include "compiler/areas/colour_areas.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace wale {
+namespace {
+
+using Colour = std::array<double, 3>;
+
+/// How far from an edge, in pixels, its mixtures and a compression's traces of it reach: compressed pictures share the
+/// colour of two by two pixels, and of blocks of eight.
+constexpr int edge_reach = 4;
+/// Pixels around an edge may be further from a colour than others, as a multiple of the tolerance.
+constexpr double at_edges = 2;
+/// Of the 255 steps of alpha: below it a pixel is transparent.
+constexpr std::uint32_t half_opaque = 128;
+
+Colour colour_of(std::uint32_t rgb) {
+  return {static_cast<double>(rgb >> 16 & 255), static_cast<double>(rgb >> 8 & 255), static_cast<double>(rgb & 255)};
+}
+
+/// As a share of the distance of black and white.
+double distance_of(const Colour& a, const Colour& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / 3) / 255;
+}
+
+/// The distance of a colour from the mixtures of two others.
+double distance_from_mixture(const Colour& colour, const Colour& a, const Colour& b) {
+  double along = 0, whole = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    along += (colour[i] - a[i]) * (b[i] - a[i]), whole += (b[i] - a[i]) * (b[i] - a[i]);
+  const double share = whole > 0 ? std::clamp(along / whole, 0.0, 1.0) : 0;
+  Colour mixture{};
+  for (std::size_t i = 0; i < 3; ++i) mixture[i] = a[i] + share * (b[i] - a[i]);
+  return distance_of(colour, mixture);
+}
+
+bool is_transparent(std::uint32_t pixel) { return pixel >> 24 < half_opaque; }
+
+class Matcher {
+ public:
+  Matcher(const ColourImage& picture, const std::vector<std::uint32_t>& colours, double tolerance)
+      : picture_(picture),
+        width_(static_cast<int>(picture.width)),
+        height_(static_cast<int>(picture.height)),
+        tolerance_(tolerance) {
+    for (const std::uint32_t each : colours) colours_.push_back(colour_of(each));
+  }
+
+  ColourAreas match() {
+    nearest_.resize(picture_.pixels.size());
+    for (std::size_t i = 0; i < nearest_.size(); ++i) nearest_[i] = nearest(picture_.pixels[i]);
+    find_cores();
+    ColourAreas found{picture_.width, picture_.height, nearest_, std::vector<std::size_t>(colours_.size(), 0), {}};
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x)
+        if (const std::size_t i = index(x, y); core_[i] == nobody) found.areas[i] = of_edge(x, y);
+    for (const AreaId each : found.areas)
+      if (each != nobody) ++found.pixels[each];
+    found.unmatched = unmatched(found.areas);
+    return found;
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  /// The nearest colour within the tolerance. Pictures have far fewer colours than pixels, and each is looked up once.
+  AreaId nearest(std::uint32_t pixel) {
+    if (is_transparent(pixel)) return nobody;
+    if (pixel == last_) return last_nearest_;
+    const auto [known, is_new] = known_.try_emplace(pixel & 0xffffff, nobody);
+    if (is_new) {
+      double least = tolerance_;
+      for (std::size_t i = 0; i < colours_.size(); ++i)
+        if (const double far = distance_of(colour_of(pixel), colours_[i]); far <= least) {
+          if (far == least && known->second != nobody) continue;
+          least = far, known->second = static_cast<AreaId>(i);
+        }
+    }
+    last_ = pixel, last_nearest_ = known->second;
+    return last_nearest_;
+  }
+
+  /// A core is a pixel whose neighbours all have its colour: no edge is there.
+  void find_cores() {
+    core_.assign(nearest_.size(), nobody);
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
+        const AreaId own = nearest_[index(x, y)];
+        if (own == nobody) continue;
+        bool alone = true;
+        for (int row = std::max(0, y - 1); row <= std::min(height_ - 1, y + 1) && alone; ++row)
+          for (int column = std::max(0, x - 1); column <= std::min(width_ - 1, x + 1) && alone; ++column)
+            alone = nearest_[index(column, row)] == own;
+        if (alone) core_[index(x, y)] = own;
+      }
+  }
+
+  /// The colour of a pixel that is no core, by the cores around it.
+  AreaId of_edge(int x, int y) const {
+    const std::uint32_t pixel = picture_.pixels[index(x, y)];
+    if (is_transparent(pixel)) return nobody;
+    const AreaId own = nearest_[index(x, y)];
+    std::array<bool, most_colours> is_near{};
+    std::array<AreaId, most_colours> near{};
+    std::size_t near_count = 0;
+    for (int row = std::max(0, y - edge_reach); row <= std::min(height_ - 1, y + edge_reach); ++row)
+      for (int column = std::max(0, x - edge_reach); column <= std::min(width_ - 1, x + edge_reach); ++column)
+        if (const AreaId there = core_[index(column, row)]; there != nobody && !is_near[there])
+          is_near[there] = true, near[near_count++] = there;
+    if (own != nobody && is_near[own]) return own;
+    const Colour colour = colour_of(pixel);
+    AreaId best = nobody;
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < near_count; ++i) {
+      const Colour& side = colours_[near[i]];
+      const double far = distance_of(colour, side);
+      bool is_traced = own == nobody && far <= at_edges * tolerance_;
+      for (std::size_t j = 0; j < near_count && !is_traced; ++j)
+        is_traced = j != i && distance_from_mixture(colour, side, colours_[near[j]]) <= tolerance_;
+      if (is_traced && far < least) least = far, best = near[i];
+    }
+    return best == nobody ? own : best;
+  }
+
+  UnmatchedColours unmatched(const std::vector<AreaId>& areas) const {
+    struct Alike {
+      std::size_t pixels = 0, first = 0;
+      std::array<std::size_t, 3> sum{};
+    };
+    constexpr int kept_bits = 4;  // of each channel: colours that share them are much alike
+    std::unordered_map<std::uint32_t, Alike> all;
+    UnmatchedColours result;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+      const std::uint32_t pixel = picture_.pixels[i];
+      if (areas[i] != nobody || is_transparent(pixel)) continue;
+      ++result.pixels;
+      const std::array<std::uint32_t, 3> parts = {pixel >> 16 & 255, pixel >> 8 & 255, pixel & 255};
+      std::uint32_t key = 0;
+      for (const std::uint32_t part : parts) key = key << kept_bits | part >> (8 - kept_bits);
+      Alike& alike = all[key];
+      if (alike.pixels++ == 0) alike.first = i;
+      for (std::size_t part = 0; part < 3; ++part) alike.sum[part] += parts[part];
+    }
+    const Alike* most = nullptr;
+    for (const auto& [key, each] : all)
+      if (!most || each.pixels > most->pixels || (each.pixels == most->pixels && each.first < most->first))
+        most = &each;
+    if (!most) return result;
+    for (const std::size_t sum : most->sum)
+      result.mostly = result.mostly << 8 | static_cast<std::uint32_t>((sum + most->pixels / 2) / most->pixels);
+    result.place = {static_cast<std::uint32_t>(most->first % picture_.width),
+                    static_cast<std::uint32_t>(most->first / picture_.width)};
+    return result;
+  }
+
+  const ColourImage& picture_;
+  int width_, height_;
+  double tolerance_;
+  std::vector<Colour> colours_;
+  std::unordered_map<std::uint32_t, AreaId> known_;
+  std::uint32_t last_ = 0;  ///< transparent: of no pixel that is looked up
+  AreaId last_nearest_ = nobody;
+  std::vector<AreaId> nearest_, core_;
+};
+
+}  // namespace
+
+double colour_distance(std::uint32_t a, std::uint32_t b) { return distance_of(colour_of(a), colour_of(b)); }
+
+ColourAreas colour_areas(const ColourImage& picture, const std::vector<std::uint32_t>& colours, double tolerance) {
+  return Matcher(picture, colours, tolerance).match();
+}
+
+}  // namespace wale

@@ -1,0 +1,64 @@
+#include "compiler/legibility/check_legibility.hpp"
+
+#include <fmt/format.h>
+
+#include "compiler/compare/compare.hpp"
+#include "compiler/diagnostics/advice.hpp"
+#include "compiler/legibility/check_count.hpp"
+#include "compiler/legibility/check_sizes.hpp"
+#include "compiler/legibility/ground.hpp"
+#include "compiler/text/readable.hpp"
+
+namespace wale {
+namespace {
+
+void warn_of_hidden(const LaidPatch& patch, Diagnostics& diagnostics) {
+  diagnostics.report(
+      Advice("move it, or write it behind the others, which then lie behind it")
+          .about(Code::hidden_patch, patch.patch->material.span,
+                 fmt::format("`{}` is never felt: it lies behind later patches", patch.patch->material.name)));
+}
+
+void check_neighbours(const std::vector<LaidPatch>& laid, const Ground& ground, const Comparer& comparer,
+                      ReadCues& cues, Diagnostics& diagnostics) {
+  for (const auto& [a, b] : ground.neighbours()) {
+    const LaidPatch &one = laid[static_cast<std::size_t>(a)], &other = laid[static_cast<std::size_t>(b)];
+    if (one.patch->made_of == other.patch->made_of) continue;  // one surface of several parts
+    const Distance distance = comparer.distance(cues.of(one), cues.of(other));
+    if (distance.verdict != Verdict::alike) continue;
+    diagnostics.report(
+        Advice(fmt::format("give one of them another level or material, or leave {:.2g} mm between them",
+                           1e3 * (one.size.rim + other.size.rim) + 1))
+            .about(
+                Code::indistinct_neighbours, other.patch->material.span,
+                readable("people would not tell `{}` from `{}` beside it: they differ by {:.2g} of a just noticeable "
+                         "difference",
+                         other.patch->material.name, one.patch->material.name, distance.noticeable)));
+  }
+}
+
+}  // namespace
+
+const Cues& ReadCues::of(const LaidPatch& patch) {
+  const auto known = read_.find(patch.program.get());
+  if (known != read_.end()) return known->second;
+  const Bank bank(*patch.program, patch.program->default_parameters(), patch.program->default_size());
+  return read_.emplace(patch.program.get(), cues_of(bank, declarations_)).first->second;
+}
+
+void check_legibility(const CheckedWorkspace& workspace, const std::vector<LaidPatch>& laid,
+                      const Declarations& declarations, const std::string& device, Diagnostics& diagnostics) {
+  const DeviceDeclaration* declared = declarations.devices.find(device);
+  if (laid.empty() || declared == nullptr || !declared->profile.has_position()) return;
+  const Ground ground(laid, 0.5 * declared->profile.workspace_diameter);
+  for (std::size_t i = 0; i < laid.size(); ++i)
+    if (ground.is_hidden(i)) warn_of_hidden(laid[i], diagnostics);
+  if (declared->profile.shaker) return;  // cues are forces
+  ReadCues cues(declarations);
+  const Comparer comparer(declarations, device);
+  check_neighbours(laid, ground, comparer, cues, diagnostics);
+  check_sizes(laid, ground, declarations, declared->profile, cues, diagnostics);
+  check_count(workspace, laid, comparer, declarations, device, cues, diagnostics);
+}
+
+}  // namespace wale

@@ -1,0 +1,96 @@
+#include "compiler/legibility/ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/areas/edge_distances.hpp"
+
+namespace wale {
+namespace {
+
+constexpr double finest_step = 0.5e-3;  // m
+constexpr double most_steps = 1000;     // in a row
+
+}  // namespace
+
+Ground::Ground(const std::vector<LaidPatch>& laid, double radius)
+    : laid_(laid),
+      step_(std::max(finest_step, 2 * radius / most_steps)),
+      half_(static_cast<int>(std::ceil(radius / step_))),
+      side_(2 * half_ + 1) {
+  felt_.assign(static_cast<std::size_t>(side_ * side_), nobody);
+  covered_.assign(laid.size(), 0), seen_.assign(laid.size(), 0);
+  for (std::size_t i = 0; i < laid.size(); ++i) lay(static_cast<int>(i), radius);
+  for (const int each : felt_)
+    if (each != nobody) ++seen_[static_cast<std::size_t>(each)];
+}
+
+void Ground::lay(int number, double radius) {
+  const LaidPatch& patch = laid_[static_cast<std::size_t>(number)];
+  const glm::dvec2 middle(patch.patch->at[0], patch.patch->at[1]);
+  const glm::dvec2 half(0.5 * patch.size.width, 0.5 * patch.size.height);
+  const auto index = [&](double metres, bool up) {  // a little further out than needed
+    const double of_step = half_ + (up ? std::floor(metres / step_) - 1 : std::ceil(metres / step_) + 1);
+    return static_cast<int>(std::clamp(of_step, 0.0, side_ - 1.0));
+  };
+  for (int row = index(middle.y - half.y, true); row <= index(middle.y + half.y, false); ++row)
+    for (int column = index(middle.x - half.x, true); column <= index(middle.x + half.x, false); ++column) {
+      const glm::dvec2 place(x_of(column), y_of(row));
+      const glm::dvec2 from = place - middle;
+      if (std::hypot(place.x, place.y) > radius || std::abs(from.x) > half.x || std::abs(from.y) > half.y ||
+          !patch.shape.contains(glm::vec2(from)))
+        continue;
+      felt_[static_cast<std::size_t>(row * side_ + column)] = number;
+      ++covered_[static_cast<std::size_t>(number)];
+    }
+}
+
+template <class Visit>
+void Ground::each_way(const Visit& visit) const {
+  for (const bool upwards : {false, true})
+    for (int line = 0; line < side_; ++line) {
+      int last = nobody, last_at = 0;
+      for (int i = 0; i < side_; ++i) {
+        const int here = upwards ? at(line, i) : at(i, line);
+        if (here == nobody) continue;
+        if (last != nobody && last != here) visit(last, here, i - last_at - 1);
+        last = here, last_at = i;
+      }
+    }
+}
+
+std::set<std::pair<int, int>> Ground::neighbours() const {
+  std::set<std::pair<int, int>> all;
+  each_way([&](int here, int there, int between) {
+    if (between * step_ <= rim(here) + rim(there)) all.insert(std::minmax(here, there));
+  });
+  return all;
+}
+
+std::map<std::pair<int, int>, double> Ground::gaps() const {
+  std::map<std::pair<int, int>, double> all;
+  std::set<std::pair<int, int>> touching;
+  each_way([&](int here, int there, int between) {
+    const std::pair<int, int> both = std::minmax(here, there);
+    if (between == 0) touching.insert(both);
+    const double gap = (between + 1) * step_;
+    const auto [known, is_new] = all.emplace(both, gap);
+    if (!is_new) known->second = std::min(known->second, gap);
+  });
+  for (const auto& both : touching) all.erase(both);
+  return all;
+}
+
+std::vector<double> Ground::widths() const {
+  const auto side = static_cast<std::size_t>(side_);
+  const std::vector<double> to_edge = squared_edge_distances<int>(felt_, side, side);
+  std::vector<double> widths(laid_.size(), 0);
+  for (std::size_t i = 0; i < felt_.size(); ++i)
+    if (felt_[i] != nobody) {
+      double& width = widths[static_cast<std::size_t>(felt_[i])];
+      width = std::max(width, (2 * std::sqrt(to_edge[i]) - 1) * step_);
+    }
+  return widths;
+}
+
+}  // namespace wale

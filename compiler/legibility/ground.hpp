@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "compiler/compile_workspace.hpp"
+
+namespace wale {
+
+/// The workspace in small squares, each with the patch that the hand feels there.
+class Ground {
+ public:
+  /// `radius`: how far the device reaches, m. Squares have sides of half a millimetre, or more where the workspace is
+  /// so wide that there would be more than a thousand in a row.
+  Ground(const std::vector<LaidPatch>& laid, double radius);
+
+  /// Whether a patch that the device reaches lies wholly behind others.
+  bool is_hidden(std::size_t patch) const { return covered_[patch] > 0 && seen_[patch] == 0; }
+
+  /// Patches, a < b, with places from which the way to the other is no longer than the rims of both, and those that
+  /// overlap.
+  std::set<std::pair<int, int>> neighbours() const;
+
+  /// The shortest way over nothing between two patches, a < b, m: along x or y, where no third patch lies between.
+  /// Without those that touch.
+  std::map<std::pair<int, int>, double> gaps() const;
+
+  /// Of each patch, the width in the widest place of what is felt of it, m, to a square; 0 where nothing is.
+  std::vector<double> widths() const;
+
+  double square() const { return step_; }  ///< m; the side of a square
+
+ private:
+  static constexpr int nobody = -1;
+
+  /// m; the place that stands for a square. It is not in its middle, so that edges at round places pass between two.
+  double x_of(int column) const { return (column - half_ + 0.37) * step_; }
+  double y_of(int row) const { return (row - half_ + 0.41) * step_; }
+
+  int at(int column, int row) const { return felt_[static_cast<std::size_t>(row * side_ + column)]; }
+  void lay(int number, double radius);
+  double rim(int patch) const { return laid_[static_cast<std::size_t>(patch)].size.rim; }
+  /// Calls visit(here, there, squares between) for the next patch to the right of each square, and above it.
+  template <class Visit>
+  void each_way(const Visit& visit) const;
+
+  const std::vector<LaidPatch>& laid_;
+  double step_;      // m
+  int half_, side_;  // squares
+  std::vector<int> felt_;
+  std::vector<long> covered_, seen_;  // squares of each patch
+};
+
+}  // namespace wale
