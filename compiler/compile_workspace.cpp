@@ -83,7 +83,7 @@ void warn_of_reach(const CheckedPatch& patch, const PatchSize& size, const Devic
                    Diagnostics& diagnostics) {
   const double radius = 0.5 * device.workspace_diameter;
   // A patch wider than the workspace is told so (W0424).
-  const auto& asked = patch.material.patch;
+  const auto& asked = patch.size ? patch.size : patch.material->patch;
   if (!device.has_position() || (asked && std::max((*asked)[0], (*asked)[1]) > device.workspace_diameter)) return;
   const auto points = farthest_points(patch, size);
   const double beyond = reach_of(points, patch.at) - radius;
@@ -100,9 +100,9 @@ void warn_of_reach(const CheckedPatch& patch, const PatchSize& size, const Devic
   diagnostics.report(
       std::move(advice)
           .fact("high", 1e3 * device.workspace_diameter, "mm")
-          .about(Code::beyond_reach, patch.at_span ? *patch.at_span : patch.material.span,
+          .about(Code::beyond_reach, patch.at_span ? *patch.at_span : patch.span,
                  readable("`{}` lies up to {:.3g} mm beyond the reach of `{}`, whose workspace is {:.4g} mm across",
-                          patch.material.name, 1e3 * beyond, device.name, 1e3 * device.workspace_diameter)));
+                          patch.name, 1e3 * beyond, device.name, 1e3 * device.workspace_diameter)));
 }
 
 /// The size on the stage: the program's, with the rim of a workspace.
@@ -114,6 +114,8 @@ PatchSize size_of(const CheckedPatch& patch, const Program& program) {
 }
 
 glm::vec2 point_of(const Point& at) { return {static_cast<float>(at[0]), static_cast<float>(at[1])}; }
+
+}  // namespace
 
 Result<Shape> shape_of(const Outline& outline, const PatchSize& size) {
   if (std::holds_alternative<EllipseOutline>(outline)) return Shape::ellipse(0.5f * size.width, 0.5f * size.height);
@@ -130,8 +132,6 @@ Result<Shape> shape_of(const Outline& outline, const PatchSize& size) {
   return Shape();
 }
 
-}  // namespace
-
 std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& workspace, const CheckedModule& module,
                                                         const std::string& device, const SourceSet& sources,
                                                         SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
@@ -140,11 +140,14 @@ std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& 
   std::vector<LaidPatch> laid;
   bool good = true;
   for (const CheckedPatch& patch : workspace.patches) {
-    const auto size = patch.material.patch.value_or(std::array{0.0, 0.0});
+    const auto size = patch.size.value_or(std::array{0.0, 0.0});
     const auto [program, is_new] = known.try_emplace({patch.made_of, size[0], size[1]});
     if (is_new) {
       Diagnostics of_patch;
-      auto compiled = compile_material(patch.material, module, device, sources, source, resolver, of_patch);
+      CheckedMaterial material = *patch.material;
+      material.name = patch.name, material.span = patch.span;
+      if (patch.size) material.patch = patch.size, material.patch_span = patch.size_span;
+      auto compiled = compile_material(material, module, device, sources, source, resolver, of_patch);
       for (const Diagnostic& each : of_patch.all()) diagnostics.report(each);
       if (compiled) program->second = std::make_shared<const Program>(*std::move(compiled));
     }
@@ -154,7 +157,7 @@ std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& 
     auto shape = shape_of(patch.outline, laid_size);
     if (!shape) {
       diagnostics.report(
-          Advice("take a smaller picture").about(Code::unusable_shape, patch.material.span, shape.error().sentence));
+          Advice("take a smaller picture").about(Code::unusable_shape, patch.span, shape.error().sentence));
       good = false;
       continue;
     }
@@ -172,7 +175,7 @@ Workspace workspace_of(const CheckedWorkspace& workspace, const std::vector<Laid
   for (const LaidPatch& each : laid) {
     const CheckedPatch& patch = *each.patch;
     WorkspacePatch& to = made.patches.emplace_back(WorkspacePatch{
-        patch.material.name,
+        patch.name,
         patch.made_of,
         *each.program,
         {.at = point_of(patch.at), .size = each.size, .layer = 0, .shape = each.shape},

@@ -24,6 +24,9 @@ std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& 
                                                         const std::string& device, const SourceSet& sources,
                                                         SourceId source, Resolver& resolver, Diagnostics& diagnostics);
 
+/// The outline of a patch as a shape; a mask's is stretched to the size. Errors: those of `Shape`.
+Result<Shape> shape_of(const Outline& outline, const PatchSize& size);
+
 /// What is written into a workspace file, and put on a stage.
 Workspace workspace_of(const CheckedWorkspace& workspace, const std::vector<LaidPatch>& laid);
 

@@ -44,7 +44,7 @@ class MarkChecker {
  private:
   /// Finds the slider: a parameter of the material, or a percept that it asks for.
   bool find(const Word& word, SliderMark& mark) {
-    const CheckedMaterial& material = patch_.material;
+    const CheckedMaterial& material = *patch_.material;
     const auto parameter = std::ranges::find(material.parameters, word.text, &Parameter::name);
     if (parameter != material.parameters.end()) {
       parameter_ = &*parameter;

@@ -136,7 +136,7 @@ class PresentationChecker {
     const CheckedWorkspace* workspace = module_.workspace(name);
     if (!workspace) return false;
     std::vector<std::string> known;
-    for (const CheckedPatch& each : workspace->patches) known.push_back(each.material.name);
+    for (const CheckedPatch& each : workspace->patches) known.push_back(each.name);
     if (std::ranges::find(known, word.text) != known.end() || !whole_) return true;
     reader.report(Code::unknown_name, word.span, fmt::format("`{}` has no patch `{}`", name, word.text),
                   did_you_mean(word.span, word.text, known, "name one of its patches"));

@@ -123,7 +123,7 @@ class ShapeChecker {
                         .see(tree_.span(arguments[2 * other].value), fmt::format("corner {}", other + 1)));
     }
     patch_.outline = std::move(outline);
-    patch_.material.patch = std::array{2 * half[0], 2 * half[1]};
+    patch_.size = std::array{2 * half[0], 2 * half[1]};
     return true;
   }
 
@@ -154,7 +154,7 @@ class ShapeChecker {
     if (std::ranges::find(outline.inside, true) == outline.inside.end())
       return refuse(Code::unusable_shape, span, "this mask has no inside: it is dark everywhere",
                     "make the picture light where the patch is, and dark elsewhere");
-    patch_.material.patch = std::array{outline.column * static_cast<double>(outline.columns),
+    patch_.size = std::array{outline.column * static_cast<double>(outline.columns),
                                        outline.row * static_cast<double>(outline.rows)};
     patch_.outline = std::move(outline);
     return true;

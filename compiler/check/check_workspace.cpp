@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -50,6 +51,21 @@ class WorkspaceChecker {
   }
 
  private:
+  /// The material of a patch. Thousands of patches may be made of the same words: they are checked once if they are
+  /// right, and each time if they are not, so that each patch has its errors.
+  std::shared_ptr<const CheckedMaterial> checked(const MaterialDecl& material, const std::string& made_of) {
+    const auto [known, is_new] = materials_.try_emplace(made_of);
+    if (!is_new) return known->second;
+    const std::size_t errors_before = surroundings_.diagnostics.error_count();
+    auto made = std::make_shared<const CheckedMaterial>(
+        check_material({&tree_, &material, declared_.home}, surroundings_, whole_));
+    if (surroundings_.diagnostics.error_count() == errors_before)
+      known->second = made;
+    else
+      materials_.erase(known);
+    return made;
+  }
+
   void check(const PlacedPatch& node) {
     const Word& name = node.material.name;
     const auto [first, is_new] = names_.emplace(std::string(name.text), name.span);
@@ -62,7 +78,8 @@ class WorkspaceChecker {
     patch.statement = node.span;
     patch.made_of_span = tree_.span(*node.material.derived_from);
     patch.made_of = surroundings_.sources.text(patch.made_of_span);
-    patch.material = check_material({&tree_, &node.material, declared_.home}, surroundings_, whole_);
+    patch.name = name.text, patch.span = node.material.span;
+    patch.material = checked(node.material, patch.made_of);
     settings_.clear();
     outlined_.reset();
     for (const Setting& setting : node.settings) read(setting, patch);
@@ -111,8 +128,8 @@ class WorkspaceChecker {
         return report(Code::value_out_of_range, setting.items[side].span,
                       "the sides of a patch must be greater than zero", example_of_size);
     if (outlined_) return two_sizes(*outlined_, setting.span);
-    patch.material.patch = std::array{(*sides)[0], (*sides)[1]};
-    patch.material.patch_span = setting.span;
+    patch.size = std::array{(*sides)[0], (*sides)[1]};
+    patch.size_span = setting.span;
   }
 
   void read_rim(const Setting& setting, CheckedPatch& patch) {
@@ -130,7 +147,7 @@ class WorkspaceChecker {
         std::holds_alternative<EllipseOutline>(patch.outline))
       return;
     outlined_ = setting.span;
-    patch.material.patch_span = setting.span;
+    patch.size_span = setting.span;
     if (const auto size = settings_.find("size"); size != settings_.end()) two_sizes(setting.span, size->second);
   }
 
@@ -141,8 +158,9 @@ class WorkspaceChecker {
   }
 
   void check_rim(const CheckedPatch& patch) {
-    if (!patch.rim || !patch.material.patch) return;
-    const double most = 0.5 * std::min((*patch.material.patch)[0], (*patch.material.patch)[1]);
+    const auto& size = patch.size ? patch.size : patch.material->patch;
+    if (!patch.rim || !size) return;
+    const double most = 0.5 * std::min((*size)[0], (*size)[1]);
     if (*patch.rim <= most) return;
     report(Code::value_out_of_range, rim_span_,
            readable("a rim of {:.4g} mm leaves nothing of a patch whose shorter side is {:.4g} mm", 1e3 * *patch.rim,
@@ -184,10 +202,11 @@ class WorkspaceChecker {
       patch.statement = area.statement;
       patch.made_of_span = tree_.span(area.material);
       patch.made_of = surroundings_.sources.text(patch.made_of_span);
-      patch.material = check_material({&tree_, &material, declared_.home}, surroundings_, whole_);
-      patch.material.patch = std::array{area.outline.column * static_cast<double>(area.outline.columns),
-                                        area.outline.row * static_cast<double>(area.outline.rows)};
-      patch.material.patch_span = area.colour_span;
+      patch.name = name, patch.span = material.span;
+      patch.material = checked(material, patch.made_of);
+      patch.size = std::array{area.outline.column * static_cast<double>(area.outline.columns),
+                              area.outline.row * static_cast<double>(area.outline.rows)};
+      patch.size_span = area.colour_span;
       patch.at = area.at;
       patch.rim = area.rim;
       patch.outline = std::move(area.outline);
@@ -223,6 +242,7 @@ class WorkspaceChecker {
   std::vector<HeightTable> tables_;
   ExpressionChecker checker_;
   CheckedWorkspace workspace_;
+  std::map<std::string, std::shared_ptr<const CheckedMaterial>> materials_;  ///< by their words
   std::map<std::string, Span, std::less<>> names_;  ///< of the patches so far
   std::set<std::string, std::less<>> own_names_;    ///< of all patches that have names in the text
   std::map<std::string, Span> settings_;            ///< of this patch so far

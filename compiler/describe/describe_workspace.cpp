@@ -74,7 +74,7 @@ WorkspaceDescription describe_workspace(const CheckedWorkspace& workspace, const
       feels->second = feels_line(describe(
           Bank(*each.program, each.program->default_parameters(), each.program->default_size()), declarations));
     const CheckedPatch& patch = *each.patch;
-    DescribedPatch described{patch.material.name,         patch.made_of, patch.at, each.size,
+    DescribedPatch described{patch.name,         patch.made_of, patch.at, each.size,
                              outline_text(patch.outline), feels->second, {}};
     const auto& parameters = each.program->description().parameters;
     for (const SliderMark& mark : patch.marks) {

@@ -173,7 +173,12 @@ inline constexpr double usual_rim = 1e-3;
 
 /// A patch of a workspace.
 struct CheckedPatch {
-  CheckedMaterial material;     ///< named as the patch is; its `patch` is the size that the workspace gives
+  std::string name;
+  Span span;  ///< of its name and material
+  /// Shared by all patches of the same words, and named as the first of them.
+  std::shared_ptr<const CheckedMaterial> material;
+  std::optional<std::array<double, 2>> size;  ///< m, width and height, if the workspace gives one
+  Span size_span;                             ///< of what gives the size
   std::string made_of;          ///< the material as written, "denim(roughness: 0.3)"
   std::array<double, 2> at{};   ///< m from the workspace's centre, of the patch's centre
   std::optional<Span> at_span;  ///< of the setting, if it is written

@@ -83,7 +83,7 @@ void check_count(const CheckedWorkspace& workspace, const std::vector<LaidPatch>
       Advice(
           readable("leave some out, or let them differ in another cue too, such as the period; the nearest two, `{}` "
                    "and `{}`, are {:.2g} just noticeable differences apart",
-                   capacity->one->patch->material.name, capacity->other->patch->material.name, capacity->nearest))
+                   capacity->one->patch->name, capacity->other->patch->name, capacity->nearest))
           .fact("textures", static_cast<double>(textures.size()))
           .fact("recognised", capacity->recognised)
           .because(layout_rule("textures", static_cast<double>(textures.size()), declarations))

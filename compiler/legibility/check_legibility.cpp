@@ -15,8 +15,8 @@ namespace {
 void warn_of_hidden(const LaidPatch& patch, Diagnostics& diagnostics) {
   diagnostics.report(
       Advice("move it, or write it behind the others, which then lie behind it")
-          .about(Code::hidden_patch, patch.patch->material.span,
-                 fmt::format("`{}` is never felt: it lies behind later patches", patch.patch->material.name)));
+          .about(Code::hidden_patch, patch.patch->span,
+                 fmt::format("`{}` is never felt: it lies behind later patches", patch.patch->name)));
 }
 
 void check_neighbours(const std::vector<LaidPatch>& laid, const Ground& ground, const Comparer& comparer,
@@ -30,10 +30,10 @@ void check_neighbours(const std::vector<LaidPatch>& laid, const Ground& ground, 
         Advice(fmt::format("give one of them another level or material, or leave {:.2g} mm between them",
                            1e3 * (one.size.rim + other.size.rim) + 1))
             .about(
-                Code::indistinct_neighbours, other.patch->material.span,
+                Code::indistinct_neighbours, other.patch->span,
                 readable("people would not tell `{}` from `{}` beside it: they differ by {:.2g} of a just noticeable "
                          "difference",
-                         other.patch->material.name, one.patch->material.name, distance.noticeable)));
+                         other.patch->name, one.patch->name, distance.noticeable)));
   }
 }
 

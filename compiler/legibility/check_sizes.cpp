@@ -76,8 +76,8 @@ void check_sizes(const std::vector<LaidPatch>& laid, const Ground& ground, const
             .fact("width", 1e3 * width, "mm")
             .fact("low", 1e3 * reason.needed, "mm")
             .because(layout_rule("element", width, declarations))
-            .about(Code::too_small_for_hand, patch.patch->material.span,
-                   readable("what is felt of `{}` is {:.2g} mm wide at most: {}", patch.patch->material.name,
+            .about(Code::too_small_for_hand, patch.patch->span,
+                   readable("what is felt of `{}` is {:.2g} mm wide at most: {}", patch.patch->name,
                             1e3 * width, reason.why)));
   }
   for (const auto& [both, between] : ground.gaps()) {
@@ -90,9 +90,9 @@ void check_sizes(const std::vector<LaidPatch>& laid, const Ground& ground, const
             .fact("width", 1e3 * between, "mm")
             .fact("low", 1e3 * reason.needed, "mm")
             .because(layout_rule("gap", between, declarations))
-            .about(Code::too_small_for_hand, other.patch->material.span,
+            .about(Code::too_small_for_hand, other.patch->span,
                    readable("the gap of {:.2g} mm between `{}` and `{}` is not felt as one: {}", 1e3 * between,
-                            one.patch->material.name, other.patch->material.name, reason.why)));
+                            one.patch->name, other.patch->name, reason.why)));
   }
 }
 

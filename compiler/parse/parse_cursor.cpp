@@ -189,7 +189,8 @@ void Parser::give_up() {
 }
 
 void Parser::count_statement() {
-  if (++statements_ <= most_statements) return;
+  statements_ += in_placed_ ? 1 : settings_per_statement;
+  if (statements_ <= most_statements * settings_per_statement) return;
   reported_ = false;
   diagnostics_.report({.code = Code::too_long,
                        .span = span_of(here()),

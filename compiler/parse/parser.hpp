@@ -22,8 +22,10 @@ constexpr std::size_t deepest_nesting = 200;
 /// The greatest height of an expression's tree, which grows also with the terms of a sum: later stages recurse into it.
 constexpr std::size_t highest_expression = 1000;
 
-/// The most statements of one file. People write hundreds; later stages compare each name with all others.
-constexpr std::size_t most_statements = 12000;
+/// The most statements of one file. People write hundreds; later stages compare each name with all others. Ten thousand
+/// patches of a workspace must fit, so a setting of a patch counts as a tenth.
+constexpr std::size_t most_statements = 16000;
+constexpr std::size_t settings_per_statement = 10;
 
 /// The beginning of a physical statement: its keyword, the prime of `x' = …`, or a `=` if the keyword is missing.
 enum class PhysicalKeyword { param, let, height, force, patch, active, state, memory, next, show, prime, equals };
@@ -252,7 +254,7 @@ class Parser {
   std::optional<ExprId> last_expression_;  ///< the last one in this statement
   bool reported_ = false;                  ///< an error in this statement has been reported
   bool brace_missing_ = false;             ///< a wrong brace in this declaration has been reported
-  std::size_t statements_ = 0;
+  std::size_t statements_ = 0;        // in settings
   std::vector<std::string_view> remembered_;  ///< states and memories of the material that is being read
   bool lost_ = false;                         ///< outside all declarations, which has been reported
   bool in_setting_ = false;                   ///< words of evidence end a unit: `0.3 kg assumed`
