@@ -72,6 +72,12 @@ percepts. Materials with pictures also need the decoder of the package wale."
     "This package has the command line, which checks, describes, compares, draws
 and feels materials, and the shipped library of materials."
     DEPENDS "wale-keeper (>= ${PROJECT_VERSION})" SUGGESTS libwale-dev)
+  if(TARGET wale-sandpaper)
+    debian_package(sandpaper wale-sandpaper utils "workspace for materials that are felt"
+      "This package has the window in which materials are laid out, felt with a
+force-feedback joystick or seen with the mouse, and changed."
+      DEPENDS "wale ${this}")
+  endif()
   if(EXISTS ${PROJECT_SOURCE_DIR}/library/python/wale)
     debian_package(python python3-wale python "haptics language Wale from Python"
       "This package has the Python module wale."

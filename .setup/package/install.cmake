@@ -35,7 +35,8 @@ install(FILES ${PROJECT_SOURCE_DIR}/runtime/C_INTERFACE.md ${PROJECT_SOURCE_DIR}
               ${PROJECT_SOURCE_DIR}/runtime/workspace/WORKSPACE_FILE.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development
-        FILES_MATCHING PATTERN *.cpp PATTERN *.c PATTERN *.py PATTERN *.md PATTERN CMakeLists.txt)
+        FILES_MATCHING PATTERN *.cpp PATTERN *.c PATTERN *.py PATTERN *.md PATTERN CMakeLists.txt
+        PATTERN sandpaper EXCLUDE)  # a package of its own
 
 install(TARGETS wale-c_runtime EXPORT Wale-runtime)
 install_library(wale-runtime runtime)
@@ -50,6 +51,11 @@ if(WALE_COMPILER)
   install(TARGETS wale RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
   install(TARGETS wale-decoder RUNTIME DESTINATION ${companion_folder} COMPONENT command)
   install(TARGETS wale_images LIBRARY DESTINATION ${companion_folder} COMPONENT command)
+  if(TARGET wale-sandpaper)
+    install(TARGETS wale-sandpaper RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT sandpaper)
+    install(FILES ${PROJECT_SOURCE_DIR}/examples/sandpaper/wale-sandpaper.desktop DESTINATION share/applications
+            COMPONENT sandpaper)
+  endif()
   # The binaries have these files inside; here they are for people to read and to begin from.
   file(GLOB_RECURSE files RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
        ${PROJECT_SOURCE_DIR}/library/*.wale ${PROJECT_SOURCE_DIR}/library/*.csv ${PROJECT_SOURCE_DIR}/library/*.png

@@ -37,7 +37,7 @@ Files sources() {
 
 /// The path of the file that an include of `name` means; empty when the file is not of the project.
 std::string found(const std::string& name, const Files& files) {
-  for (const char* root : {"", "schema/include/", "runtime/include/", "library/include/"})
+  for (const char* root : {"", "schema/include/", "runtime/include/", "library/include/", "examples/sandpaper/"})
     if (files.contains(root + name)) return root + name;
   return {};
 }

@@ -1,0 +1,175 @@
+#include "canvas/canvas_access.hpp"
+
+#include <QAccessible>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace sandpaper {
+namespace {
+
+constexpr double one_move = 0.001;  // m
+
+/// One patch.
+class PatchAccess : public QAccessibleInterface, public QAccessibleActionInterface {
+ public:
+  PatchAccess(const CanvasAccess& owner, QWidget* canvas, std::uint64_t id) : owner_(owner), canvas_(canvas), id_(id) {}
+
+  bool isValid() const override { return !canvas_.isNull() && placed(); }
+  QObject* object() const override { return nullptr; }
+  QWindow* window() const override { return canvas_ ? canvas_->window()->windowHandle() : nullptr; }
+  QAccessibleInterface* parent() const override { return canvas_ ? QAccessible::queryAccessibleInterface(canvas_) : nullptr; }
+  QAccessibleInterface* child(int) const override { return nullptr; }
+  QAccessibleInterface* childAt(int, int) const override { return nullptr; }
+  int childCount() const override { return 0; }
+  int indexOfChild(const QAccessibleInterface*) const override { return -1; }
+  QAccessible::Role role() const override { return QAccessible::ListItem; }
+  void setText(QAccessible::Text, const QString&) override {}
+
+  QString text(QAccessible::Text kind) const override {
+    const Placed* patch = isValid() ? placed() : nullptr;
+    if (!patch) return {};
+    const glm::dvec2 at = 1000.0 * patch->patch.at, size = 1000.0 * owner_.canvas().size_of(*patch);
+    switch (kind) {
+      case QAccessible::Name: return owner_.canvas().label_of(*patch);
+      case QAccessible::Value: return QString::fromStdString(patch->patch.made_of);
+      case QAccessible::Description:
+        return Canvas::tr("%1, made of %2, at %3, %4 mm, %5 by %6 mm%7")
+            .arg(owner_.canvas().label_of(*patch), QString::fromStdString(patch->patch.made_of))
+            .arg(at.x, 0, 'f', 1).arg(at.y, 0, 'f', 1).arg(size.x, 0, 'f', 1).arg(size.y, 0, 'f', 1)
+            .arg(patch->locked ? Canvas::tr(", locked") : QString());
+      default: return {};
+    }
+  }
+
+  QRect rect() const override {
+    const Placed* patch = isValid() ? placed() : nullptr;
+    return patch ? owner_.canvas().box_of(*patch).toAlignedRect().translated(canvas_->mapToGlobal(QPoint(0, 0))) : QRect();
+  }
+
+  QAccessible::State state() const override {
+    QAccessible::State state;
+    if (!isValid()) {
+      state.invalid = true;
+      return state;
+    }
+    state.selectable = state.focusable = true;
+    state.selected = state.focused = owner_.document().chosen().contains(id_);
+    return state;
+  }
+
+  void* interface_cast(QAccessible::InterfaceType type) override {
+    return type == QAccessible::ActionInterface ? static_cast<QAccessibleActionInterface*>(this) : nullptr;
+  }
+  QStringList actionNames() const override {
+    QStringList names;
+    for (const auto& [name, act] : actions()) names << name;
+    return names;
+  }
+  QStringList keyBindingsForAction(const QString&) const override { return {}; }
+  void doAction(const QString& wanted) override {
+    if (!isValid()) return;
+    for (const auto& [name, act] : actions())
+      if (name == wanted) return act();
+  }
+
+ private:
+  const Placed* placed() const { return owner_.document().contents().find(id_); }
+
+  std::vector<std::pair<QString, std::function<void()>>> actions() const {
+    Document& document = owner_.document();
+    const auto move = [&document, id = id_](glm::dvec2 by) {
+      document.change_placed(Canvas::tr("Move"), {id}, [by](Placed& placed) {
+        if (!placed.locked) placed.patch.at += by;
+      });
+    };
+    return {{pressAction(), [&document, id = id_] { document.choose({id}); }},
+            {Canvas::tr("move left"), [move] { move({-one_move, 0}); }},
+            {Canvas::tr("move right"), [move] { move({one_move, 0}); }},
+            {Canvas::tr("move up"), [move] { move({0, one_move}); }},
+            {Canvas::tr("move down"), [move] { move({0, -one_move}); }},
+            {Canvas::tr("raise"), [&document, id = id_] { document.raise({id}, 1); }},
+            {Canvas::tr("lower"), [&document, id = id_] { document.raise({id}, -1); }},
+            {Canvas::tr("delete"), [&document, id = id_] { document.remove({id}); }}};
+  }
+
+  const CanvasAccess& owner_;
+  QPointer<QWidget> canvas_;
+  std::uint64_t id_;
+};
+
+QAccessibleInterface* make_access(const QString& of_class, QObject* object) {
+  if (of_class == QLatin1String("sandpaper::Canvas"))
+    if (auto* canvas = qobject_cast<Canvas*>(object)) return new CanvasAccess(*canvas);
+  return nullptr;
+}
+
+}  // namespace
+
+CanvasAccess::CanvasAccess(Canvas& canvas) : QAccessibleWidget(&canvas, QAccessible::List), canvas_(canvas) {}
+
+CanvasAccess::~CanvasAccess() {
+  for (const auto& [id, known] : known_) QAccessible::deleteAccessibleInterface(known);
+}
+
+Document& CanvasAccess::document() const { return canvas_.document(); }
+
+const Placed* CanvasAccess::placed(int index) const {
+  const auto& all = document().contents().placed;
+  return index >= 0 && index < static_cast<int>(all.size()) ? all[static_cast<std::size_t>(index)].get() : nullptr;
+}
+
+int CanvasAccess::childCount() const { return static_cast<int>(document().contents().placed.size()); }
+
+QAccessibleInterface* CanvasAccess::of(std::uint64_t id) const {
+  const auto known = known_.find(id);
+  if (known != known_.end())
+    if (QAccessibleInterface* found = QAccessible::accessibleInterface(known->second)) return found;
+  auto* made = new PatchAccess(*this, &canvas_, id);
+  known_[id] = QAccessible::registerAccessibleInterface(made);
+  return made;
+}
+
+QAccessibleInterface* CanvasAccess::child(int index) const {
+  const Placed* found = placed(index);
+  return found ? of(found->id) : nullptr;
+}
+
+int CanvasAccess::indexOfChild(const QAccessibleInterface* child) const {
+  const auto& all = document().contents().placed;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const auto known = known_.find(all[i]->id);
+        known != known_.end() && QAccessible::accessibleInterface(known->second) == child)
+      return static_cast<int>(i);
+  return -1;
+}
+
+QAccessibleInterface* CanvasAccess::childAt(int x, int y) const {
+  const Placed* found = canvas_.patch_at(canvas_.to_metres(QPointF(canvas_.mapFromGlobal(QPoint(x, y)))));
+  return found ? of(found->id) : nullptr;
+}
+
+QAccessibleInterface* CanvasAccess::focusChild() const {
+  return canvas_.hasFocus() && document().chosen().size() == 1 ? of(*document().chosen().begin()) : nullptr;
+}
+
+QString CanvasAccess::text(QAccessible::Text kind) const {
+  if (kind == QAccessible::Description) {
+    const auto touched = canvas_.touched();
+    const Placed* on = touched ? document().contents().find(*touched) : nullptr;
+    return Canvas::tr("%n patch(es)", nullptr, childCount()) +
+           (on ? Canvas::tr(", the hand is on %1").arg(canvas_.label_of(*on)) : QString());
+  }
+  return QAccessibleWidget::text(kind);
+}
+
+void use_canvas_access() {
+  static const bool once = [] {
+    QAccessible::installFactory(make_access);
+    return true;
+  }();
+  (void)once;
+}
+
+}  // namespace sandpaper

@@ -1,0 +1,51 @@
+#include "canvas/pictures.hpp"
+
+#include <QStringList>
+#include <algorithm>
+#include <bit>
+
+namespace sandpaper {
+namespace {
+
+constexpr int kept_kilobytes = 256 * 1024;
+constexpr int largest_side = 768, least_side = 8;  // pixels
+
+/// The next size of a kept image: powers of two, so that zooming draws few.
+int kept_side(int pixels) {
+  return std::clamp(static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(pixels, 1)))), least_side, largest_side);
+}
+
+}  // namespace
+
+Pictures::Pictures(QObject* parent) : QObject(parent), images_(kept_kilobytes) {}
+
+QImage Pictures::find(const wale::Program& program, const std::vector<float>& parameters, glm::vec2 size, QSize pixels,
+                      Look look, QColor plain, int urgency) {
+  const QSize kept(kept_side(pixels.width()), kept_side(pixels.height()));
+  const QString of_program =
+      QString("%1|%2|%3").arg(reinterpret_cast<quintptr>(&program.decoded())).arg(static_cast<int>(look)).arg(plain.rgb());
+  QStringList parts = {of_program, QString::number(kept.width()), QString::number(kept.height()),
+                       QString::number(std::bit_cast<quint32>(size.x)), QString::number(std::bit_cast<quint32>(size.y))};
+  for (const float each : parameters) parts << QString::number(std::bit_cast<quint32>(each));
+  const QString key = parts.join('|');
+  if (const QImage* found = images_.object(key)) return *found;
+  if (!asked_.contains(key)) {
+    asked_[key] = true;
+    thread_.post(urgency, of_program.toStdString() + parts[3].toStdString() + parts[4].toStdString(),
+                 [this, key, of_program, program, parameters, size, kept, look, plain] {
+      const wale::Bank bank(program, parameters, {size.x, size.y, 0});
+      const QImage image = surface_image(bank, nullptr, size, kept, look, plain);
+      QMetaObject::invokeMethod(this, [this, key, of_program, image] {
+        images_.insert(key, new QImage(image), static_cast<int>(image.sizeInBytes() / 1024) + 1);
+        last_[of_program] = key;
+        asked_.erase(key);
+        emit drawn();
+      });
+    });
+  }
+  const auto last = last_.find(of_program);
+  const QImage* older = last == last_.end() ? nullptr : images_.object(last->second);
+  return older ? *older : QImage();
+}
+
+}  // namespace sandpaper

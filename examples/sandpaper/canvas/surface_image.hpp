@@ -1,0 +1,27 @@
+#pragma once
+
+#include <QColor>
+#include <QImage>
+#include <glm/vec2.hpp>
+#include <string>
+#include <wale/stage.hpp>
+
+namespace sandpaper {
+
+/// How surfaces are shown.
+enum class Look {
+  relief,       ///< its colour, lit from the upper left
+  blind,        ///< alike for all: only where it lies
+  depth,        ///< the higher, the lighter
+  force_field,  ///< where it pushes (hue) and how hard (the more, the lighter), on a hand at rest
+};
+
+/// The surface of a program with a size in m, in so many pixels. From any thread; takes some milliseconds for an image
+/// of 200 by 200. `memory` shows states and grids, and may be null. `plain` is the colour of a surface that has none.
+QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::vec2 size, QSize pixels, Look look, QColor plain);
+
+/// A colour for a material that has none, always the same for the same name: `denim(roughness: 0.3)` has that of
+/// `denim`.
+QColor colour_of(const std::string& made_of);
+
+}  // namespace sandpaper

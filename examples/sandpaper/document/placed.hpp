@@ -1,0 +1,52 @@
+#pragma once
+
+#include <QString>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+#include <wale/language_service.hpp>
+
+namespace sandpaper {
+
+/// A patch as the document holds it. It never changes: an edit makes a new one, so that undo keeps the old one.
+struct Placed {
+  std::uint64_t id = 0;  ///< stays the same while the patch is moved, turned into another material or renamed
+  wale::LaidOutPatch patch;
+  std::string compiled_from;             ///< the material's text without what sliders have changed since
+  std::map<std::string, float> sliders;  ///< parameters that sliders have moved, SI
+  bool locked = false;                   ///< the mouse and the arrow keys leave it where it is; not kept in the file
+
+  /// Whether it can be laid out; otherwise it is only kept as its author wrote it.
+  bool is_laid_out() const { return patch.verbatim.empty(); }
+};
+
+using PlacedRef = std::shared_ptr<const Placed>;
+
+/// All that a file holds: a workspace, and the text around it, which declares materials of its own. A value.
+struct Contents {
+  std::string name, documentation, trailing;  ///< of the workspace
+  std::vector<PlacedRef> placed;              ///< the last in front
+  std::string head, tail;                     ///< the file's text before and behind the workspace
+  std::string file;                           ///< the path beside which imports and pictures are looked for
+
+  const Placed* find(std::uint64_t id) const;
+  /// What the materials of the patches are compiled with: the file without its workspace.
+  std::string surroundings() const { return head + "\n" + tail; }
+  /// A name for a new patch that no other has: "oak", "oak_2", …
+  std::string new_name(const std::string& like) const;
+  wale::Layout layout() const;
+};
+
+/// A material with an argument of that name set to a text: `denim(roughness: 0.3)` from `denim`. Nothing if the text is
+/// neither a name nor one call, as `0.5 a + 0.5 b`.
+std::optional<std::string> with_argument(const std::string& made_of, const std::string& name, const std::string& value);
+
+/// The same without that argument.
+std::string without_argument(const std::string& made_of, const std::string& name);
+
+/// A number as a Wale file has it, with the unit in which its author reads it: "2.5 mm".
+std::string written(double si, const std::string& unit, double unit_in_si);
+
+}  // namespace sandpaper

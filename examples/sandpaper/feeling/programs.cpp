@@ -1,0 +1,44 @@
+#include "feeling/programs.hpp"
+
+#include <functional>
+
+namespace sandpaper {
+namespace {
+
+constexpr const char* patch_material = "patch_of_the_workspace";
+
+}  // namespace
+
+Programs::Programs(const wale::LanguageService& language, QObject* parent) : QObject(parent), language_(language) {}
+Programs::~Programs() = default;
+
+void Programs::set_device(const std::string& device) {
+  if (device == device_) return;
+  device_ = device;
+  known_.clear();
+  ++generation_;
+}
+
+MaterialProgramRef Programs::find(const std::string& surroundings, const std::string& file, const std::string& made_of, int urgency) {
+  const std::string key = std::to_string(std::hash<std::string>()(surroundings)) + "|" + file + "|" + made_of;
+  const auto [found, is_new] = known_.try_emplace(key);
+  if (!is_new) return found->second;
+  const std::string text = surroundings + "\nmaterial " + patch_material + " = " + made_of + "\n";
+  const wale::CompileOptions options{.device = device_, .material = patch_material, .name = file.empty() ? "untitled.wale" : file};
+  thread_.post(urgency, key, [this, key, made_of, text, options, generation = generation_] {
+    wale::CompiledText compiled = language_.compile(text, options);
+    auto program = std::make_shared<MaterialProgram>();
+    program->program = std::move(compiled.program), program->problems = std::move(compiled.problems);
+    QMetaObject::invokeMethod(this, [this, key, made_of, program, generation] { keep(key, made_of, program, generation); });
+  });
+  return nullptr;
+}
+
+void Programs::keep(const std::string& key, const std::string& made_of, MaterialProgramRef program,
+                    std::uint64_t generation) {
+  if (generation != generation_) return;
+  known_[key] = std::move(program);
+  emit compiled(QString::fromStdString(made_of));
+}
+
+}  // namespace sandpaper

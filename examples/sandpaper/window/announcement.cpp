@@ -1,0 +1,55 @@
+#include "window/announcement.hpp"
+
+#include <QAccessible>
+#include <QHBoxLayout>
+#include <algorithm>
+
+namespace sandpaper {
+namespace {
+
+constexpr int least_milliseconds = 6000, for_each_letter = 70;
+
+}  // namespace
+
+Announcement::Announcement(QWidget* parent) : QFrame(parent), words_(new QLabel), button_(new QToolButton) {
+  setFrameShape(QFrame::StyledPanel);
+  words_->setWordWrap(true);
+  words_->setTextFormat(Qt::PlainText);
+  words_->setObjectName("announcement");
+  auto* close = new QToolButton;
+  close->setText("✕");
+  close->setAccessibleName(tr("Close this line"));
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(8, 4, 4, 4);
+  layout->addWidget(words_, 1);
+  layout->addWidget(button_);
+  layout->addWidget(close);
+  timer_.setSingleShot(true);
+  connect(&timer_, &QTimer::timeout, this, &QWidget::hide);
+  connect(close, &QToolButton::clicked, this, &QWidget::hide);
+  connect(button_, &QToolButton::clicked, this, [this] {
+    hide();
+    const std::function<void()> act = act_;  // it may replace itself
+    if (act) act();
+  });
+  hide();
+}
+
+void Announcement::say(const QString& words) {
+  offer(words, {}, {});
+  timer_.start(std::max(least_milliseconds, for_each_letter * static_cast<int>(words.size())));
+}
+
+void Announcement::offer(const QString& words, const QString& button, const std::function<void()>& act) {
+  timer_.stop();
+  act_ = act;
+  words_->setText(words);
+  words_->setAccessibleName(words);
+  button_->setText(button);
+  button_->setVisible(!button.isEmpty());
+  show();
+  QAccessibleEvent alert(words_, QAccessible::Alert);
+  QAccessible::updateAccessibility(&alert);
+}
+
+}  // namespace sandpaper

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <QFrame>
+#include <QLabel>
+#include <QTimer>
+#include <QToolButton>
+#include <functional>
+
+namespace sandpaper {
+
+/// A line that says what went wrong or what can be done, where others would open a box. It goes away by itself, or when
+/// it is closed; screen readers read it out.
+class Announcement : public QFrame {
+  Q_OBJECT
+
+ public:
+  explicit Announcement(QWidget* parent = nullptr);
+
+  void say(const QString& words);
+  /// With a button that does something about it; then the line stays.
+  void offer(const QString& words, const QString& button, const std::function<void()>& act);
+  QString text() const { return words_->text(); }
+
+ private:
+  QLabel* words_;
+  QToolButton* button_;
+  QTimer timer_;
+  std::function<void()> act_;
+};
+
+}  // namespace sandpaper

@@ -1,0 +1,118 @@
+// Files: opening, saving, exporting, and what is dropped onto the canvas.
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QSaveFile>
+#include <QSettings>
+#include <wale/patch_program.hpp>
+
+#include "window/main_window.hpp"
+
+namespace sandpaper {
+namespace {
+
+const char* const wale_files = QT_TRANSLATE_NOOP("sandpaper", "Wale files (*.wale)");
+const char* const trusted_key = "felt_when_opened";
+
+}  // namespace
+
+bool MainWindow::save() {
+  editor_->commit();
+  if (document_.file().isEmpty()) return save_as();
+  if (const auto saved = document_.save(document_.file()); !saved) {
+    announce(saved.error());
+    return false;
+  }
+  announcement_->say(tr("Saved %1").arg(document_.file()));
+  return true;
+}
+
+bool MainWindow::save_as() {
+  QString file = QFileDialog::getSaveFileName(this, tr("Save the workspace"), document_.file(), tr(wale_files));
+  if (file.isEmpty()) return false;
+  if (!file.endsWith(".wale")) file += ".wale";
+  if (const auto saved = document_.save(file); !saved) {
+    announce(saved.error());
+    return false;
+  }
+  announcement_->say(tr("Saved %1").arg(document_.file()));
+  return true;
+}
+
+void MainWindow::when_saved(const QString& what, const std::function<void()>& then) {
+  if (document_.undo_stack().isClean() && !document_.is_stale()) return then();
+  announcement_->offer(tr("%1 has changes that are not saved. Save it first (Ctrl+S), or %2 without them.").arg(document_.title(), what),
+                       tr("Discard the changes and %1").arg(what), then);
+}
+
+void MainWindow::open_asked() {
+  when_saved(tr("open another file"), [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Open a workspace"), QFileInfo(document_.file()).path(), tr(wale_files));
+    if (!file.isEmpty()) open(file);
+  });
+}
+
+void MainWindow::feel_if_trusted() {
+  const bool is_trusted = QSettings().value(trusted_key).toStringList().contains(document_.file());
+  if (QAction* trust = action("feel_when_opened")) trust->setChecked(is_trusted);
+  if (is_trusted) feeling_.set_on(true);
+}
+
+void MainWindow::export_picture() {
+  const QString file = QFileDialog::getSaveFileName(this, tr("Export a picture"), {}, tr("Pictures (*.png)"));
+  if (file.isEmpty()) return;
+  const QString name = file.endsWith(".png") ? file : file + ".png";
+  announcement_->say(canvas_->grab().save(name) ? tr("Exported %1").arg(name) : tr("%1 cannot be written").arg(name));
+}
+
+void MainWindow::export_program() {
+  const auto shown = sliders_->shown();
+  const wale::Program* program = shown ? feeling_.program(*shown) : nullptr;
+  if (!program) return announcement_->say(tr("Choose the patch whose program is to be exported"));
+  QString name = QFileDialog::getSaveFileName(this, tr("Export a patch program"), {}, tr("Patch programs (*.wpp)"));
+  if (name.isEmpty()) return;
+  if (!name.endsWith(".wpp")) name += ".wpp";
+  const auto bytes = wale::write_patch_program(program->description());
+  QSaveFile file(name);
+  const bool written = file.open(QIODevice::WriteOnly) &&
+                       file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size())) ==
+                           static_cast<qint64>(bytes.size()) &&
+                       file.commit();
+  announcement_->say(written ? tr("Exported %1").arg(name) : tr("%1 cannot be written: %2").arg(name, file.errorString()));
+}
+
+void MainWindow::place_material(const QString& spelling, glm::dvec2 at) {
+  wale::LaidOutPatch patch{.made_of = spelling.toStdString(), .at = at, .size = glm::dvec2(0.04, 0.04)};
+  patch.name = spelling.section('.', -1).toStdString();
+  const auto ids = document_.add(tr("Place %1").arg(spelling), {std::move(patch)});
+  document_.choose({ids.begin(), ids.end()});
+  canvas_->setFocus();
+}
+
+void MainWindow::place_picture(const QString& path, glm::dvec2 at) {
+  // The picture itself is not opened here: only the compiler's decoder, which has no rights, reads a stranger's file.
+  bool ok = false;
+  const double scale = QInputDialog::getDouble(this, tr("A picture as a surface"),
+                                               tr("%1\nHow many millimetres is one of its pixels?").arg(QFileInfo(path).fileName()),
+                                               0.2, 0.001, 10, 3, &ok);
+  if (!ok) return;
+  const QString file = document_.file().isEmpty() ? path : QDir(QFileInfo(document_.file()).path()).relativeFilePath(path);
+  QString quoted = file;
+  quoted.replace('\\', "\\\\").replace('"', "\\\"");
+  Contents next = document_.contents();
+  const QString name = QString::fromStdString(next.new_name(QFileInfo(path).completeBaseName().toStdString()));
+  next.head += QString("material %1 {\n  physical {\n    let picture = relief(\"%2\", scale: %3 mm/px, height: 1 mm)\n"
+                       "    height surface = picture(hand)\n    force = lateral(surface, amplitude: 1 N)\n"
+                       "    show relief(surface)\n  }\n}\n\n")
+                   .arg(name, quoted, QString::number(scale, 'g', 5))
+                   .toStdString();
+  document_.undo_stack().beginMacro(tr("Import %1").arg(name));
+  document_.change(tr("Import %1").arg(name), std::move(next));
+  wale::LaidOutPatch patch{.name = name.toStdString() + "_patch", .made_of = name.toStdString(), .at = at};
+  const auto ids = document_.add(tr("Place %1").arg(name), {std::move(patch)});
+  document_.undo_stack().endMacro();
+  document_.choose({ids.begin(), ids.end()});
+}
+
+}  // namespace sandpaper

@@ -1,0 +1,320 @@
+#include "window/main_window.hpp"
+
+#include <QAbstractSpinBox>
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDateTime>
+#include <QDockWidget>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+namespace sandpaper {
+namespace {
+
+constexpr int before_advice = 800;     // ms without a change
+constexpr qint64 while_typing = 1000;  // ms: a space that comes sooner after another key belongs to the text
+
+bool takes_text(QWidget* widget) {
+  if (const auto* field = qobject_cast<QPlainTextEdit*>(widget)) return !field->isReadOnly();
+  return qobject_cast<QLineEdit*>(widget) || qobject_cast<QAbstractSpinBox*>(widget);
+}
+
+}  // namespace
+
+MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService& language, QWidget* parent)
+    : QMainWindow(parent),
+      library_(library),
+      language_(language),
+      document_(language),
+      programs_(language),
+      feeling_(library, programs_),
+      catalogue_(wale::library_catalogue()),
+      autosave_(document_),
+      canvas_(new Canvas(document_, feeling_, pictures_)),
+      announcement_(new Announcement),
+      description_(new DescriptionPanel(language)),
+      editor_(new TextEditor(document_, language)) {
+  setObjectName("sandpaper");
+  canvas_->setObjectName("canvas");
+  auto* middle = new QWidget;
+  auto* layout = new QVBoxLayout(middle);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(announcement_);
+  layout->addWidget(canvas_, 1);
+  setCentralWidget(middle);
+  make_panels();
+  make_safety_bar();
+  make_file_menu();
+  make_edit_menu();
+  make_view_menu();
+  make_feel_menu();
+  make_present_menu();
+  make_help_menu();
+  resize(1280, 760);
+
+  connect(&document_, &Document::contents_changed, this, [this] {
+    feeling_.follow(document_.contents());
+    update_actions();
+    advising_.start(before_advice);
+  });
+  advising_.setSingleShot(true);
+  connect(&advising_, &QTimer::timeout, this, &MainWindow::seek_advice);
+  connect(&document_, &Document::file_changed, this, &MainWindow::update_title);
+  connect(&document_, &Document::chosen_changed, this, &MainWindow::update_actions);
+  connect(&document_, &Document::refused, announcement_, &Announcement::say);
+  connect(&document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::update_title);
+  connect(&feeling_, &Feeling::said, announcement_, &Announcement::say);
+  connect(&feeling_, &Feeling::on_changed, this, &MainWindow::update_safety);
+  connect(&feeling_, &Feeling::device_changed, this, &MainWindow::update_safety);
+  connect(&feeling_, &Feeling::programs_changed, this, &MainWindow::update_description);
+  connect(canvas_, &Canvas::touched_changed, this, &MainWindow::touched_changed);
+  connect(canvas_, &Canvas::hovered, this, [this](glm::dvec2 at) {
+    place_->setText(tr("%1, %2 mm").arg(1000 * at.x, 0, 'f', 1).arg(1000 * at.y, 0, 'f', 1));
+  });
+  connect(canvas_, &Canvas::material_dropped, this, &MainWindow::place_material);
+  connect(canvas_, &Canvas::picture_dropped, this, &MainWindow::place_picture);
+  connect(canvas_, &Canvas::file_dropped, this, [this](const QString& file) {
+    when_saved(tr("open another file"), [this, file] { open(file); });
+  });
+  connect(palette_, &PalettePanel::wanted, this, [this](const QString& spelling) {
+    place_material(spelling, canvas_->to_metres(QPointF(canvas_->width() / 2.0, canvas_->height() / 2.0)));
+  });
+  connect(sliders_, &SliderPanel::shown_changed, this, &MainWindow::update_description);
+  connect(&plotting_, &QTimer::timeout, this, [this] {
+    if (feeling_.is_on()) plots_->add(canvas_->now());
+  });
+  plotting_.start(16);
+  qApp->installEventFilter(this);
+  update_title();
+  update_safety();
+  update_actions();
+  update_description();
+  offer_left_behind();
+}
+
+MainWindow::~MainWindow() {
+  qApp->removeEventFilter(this);
+  feeling_.set_on(false);
+  // The panels use the parts of the window, which end before its children.
+  delete participant_;
+  qDeleteAll(findChildren<QDockWidget*>());
+  delete takeCentralWidget();
+}
+
+void MainWindow::make_panels() {
+  palette_ = new PalettePanel(*catalogue_, programs_, pictures_);
+  sliders_ = new SliderPanel(document_, feeling_);
+  plots_ = new PlotPanel;
+  const auto dock = [this](const QString& name, const QString& title, QWidget* widget, Qt::DockWidgetArea area) {
+    auto* dock = new QDockWidget(title);
+    dock->setObjectName("dock_" + name);
+    dock->setWidget(widget);
+    addDockWidget(area, dock);
+    return dock;
+  };
+  dock("palette", tr("Library"), palette_, Qt::LeftDockWidgetArea);
+  auto* sliders = dock("sliders", tr("Sliders"), sliders_, Qt::RightDockWidgetArea);
+  auto* description = dock("description", tr("Feels like"), description_, Qt::RightDockWidgetArea);
+  splitDockWidget(sliders, description, Qt::Vertical);
+  auto* text = dock("text", tr("Text"), editor_, Qt::BottomDockWidgetArea);
+  auto* plots = dock("plots", tr("Run"), plots_, Qt::BottomDockWidgetArea);
+  tabifyDockWidget(text, plots);
+  text->raise();
+  resizeDocks({findChild<QDockWidget*>("dock_palette"), sliders}, {230, 330}, Qt::Horizontal);
+  resizeDocks({text}, {210}, Qt::Vertical);
+  resizeDocks({sliders, description}, {300, 260}, Qt::Vertical);
+  place_ = new QLabel;
+  statusBar()->addPermanentWidget(place_);
+}
+
+void MainWindow::make_safety_bar() {
+  auto* bar = addToolBar(tr("Force"));
+  bar->setObjectName("force_bar");
+  bar->setMovable(false);
+  bar->toggleViewAction()->setEnabled(false);  // it is always there
+  force_button_ = new QPushButton;
+  force_button_->setObjectName("force");
+  force_button_->setMinimumWidth(190);
+  force_button_->setFocusPolicy(Qt::TabFocus);
+  connect(force_button_, &QPushButton::clicked, this, [this] { feeling_.set_on(!feeling_.is_on()); });
+  limit_ = new QDoubleSpinBox;
+  limit_->setObjectName("limit");
+  limit_->setDecimals(2);
+  limit_->setSuffix(tr(" N"));
+  limit_->setPrefix(tr("at most "));
+  limit_->setAccessibleName(tr("Force limit in newtons"));
+  limit_->setKeyboardTracking(false);
+  connect(limit_, &QDoubleSpinBox::valueChanged, &feeling_, &Feeling::set_max_force);
+  device_ = new QComboBox;
+  device_->setObjectName("device");
+  device_->setAccessibleName(tr("Device"));
+  device_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  device_->setMinimumContentsLength(24);
+  for (const auto& [spelling, name] : feeling_.choices()) device_->addItem(name, spelling);
+  connect(device_, &QComboBox::activated, this, [this](int at) { feeling_.open(device_->itemData(at).toString()); });
+  bar->addWidget(force_button_);
+  bar->addWidget(limit_);
+  bar->addSeparator();
+  bar->addWidget(device_);
+}
+
+void MainWindow::update_safety() {
+  const bool on = feeling_.is_on();
+  force_button_->setText(on ? tr("Take all force away (Space)") : tr("Feel it (Ctrl+Space)"));
+  force_button_->setAccessibleName(on ? tr("Take all force away") : tr("Feel it"));
+  QPalette colours = palette();
+  if (on) {
+    colours.setColor(QPalette::Button, QColor(190, 30, 30));
+    colours.setColor(QPalette::ButtonText, Qt::white);
+  }
+  force_button_->setPalette(colours);
+  const QSignalBlocker quiet_limit(limit_), quiet_device(device_);
+  const bool pushes = feeling_.profile().force_newton > 0;
+  limit_->setEnabled(pushes);
+  limit_->setRange(0.01, pushes ? feeling_.profile().force_newton : 0.01);
+  limit_->setSingleStep(0.1);
+  limit_->setValue(feeling_.max_force());
+  device_->setCurrentIndex(device_->findData(feeling_.spelling()));
+  if (QAction* feel = action("feel")) feel->setChecked(on);
+}
+
+void MainWindow::update_title() {
+  setWindowTitle(tr("%1[*] — Sandpaper").arg(document_.title()));
+  setWindowModified(!document_.undo_stack().isClean() || document_.is_stale());
+  if (document_.is_stale())
+    statusBar()->showMessage(tr("The text has errors: what is felt is the last version without"));
+  else if (statusBar()->currentMessage().startsWith(tr("The text has errors")))
+    statusBar()->clearMessage();
+}
+
+void MainWindow::update_actions() {
+  const bool some = !document_.chosen().empty(), many = document_.chosen().size() > 1;
+  for (const char* name : {"delete", "duplicate", "raise", "lower", "front", "back", "lock", "rename", "rectangle", "ellipse"})
+    if (QAction* each = action(name)) each->setEnabled(some);
+  for (const char* name : {"align_left", "align_right", "align_top", "align_bottom", "align_x", "align_y"})
+    if (QAction* each = action(name)) each->setEnabled(many);
+  if (QAction* rename = action("rename")) rename->setEnabled(document_.chosen().size() == 1);
+}
+
+void MainWindow::update_description() {
+  const auto shown = sliders_->shown();
+  const Placed* placed = shown ? document_.contents().find(*shown) : nullptr;
+  if (!placed) return description_->show(tr("Choose or touch a patch."), nullptr);
+  const auto material = feeling_.material(placed->id);
+  QString why = tr("compiling …");
+  if (material && !material->program) {
+    why.clear();
+    for (const wale::Problem& each : material->problems) why += QString::fromStdString(wale::in_words(each.error)) + "\n";
+  }
+  description_->show(QString::fromStdString(placed->patch.name + " = " + placed->compiled_from), feeling_.program(placed->id), why);
+}
+
+void MainWindow::touched_changed() {
+  const auto touched = canvas_->touched();
+  sliders_->set_touched(touched);
+  const Placed* placed = touched ? document_.contents().find(*touched) : nullptr;
+  palette_->set_touched(placed ? QString::fromStdString(placed->patch.made_of) : QString());
+  if (!document_.is_stale())
+    statusBar()->showMessage(placed ? tr("on %1 = %2").arg(canvas_->label_of(*placed), QString::fromStdString(placed->patch.made_of))
+                                    : QString());
+}
+
+void MainWindow::announce(const wale::Error& error) {
+  QString words = QString::fromStdString(wale::in_words(error));
+  const QString file = QString::fromStdString(error.place.name);
+  if (!file.isEmpty() && !words.contains(file)) words = file + ": " + words;
+  announcement_->say(words);
+}
+
+void MainWindow::offer_left_behind() {
+  const auto left = Autosave::left_behind();
+  if (!left) return;
+  const QString name = left->file.isEmpty() ? tr("an unsaved workspace") : left->file;
+  announcement_->offer(tr("A window was closed by force. Its work on %1 from %2 was kept.")
+                           .arg(name, left->time.toString(Qt::ISODate)),
+                       tr("Restore it"), [this, left = *left] {
+                         document_.restore(left.file, left.text.toStdString());
+                         autosave_.save_now();
+                         Autosave::forget(left);
+                         announcement_->say(tr("Restored what was not saved, from %1. It is not saved yet.")
+                                                .arg(left.time.toString(Qt::ISODate)));
+                       });
+}
+
+void MainWindow::seek_advice() {
+  if (document_.is_stale() || document_.contents().placed.empty()) return;
+  const std::string text = document_.text();
+  const wale::WorkspaceOptions options{.device = programs_.device(),
+                                       .workspace = document_.contents().name,
+                                       .name = document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString()};
+  advisor_.post(0, "advice", [this, text, options] {
+    auto problems = language_.legibility(text, options);
+    QMetaObject::invokeMethod(this, [this, text, problems] { document_.set_advice({text, problems}); });
+  });
+}
+
+void MainWindow::step_frame(int by) {
+  editor_->commit();
+  const auto presentation = library_.presentation(document_.text(), document_.file().toStdString());
+  QStringList frames = document_.workspaces();
+  if (presentation && !presentation->movies.empty()) {
+    frames.clear();
+    for (const std::string& each : presentation->movies.front().frames) frames << QString::fromStdString(each);
+  }
+  if (frames.size() < 2) return announcement_->say(tr("This file has one workspace: there is nothing to step to"));
+  const qsizetype now = frames.indexOf(QString::fromStdString(document_.contents().name));
+  const QString next = frames[(now + by + frames.size()) % frames.size()];
+  if (!document_.show_workspace(next)) return announcement_->say(tr("%1 cannot be shown: mend the text first").arg(next));
+  QApplication::beep();
+  announcement_->say(tr("%1, %2 of %3").arg(next).arg(frames.indexOf(next) + 1).arg(frames.size()));
+}
+
+bool MainWindow::open(const QString& file) {
+  feeling_.set_on(false);
+  if (const auto opened = document_.open(file); !opened) {
+    announce(opened.error());
+    return false;
+  }
+  canvas_->show_all();
+  feel_if_trusted();
+  return true;
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  editor_->commit();
+  if (!closes_anyway_ && (!document_.undo_stack().isClean() || document_.is_stale())) {
+    event->ignore();
+    when_saved(tr("close"), [this] {
+      closes_anyway_ = true;
+      close();
+    });
+    return;
+  }
+  feeling_.set_on(false);
+  if (participant_) participant_->close();
+  QMainWindow::closeEvent(event);
+}
+
+bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() != QEvent::KeyPress || !watched->isWidgetType()) return QMainWindow::eventFilter(watched, event);
+  const auto* key = static_cast<QKeyEvent*>(event);
+  auto* widget = static_cast<QWidget*>(watched);
+  const bool is_space = key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier;
+  const qint64 now = QDateTime::currentMSecsSinceEpoch();
+  const bool belongs_to_text = takes_text(widget) && now - last_typed_ < while_typing;
+  if (takes_text(widget)) last_typed_ = now;
+  if (feeling_.is_on() && ((is_space && !belongs_to_text) || key->key() == Qt::Key_Escape)) {
+    feeling_.set_on(false);
+    announcement_->say(tr("All force is taken away."));
+    return !takes_text(widget);
+  }
+  return QMainWindow::eventFilter(watched, event);
+}
+
+}  // namespace sandpaper

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QMainWindow>
+#include <QPushButton>
+#include <wale/catalogue.hpp>
+#include <wale/language_service.hpp>
+
+#include "canvas/canvas.hpp"
+#include "document/document.hpp"
+#include "editor/text_editor.hpp"
+#include "feeling/feeling.hpp"
+#include "panels/description_panel.hpp"
+#include "panels/palette_panel.hpp"
+#include "panels/plot_panel.hpp"
+#include "panels/slider_panel.hpp"
+#include "window/announcement.hpp"
+#include "window/autosave.hpp"
+
+namespace sandpaper {
+
+/// The whole window. All parts are found by their object names: "canvas", "palette", "text", "announcement".
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  /// Both must outlive the window.
+  MainWindow(const wale::Library& library, const wale::LanguageService& language, QWidget* parent = nullptr);
+
+  ~MainWindow() override;
+
+  /// Opens a file and asks nothing: what was not saved before must have been dealt with.
+  bool open(const QString& file);
+  Document& document() { return document_; }
+  Feeling& feeling() { return feeling_; }
+  Canvas& canvas() { return *canvas_; }
+  bool is_busy() const { return programs_.is_busy() || pictures_.is_busy() || description_->is_busy() ||
+                                advising_.isActive() || advisor_.waiting() > 0; }
+  /// The action with that object name; null if there is none.
+  QAction* action(const QString& name) const { return findChild<QAction*>(name); }
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  // actions.cpp
+  QAction* add(QMenu* menu, const QString& name, const QString& text, const QKeySequence& key, const std::function<void()>& act);
+  QAction* add_toggle(QMenu* menu, const QString& name, const QString& text, const QKeySequence& key, bool on,
+                      const std::function<void(bool)>& act);
+  void make_file_menu();
+  void make_edit_menu();
+  void make_view_menu();
+  void make_feel_menu();
+  void make_present_menu();
+  void make_help_menu();
+
+  // main_window.cpp
+  void make_panels();
+  void make_safety_bar();
+  void update_title();
+  void update_safety();
+  void update_actions();
+  void update_description();
+  void touched_changed();
+  void announce(const wale::Error& error);
+  void offer_left_behind();
+  void seek_advice();
+  void step_frame(int by);
+
+  // files.cpp
+  bool save();
+  bool save_as();
+  /// Goes on at once if nothing is unsaved; else offers to save first, without a box.
+  void when_saved(const QString& what, const std::function<void()>& then);
+  void open_asked();
+  void export_picture();
+  void export_program();
+  void place_material(const QString& spelling, glm::dvec2 at);
+  void place_picture(const QString& file, glm::dvec2 at);
+  void feel_if_trusted();
+
+  const wale::Library& library_;
+  const wale::LanguageService& language_;
+  Document document_;
+  Programs programs_;
+  Feeling feeling_;
+  Pictures pictures_;
+  std::unique_ptr<wale::Catalogue> catalogue_;
+  Autosave autosave_;
+
+  Canvas* canvas_;
+  Announcement* announcement_;
+  PalettePanel* palette_ = nullptr;
+  SliderPanel* sliders_ = nullptr;
+  DescriptionPanel* description_ = nullptr;
+  TextEditor* editor_ = nullptr;
+  PlotPanel* plots_ = nullptr;
+  QPushButton* force_button_ = nullptr;
+  QComboBox* device_ = nullptr;
+  QDoubleSpinBox* limit_ = nullptr;
+  QLabel* place_ = nullptr;
+  Canvas* participant_ = nullptr;
+  QTimer plotting_, advising_;
+  qint64 last_typed_ = 0;
+  bool closes_anyway_ = false;
+  WorkThread advisor_;  // the last member: its work uses the others
+};
+
+}  // namespace sandpaper

@@ -1,0 +1,18 @@
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QStandardPaths>
+#include <QTemporaryDir>
+
+/// Without a screen, and in folders of its own: no test sees the home of the person who runs it.
+int main(int argc, char** argv) {
+  const QTemporaryDir home;
+  for (const char* name : {"HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})
+    qputenv(name, home.path().toUtf8());
+  if (qEnvironmentVariableIsEmpty("WALE_TEST_SCREEN")) qputenv("QT_QPA_PLATFORM", "offscreen");
+  QApplication application(argc, argv);
+  QApplication::setOrganizationName("wale");
+  QApplication::setApplicationName("sandpaper");
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
