@@ -1,6 +1,7 @@
 #include "library/editing/layout.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,6 +101,7 @@ Layout layout_of(const WorkspaceDecl& declared, const CheckedModule& module, std
     if (found) {
       patch = laid_out(*written, *found, module, text);
       patch.inside = comments_in(text.substr(begin, end - begin)) + behind;
+      patch.on_one_line = text.substr(begin, end - begin).find('\n') == std::string_view::npos;
     } else {
       if (written) patch.name = written->material.name.text;
       patch.verbatim = text.substr(begin, (behind.empty() ? end : line) - begin);
@@ -159,9 +161,12 @@ std::string patch_text(const LaidOutPatch& patch) {
   if (patch.rim) settings.emplace_back("rim", millimetres(*patch.rim));
   text += fmt::format("  patch {} = {}", patch.name, patch.made_of);
   if (settings.empty() && patch.marks.empty() && patch.inside.empty()) return text + "\n";
+  std::vector<std::string> lines;
+  for (const auto& [key, value] : settings) lines.push_back(key + " " + value);
+  for (const LaidOutMark& mark : patch.marks) lines.push_back(mark_text(mark));
+  if (patch.on_one_line && patch.inside.empty()) return text + fmt::format(" {{ {} }}\n", fmt::join(lines, "; "));
   text += " {\n" + indented(patch.inside, "    ");
-  for (const auto& [key, value] : settings) text += fmt::format("    {} {}\n", key, value);
-  for (const LaidOutMark& mark : patch.marks) text += "    " + mark_text(mark) + "\n";
+  for (const std::string& line : lines) text += "    " + line + "\n";
   return text + "  }\n";
 }
 

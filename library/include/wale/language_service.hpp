@@ -76,6 +76,7 @@ struct LaidOutPatch {
   Shape outline;                   ///< what that is; `outline.size()` is its own size, of an ellipse that of a circle of 1 m
   std::optional<double> rim;       ///< m, if it is written
   std::vector<LaidOutMark> marks;
+  bool on_one_line = false;  ///< its braces are on the line of its name
   std::string before;  ///< the comments and the documentation in front, in whole lines
   std::string inside;  ///< the comments in and directly behind the declaration, in whole lines
   /// A statement that is kept as it is written, such as `patches from picture(…) { … }` or a patch with an error; then
