@@ -4,10 +4,12 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "compiler/declarations/in_double.hpp"
+
 namespace wale {
 
 double normal_quantile(double p) {
-  return boost::math::quantile(boost::math::normal(), p);
+  return boost::math::quantile(boost::math::normal_distribution<double, InDouble>(), p);
 }
 
 double sensitivity(Task task, double criterion) {

@@ -4,8 +4,13 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "compiler/declarations/in_double.hpp"
+
 namespace wale {
 namespace {
+
+using Normal = boost::math::normal_distribution<double, InDouble>;
+using Student = boost::math::students_t_distribution<double, InDouble>;
 
 constexpr double outside = 0.025;  // share of the levels on either side of a 95 % interval
 
@@ -20,10 +25,9 @@ double half_width(const Variance& a, const Variance& b) {
   if (!(whole > 0)) return 0;
   const double inverse = (a.size * a.size / a.freedom + b.size * b.size / b.freedom) / (whole * whole);
   constexpr double hardly_any = 1e-6;  // of 1 / freedom: the two distributions are the same to five digits
-  const double quantile =
-      inverse < hardly_any
-          ? boost::math::quantile(boost::math::complement(boost::math::normal(), outside))
-          : boost::math::quantile(boost::math::complement(boost::math::students_t(1 / inverse), outside));
+  const double quantile = inverse < hardly_any
+                              ? boost::math::quantile(boost::math::complement(Normal(), outside))
+                              : boost::math::quantile(boost::math::complement(Student(1 / inverse), outside));
   return quantile * std::sqrt(whole);
 }
 
