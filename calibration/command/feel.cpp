@@ -30,7 +30,7 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/solve/level_scale.hpp"
 #include "compiler/text/readable.hpp"
-#include "runtime/device/built_for.hpp"
+#include "schema/built_for.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale::command {

@@ -8,7 +8,7 @@
 #include "calibration/feel/hand_motion.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/text/readable.hpp"
-#include "runtime/device/built_for.hpp"
+#include "schema/built_for.hpp"
 #include "runtime/device/wait_for_device.hpp"
 #include "wale/simulated.hpp"
 #include "wale/simulated_pad.hpp"

@@ -11,7 +11,7 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/text/readable.hpp"
-#include "runtime/device/built_for.hpp"
+#include "schema/built_for.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale {

@@ -8,7 +8,7 @@
 
 #include "calibration/feel/trusted_declarations.hpp"
 #include "schema/owners_devices_file.hpp"
-#include "runtime/device/built_for.hpp"
+#include "schema/built_for.hpp"
 #include "runtime/device/driver.hpp"
 #include "runtime/device/force_limits.hpp"
 #include "tests/runtime/programs.hpp"
