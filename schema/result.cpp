@@ -1,9 +1,18 @@
 #include "wale/result.hpp"
 
+#include "schema/without_place.hpp"
+
 namespace wale {
 
-std::string in_words(const Error& error) {
+std::string in_words_without_place(const Error& error) {
   return error.mend.empty() ? error.sentence : error.sentence + "; " + error.mend;
+}
+
+std::string in_words(const Error& error) {
+  std::string place = error.place.name;
+  for (const auto& number : {error.place.number, error.place.column})
+    if (number && !place.empty()) place += ":" + std::to_string(*number);
+  return (place.empty() ? "" : place + ": ") + in_words_without_place(error);
 }
 
 std::string explained(const Error& error) {
