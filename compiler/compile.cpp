@@ -27,6 +27,7 @@
 #include "compiler/text/readable.hpp"
 #include "compiler/text/sampled_rate.hpp"
 #include "schema/spelling.hpp"
+#include "schema/without_place.hpp"
 
 namespace wale {
 
@@ -117,7 +118,7 @@ std::optional<Program> program_of(const SolvedMaterial& solved, const CheckedMat
   diagnostics.report(
       {.code = Code::program_too_large,
        .span = solved.span,
-       .message = fmt::format("the machine refuses `{}`: {}", solved.name, in_words(loaded.error())),
+       .message = fmt::format("the machine refuses `{}`: {}", solved.name, in_words_without_place(loaded.error())),
        .help = "if the material is large, make it smaller; if it is not, this is an error in the compiler"});
   return std::nullopt;
 }

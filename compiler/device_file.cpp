@@ -7,6 +7,7 @@
 
 #include "compiler/check/check.hpp"
 #include "compiler/compile.hpp"
+#include "compiler/diagnostics/told.hpp"
 
 namespace wale {
 namespace {
@@ -15,10 +16,7 @@ namespace {
 Error first_error(const std::string& file, const Diagnostics& diagnostics, const SourceSet& sources) {
   const auto first = std::ranges::find(diagnostics.all(), Severity::error,
                                        [](const Diagnostic& each) { return severity_of(each.code); });
-  Error error{.code = first->code,
-              .sentence = first->message,
-              .mend = first->help,
-              .place = {.name = sources[first->span.source].name, .number = sources.place(first->span).line}};
+  Error error = told(*first, sources);
   const std::size_t more = diagnostics.error_count() - 1;
   if (more > 0) {
     if (!error.mend.empty()) error.mend += error.mend.ends_with('?') ? " " : "; ";

@@ -62,7 +62,7 @@ Result<NamedFile> read_named(const std::string& path, const std::string& materia
   }
   Error error = read.error();
   error.sentence = "cannot be read: " + error.sentence;
-  error.place.name = path;
+  error.place.name = path.empty() ? "path" : path;
   if (error.mend.empty())
     error.mend = exists(path) ? mend_of_path(path) : "`wale find` lists the materials of the library";
   return error;
@@ -88,6 +88,22 @@ std::string shortened(const std::string& name) {
   return name.size() <= longest ? name : name.substr(0, longest) + "…";
 }
 
+/// The first names of materials of a kind: at most three, and of each of its own kinds one before a second.
+std::vector<std::string> some_of_kind(const LibraryIndex& index, const std::string& kind) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> names, kinds;
+  for (const bool anew : {true, false})
+    for (const IndexedMaterial& each : index.materials()) {
+      const bool is_of_kind = each.kind == kind || each.kind.starts_with(kind + ".");
+      if (!is_of_kind || each.origin == Origin::hidden || names.size() == most) continue;
+      if (anew && std::ranges::find(kinds, each.kind) != kinds.end()) continue;
+      if (std::ranges::find(names, each.name) != names.end()) continue;
+      names.push_back(each.name);
+      kinds.push_back(each.kind);
+    }
+  return names;
+}
+
 /// `is_not` goes on with the sentence of the error: "`corderoy` …".
 Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::string>& roots,
                                std::string_view is_not) {
@@ -110,7 +126,9 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
     const bool is_kind = std::ranges::find(kinds, name) != kinds.end();
     if (is_kind) {
       error.sentence = fmt::format("`{}` is a kind of material, not a material", name);
-      error.mend = fmt::format("`wale find --kind {}` lists its materials", name);
+      error.nearest = some_of_kind(*index, name);
+      error.mend = fmt::format("ask for one of its materials, as for `{}`; `wale find --kind {}` lists all",
+                               fmt::join(error.nearest, "`, `"), name);
     } else if (const auto near = nearest_materials(*index, name); !near.empty()) {
       error.mend = fmt::format("the nearest: {}; `wale find` lists all", listed_near(near));
       for (const NearMaterial& each : near) error.nearest.push_back(each.material->name);

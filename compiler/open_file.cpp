@@ -21,8 +21,7 @@ Result<OpenedFile> open_named(NamedFile named, const FileRequest& request) {
     auto loaded = Program::load(std::as_bytes(std::span(bytes)));
     if (!loaded) {
       Error error = loaded.error();
-      error.sentence = "cannot be loaded: " + in_words(error);
-      error.mend = "build it again from its Wale file";
+      error.sentence = "cannot be loaded: " + error.sentence;
       error.place = {.name = opened.name};
       error.led_to.clear();  // the sentence contains it
       return error;

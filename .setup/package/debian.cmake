@@ -71,7 +71,7 @@ percepts. Materials with pictures also need the decoder of the package wale."
   debian_package(command wale utils "language for how things feel"
     "This package has the command line, which checks, describes, compares, draws
 and feels materials, and the shipped library of materials."
-    DEPENDS "wale-keeper (>= ${PROJECT_VERSION})" SUGGESTS libwale-dev)
+    DEPENDS "wale-keeper (>= ${PROJECT_VERSION})" RECOMMENDS wale-doc SUGGESTS libwale-dev)
   if(TARGET wale-sandpaper)
     debian_package(sandpaper wale-sandpaper utils "workspace for materials that are felt"
       "This package has the window in which materials are laid out, felt with a
@@ -85,10 +85,15 @@ force-feedback joystick or seen with the mouse, and changed."
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
   endif()
 endif()
+debian_package(pages wale-doc doc "pages and examples of the haptics language Wale"
+  "This package has the pages about the language, the library, the interfaces and
+the formats of files, and programs to begin from."
+  SUGGESTS "wale, libwale-dev" ARCHITECTURE all)
+set(CPACK_DEBIAN_PAGES_PACKAGE_SHLIBDEPS OFF)
 debian_package(development libwale-dev libdevel "headers and libraries of the haptics language Wale"
   "This package has what programs are built with: headers, static libraries, the
 CMake package Wale, and wale.pc and wale-runtime.pc for pkg-config."
-  DEPENDS "${all_development}" SUGGESTS "libusb-1.0-0-dev, libfmt-dev, libkissfft-dev")
+  DEPENDS "${all_development}" RECOMMENDS wale-doc SUGGESTS "libusb-1.0-0-dev, libfmt-dev, libkissfft-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 # The libraries refer to each other before they are installed.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR})

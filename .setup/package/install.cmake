@@ -30,13 +30,7 @@ function(install_headers)
   endforeach()
 endfunction()
 
-# Pages for programmers, and programs to begin from.
-install(FILES ${PROJECT_SOURCE_DIR}/runtime/C_INTERFACE.md ${PROJECT_SOURCE_DIR}/runtime/record/RECORDING.md
-              ${PROJECT_SOURCE_DIR}/runtime/workspace/WORKSPACE_FILE.md
-        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development
-        FILES_MATCHING PATTERN *.cpp PATTERN *.c PATTERN *.py PATTERN *.md PATTERN CMakeLists.txt
-        PATTERN sandpaper EXCLUDE)  # a package of its own
+include(pages.cmake)
 
 install(TARGETS wale-c_runtime EXPORT Wale-runtime)
 install_library(wale-runtime runtime)
@@ -65,7 +59,6 @@ if(WALE_COMPILER)
     install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${data_folder}/${folder} COMPONENT command)
   endforeach()
   install(FILES ${PROJECT_SOURCE_DIR}/library/wale.project DESTINATION ${data_folder}/library COMPONENT command)
-  install(FILES ${PROJECT_SOURCE_DIR}/schema/LANGUAGE.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
 
   if(TARGET manual)
     # Debian's zsh looks elsewhere.

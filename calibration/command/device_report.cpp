@@ -9,6 +9,7 @@
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
 #include "runtime/device/match_device.hpp"
+#include "schema/without_place.hpp"
 
 namespace wale::command {
 namespace {
@@ -147,7 +148,7 @@ std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice
   if (!device.can.empty() && device.processes_hidden > 0)
     line(fmt::format("perhaps in use by others: this user may not see the files of {} processes",
                      device.processes_hidden));
-  if (device.obstacle) line("cannot be used: " + in_words(*device.obstacle));
+  if (device.obstacle) line("cannot be used: " + in_words_without_place(*device.obstacle));
   return text;
 }
 
@@ -168,7 +169,7 @@ nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const Tru
           {"left_alone", device.driver->left_alone},
           {"held_by", device.held_by},
           {"processes_hidden", device.processes_hidden},
-          {"obstacle", device.obstacle ? in_words(*device.obstacle) : ""}};
+          {"obstacle", device.obstacle ? in_words_without_place(*device.obstacle) : ""}};
 }
 
 /// A figure; null for zero, which means unknown.
@@ -233,7 +234,7 @@ std::string devices_text(std::span<const DeclaredDevice> known, std::span<const 
   for (const DeclaredDevice& device : known) column = std::max(column, device.profile.name.size());
   for (const DeclaredDevice& device : known) text += declared_text(device, column);
   text += "\nplugged in (wale feel --device PORT)\n";
-  if (!connections.usb) text += fmt::format("  {}\n", in_words(connections.usb.error()));
+  if (!connections.usb) text += fmt::format("  {}\n", in_words_without_place(connections.usb.error()));
   if (plugged.empty() && connections.usb) text += nothing_plugged;
   for (const PluggedIn& device : plugged) text += plugged_text(device, known, trusted);
   return text;

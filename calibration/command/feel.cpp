@@ -30,7 +30,7 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/solve/level_scale.hpp"
 #include "compiler/text/readable.hpp"
-#include "runtime/device/built_for.hpp"
+#include "schema/built_for.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale::command {
@@ -249,12 +249,14 @@ Run declare_feel(CLI::App& verb) {
   offer_trusted_files(verb, options->trusted);
   offer_name(verb, "--transport", options->transport, transport_names(),
              "the way to drive a real device, if it has several (default: the first that works; see `wale devices`)");
-  verb.add_option(
-          "--hand", options->hand,
-          "how the hand on a simulated device moves: lateral (default), to and fro; circular; press, in and out; "
-          "rest; then along x, y or an angle, and at a place, as in \"lateral along 30 deg at 20 mm, 5 mm\"; or "
-          "a CSV file with columns t (s), x (m), y (m)")
-      ->type_name("HAND");
+  propose(
+      verb.add_option(
+              "--hand", options->hand,
+              "how the hand on a simulated device moves: lateral (default), to and fro; circular; press, in and out; "
+              "rest; then along x, y or an angle, and at a place, as in \"lateral along 30 deg at 20 mm, 5 mm\"; or "
+              "a CSV file with columns t (s), x (m), y (m)")
+          ->type_name("HAND"),
+      {"lateral", "circular", "press", "rest"}, true);
   offer_duration(
       verb, "--seconds", options->seconds, {.endless = true},
       "how long to feel, as in 10, \"10 s\", \"2 min\" or inf (default: 5 s, or up to a minute where a simulated hand "

@@ -6,6 +6,7 @@
 #include "calibration/feel/blind_comparison.hpp"
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/text/json_text.hpp"
+#include "schema/without_place.hpp"
 
 namespace wale {
 namespace {
@@ -50,7 +51,7 @@ std::string blind_text(const BlindReport& report) {
   std::string text = fmt::format("A {} and B {}, on {}: which of two was A?\n", report.a, report.b, report.device);
   if (report.session.ended)
     text += fmt::format("  ended early  {} of {} trials {} answered: {}\n", answered, report.asked,
-                        answered == 1 ? "was" : "were", in_words(*report.session.ended));
+                        answered == 1 ? "was" : "were", in_words_without_place(*report.session.ended));
   if (answered > 0) {
     const BlindScore score = score_of(report.session);
     text += fmt::format(
@@ -74,7 +75,7 @@ std::string blind_json(const BlindReport& report) {
   Json json = {{"a", report.a},           {"b", report.b},
                {"device", report.device}, {"method", "two-interval forced choice: which was A"},
                {"seed", report.seed},     {"asked", report.asked}};
-  if (report.session.ended) json["ended"] = in_words(*report.session.ended);
+  if (report.session.ended) json["ended"] = in_words_without_place(*report.session.ended);
   Json& trials = json["trials"] = Json::array();
   for (const BlindTrial& each : report.session.trials)
     trials.push_back({{"a_first", each.a_first}, {"answer", each.answer}, {"right", each.right()}});

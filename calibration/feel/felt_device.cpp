@@ -8,8 +8,8 @@
 #include "calibration/feel/hand_motion.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/text/readable.hpp"
-#include "runtime/device/built_for.hpp"
 #include "runtime/device/wait_for_device.hpp"
+#include "schema/built_for.hpp"
 #include "wale/simulated.hpp"
 #include "wale/simulated_pad.hpp"
 

@@ -13,6 +13,7 @@
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
 #include "schema/visible_text.hpp"
+#include "schema/without_place.hpp"
 
 namespace wale {
 
@@ -163,7 +164,7 @@ std::string levels_text(const FeltReport& report) {
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     const LevelBack& level = report.levels[i];
     if (!level.back) {
-      text += fmt::format("  {:<12} no level: {}\n", level.name, in_words(level.back.error()));
+      text += fmt::format("  {:<12} no level: {}\n", level.name, in_words_without_place(level.back.error()));
       continue;
     }
     text += readable("  delivered    {}\n", delivered_text(report, i));
@@ -361,7 +362,7 @@ std::string felt_json(const FeltReport& report) {
           {"aimed", report.aimed[i]}, {"let_through", report.let_through[i]}, {"at_least", bool(report.at_least[i])},
           {"unit", report.units[i]}};
     else
-      entry = {{"refused", in_words(report.levels[i].back.error())}};
+      entry = {{"refused", in_words_without_place(report.levels[i].back.error())}};
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
   }
   for (const ReadLevel& each : report.read)

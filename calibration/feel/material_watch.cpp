@@ -11,8 +11,9 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/text/readable.hpp"
-#include "runtime/device/built_for.hpp"
+#include "schema/built_for.hpp"
 #include "schema/visible_text.hpp"
+#include "schema/without_place.hpp"
 
 namespace wale {
 
@@ -103,7 +104,7 @@ std::string MaterialWatch::apply_settings(const PatchProgram& now) {
         said = readable("`--set {}` is outside {:.6g} .. {} now: {} is used", setting,
                         parameter->low / parameter->unit_in_si, in_its_unit(*parameter, parameter->high),
                         in_its_unit(*parameter, used));
-      if (const auto set = patch_.set(name, used); !set) said = in_words(set.error());
+      if (const auto set = patch_.set(name, used); !set) said = in_words_without_place(set.error());
     }
     if (std::exchange(said_of_settings_[setting], said) != said && !said.empty())
       news += fmt::format("wale: {}\n", visible_text(said));

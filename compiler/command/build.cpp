@@ -159,11 +159,12 @@ Run declare_build(CLI::App& verb) {
            "the name of a workspace")
       ->excludes("--material")
       ->excludes("--all");
-  verb.add_option("--emit", options->stage,
-                  "writes the output of a stage instead: tree (as parsed), checked, ir (its values), "
-                  "listing (its instructions), cpp (a C++17 header for firmware)")
-      ->type_name("STAGE")
-      ->excludes("--workspace");
+  propose(verb.add_option("--emit", options->stage,
+                          "writes the output of a stage instead: tree (as parsed), checked, ir (its values), "
+                          "listing (its instructions), cpp (a C++17 header for firmware)")
+              ->type_name("STAGE")
+              ->excludes("--workspace"),
+          {"tree", "checked", "ir", "listing", "cpp"});
   verb.add_option("--live", options->live,
                   "with --emit cpp: the parameters that stay adjustable, separated by commas; size: the patch's size; "
                   "all: everything. The rest is computed when the header is written")

@@ -12,7 +12,7 @@ namespace wale::command {
 namespace {
 
 /// What a word of the command line may be, and so what is proposed for it.
-enum class Sought { nothing, file, material, folder, percept, device, code };
+enum class Sought { nothing, file, material, folder, percept, device, place, code, kind };
 
 Sought sought_by(const CLI::App& verb, const CLI::Option& option) {
   constexpr std::array<std::string_view, 3> of_files_alone = {"check", "format", "replay"};
@@ -25,7 +25,10 @@ Sought sought_by(const CLI::App& verb, const CLI::Option& option) {
   }
   const std::string type = option.get_type_name();
   if (option.check_lname("against")) return Sought::material;
+  const bool is_where = option.check_lname("device") && verb.get_name() == "feel";  // a device in the hand
+  if (is_where || option.check_lname("identify")) return Sought::place;
   if (option.check_lname("device") || option.check_lname("built-for")) return Sought::device;
+  if (option.check_lname("kind")) return Sought::kind;
   return type == "FILE" ? Sought::file : type == "DIR" ? Sought::folder : Sought::nothing;
 }
 
@@ -51,6 +54,8 @@ const char* in_bash(Sought sought) {
     case Sought::folder: return "compopt -o filenames 2>/dev/null; COMPREPLY=($(compgen -d -- \"$cur\"))";
     case Sought::percept: return "_wale_words \"$percepts\"";
     case Sought::device: return "_wale_words \"$devices\"";
+    case Sought::place: return "_wale_words \"$places\"";
+    case Sought::kind: return "_wale_words \"$kinds\"";
     case Sought::code: return "_wale_words \"$codes\"";
     case Sought::nothing: return ":";
   }
@@ -64,10 +69,26 @@ const char* in_zsh(Sought sought) {
     case Sought::folder: return "_files -/";
     case Sought::percept: return "($wale_percepts)";
     case Sought::device: return "($wale_devices)";
+    case Sought::place: return "($wale_places)";
+    case Sought::kind: return "($wale_kinds)";
     case Sought::code: return "($wale_codes)";
     case Sought::nothing: return " ";
   }
   return " ";
+}
+
+/// What is proposed for the value of an option.
+std::string value_in_bash(const CLI::App& verb, const CLI::Option& option) {
+  const auto [words, or_file] = proposed(option);
+  if (words.empty()) return in_bash(sought_by(verb, option));
+  return fmt::format("_wale_words \"{}\"{}", fmt::join(words, " "), or_file ? "; _wale_files" : "");
+}
+
+std::string value_in_zsh(const CLI::App& verb, const CLI::Option& option) {
+  const auto [words, or_file] = proposed(option);
+  if (words.empty()) return in_zsh(sought_by(verb, option));
+  if (!or_file) return fmt::format("({})", fmt::join(words, " "));
+  return fmt::format(" _wale_word_or_file {}", fmt::join(words, " "));
 }
 
 /// A description within '…' and […] of a zsh specification.
@@ -90,13 +111,24 @@ std::string zsh_option(const CLI::App& verb, const CLI::Option& option) {
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
   const bool again = option.get_items_expected_max() > 1;
-  const std::string value =
-      option.get_items_expected_max() > 0
-          ? fmt::format(":{}:{}", zsh_text(option.get_type_name()), in_zsh(sought_by(verb, option)))
-          : "";
+  const std::string value = option.get_items_expected_max() > 0
+                                ? fmt::format("{}{}:{}", option.get_items_expected_min() == 0 ? "::" : ":",
+                                              zsh_text(option.get_type_name()), value_in_zsh(verb, option))
+                                : "";
   const std::string spelt = names.size() == 1 ? names.front() : fmt::format("'{{{}}}'", fmt::join(names, ","));
   const std::string excluded = again ? "*" : fmt::format("({})", fmt::join(names, " "));
   return fmt::format("        '{}{}[{}]{}' \\\n", excluded, spelt, zsh_text(option.get_description()), value);
+}
+
+/// The lists of words by their names in a script.
+std::vector<std::pair<std::string, std::vector<std::string>>> lists_of(const CompletedNames& names) {
+  std::vector<std::string> places = {"auto", "usb", "pointer", "simulated"};
+  places.insert(places.end(), names.devices.begin(), names.devices.end());
+  return {{"percepts", names.percepts},
+          {"devices", names.devices},
+          {"places", places},
+          {"codes", names.codes},
+          {"kinds", names.kinds}};
 }
 
 }  // namespace
@@ -112,7 +144,7 @@ std::string bash_completion(const CLI::App& all, const CompletedNames& names) {
       std::vector<std::string> spelt;
       for (const std::string& name : option->get_snames()) spelt.push_back("-" + name);
       for (const std::string& name : option->get_lnames()) spelt.push_back("--" + name);
-      values += fmt::format("        {}) {}; return ;;\n", fmt::join(spelt, "|"), in_bash(sought_by(*verb, *option)));
+      values += fmt::format("        {}) {}; return ;;\n", fmt::join(spelt, "|"), value_in_bash(*verb, *option));
     }
     cases += fmt::format(
         "    {})\n      options=\"{}\"\n      case $prev in\n{}      esac\n      [[ $cur == -* ]] || {{ {}; return; }} "
@@ -127,8 +159,8 @@ _wale() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} options=
   local IFS=$' \t\n'
 )";
-  text += fmt::format("  local percepts=\"{}\"\n  local devices=\"{}\"\n  local codes=\"{}\"\n",
-                      fmt::join(names.percepts, " "), fmt::join(names.devices, " "), fmt::join(names.codes, " "));
+  for (const auto& [name, words] : lists_of(names))
+    text += fmt::format("  local {}=\"{}\"\n", name, fmt::join(words, " "));
   text += fmt::format(
       "  COMPREPLY=()\n  if ((COMP_CWORD == 1)); then\n    _wale_words \"{} --help --version\"\n    return\n  fi\n",
       fmt::join(verbs, " "));
@@ -147,16 +179,23 @@ std::string zsh_completion(const CLI::App& all, const CompletedNames& names) {
     cases += sought == Sought::nothing ? "        ;;\n" : fmt::format("        '*:name:{}' ;;\n", in_zsh(sought));
   }
   std::string text = "#compdef wale\n# zsh completion of wale. Generated by the program itself.\n";
-  text += fmt::format("local wale_percepts=\"{}\"\nlocal wale_devices=\"{}\"\nlocal wale_codes=\"{}\"\n",
-                      fmt::join(names.percepts, " "), fmt::join(names.devices, " "), fmt::join(names.codes, " "));
+  // zsh reads this file at the first completion and afterwards calls only the functions, so lists are within them.
+  std::string lists;
+  for (const auto& [name, words] : lists_of(names))
+    lists += fmt::format("  local -a wale_{}=({})\n", name, fmt::join(words, " "));
   return text + R"zsh(
+(( $+functions[_wale_word_or_file] )) || _wale_word_or_file() {
+  local -a words_here=($@)
+  _alternative 'words:word:compadd -a words_here' 'files:file:_files'
+}
 (( $+functions[_wale_material] )) || _wale_material() {
   local -a materials
   materials=(${(f)"$(wale find 2>/dev/null | cut -d ' ' -f 1)"})
   _alternative 'materials:material:compadd -a materials' 'files:file:_files'
 }
 _wale() {
-  local -a verbs
+)zsh" + lists +
+         R"zsh(  local -a verbs
   verbs=(
 )zsh" + verbs +
          R"zsh(  )

@@ -6,6 +6,7 @@
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/diagnostics/explain.hpp"
+#include "compiler/modules/find_materials.hpp"
 #include "compiler/text/output_file.hpp"
 
 namespace wale::command {
@@ -17,8 +18,9 @@ struct ManualOptions {
 
 CompletedNames names_to_complete() {
   const auto known = declared_everywhere();
-  CompletedNames names{known->declarations.percept_spellings(), known->declarations.devices.spellings(), {}};
+  CompletedNames names{known->declarations.percept_spellings(), known->declarations.devices.spellings(), {}, {}};
   for (const Code code : all_codes()) names.codes.push_back(code_name(code));
+  names.kinds = kinds_in(*library_index(*file_resolver({}), "here"));
   return names;
 }
 

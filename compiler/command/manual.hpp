@@ -14,7 +14,7 @@ std::string manual_page(const CLI::App& all, const CLI::App* verb);
 
 /// The names that completion proposes besides the verbs and their options.
 struct CompletedNames {
-  std::vector<std::string> percepts, devices, codes;
+  std::vector<std::string> percepts, devices, codes, kinds;
 };
 
 /// The completion of the command line for a shell. Names of materials are asked for when they are completed, by

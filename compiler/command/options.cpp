@@ -52,6 +52,36 @@ CLI::Option* must_say(CLI::Option* option, const std::string& expected, const st
   return option->check([text](const std::string& word) { return word.empty() ? text : std::string(); });
 }
 
+namespace {
+
+// A validator that accepts everything and that no help shows: CLI11 has no other place for what belongs to an option.
+constexpr std::string_view proposed_words = "words:", proposed_words_or_file = "words or a file:";
+
+}  // namespace
+
+CLI::Option* propose(CLI::Option* option, const std::vector<std::string>& words, bool or_file) {
+  const auto accept = [](std::string&) { return std::string(); };
+  const std::string name =
+      fmt::format("{}{}", or_file ? proposed_words_or_file : proposed_words, fmt::join(words, " "));
+  return option->check(CLI::Validator(accept, "", name));
+}
+
+Proposed proposed(const CLI::Option& option) {
+  Proposed found;
+  try {
+    for (int i = 0;; ++i) {
+      const std::string name = const_cast<CLI::Option&>(option).get_validator(i)->get_name();  // which changes nothing
+      for (const std::string_view kind : {proposed_words, proposed_words_or_file}) {
+        if (!name.starts_with(kind)) continue;
+        found.or_file = kind == proposed_words_or_file;
+        found.words = CLI::detail::split_up(name.substr(kind.size()));
+      }
+    }
+  } catch (const CLI::OptionNotFound&) {  // after the last
+  }
+  return found;
+}
+
 Result<> without_empty_words(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options()) {
     const auto& words = option->results();
@@ -156,8 +186,10 @@ CLI::Option* offer_name(CLI::App& verb, const char* option, std::string& into, c
                     .place = {.name = option, .text = text}}),
         misused);
   };
-  return verb.add_option_function<std::string>(option, take, fmt::format("{}: {}", about, fmt::join(names, ", ")))
-      ->type_name("NAME");
+  return propose(
+      verb.add_option_function<std::string>(option, take, fmt::format("{}: {}", about, fmt::join(names, ", ")))
+          ->type_name("NAME"),
+      names);
 }
 
 CLI::Option* offer_count(CLI::App& verb, const char* option, std::optional<std::uint64_t>& into,

@@ -27,6 +27,17 @@ Result<> without_empty_words(const CLI::App& verb);
 /// the help; it may be empty.
 CLI::Option* must_say(CLI::Option* option, const std::string& expected, const std::string& mend = {});
 
+/// The words that the completion of a shell proposes for an option's value, besides what its type says. An option with
+/// words of its own may also take a file, if `or_file`.
+CLI::Option* propose(CLI::Option* option, const std::vector<std::string>& words, bool or_file = false);
+
+/// What `propose` has said.
+struct Proposed {
+  std::vector<std::string> words;
+  bool or_file = false;
+};
+Proposed proposed(const CLI::Option& option);
+
 /// The help texts of options that mean slightly different things in some verbs.
 namespace help_text {
 inline constexpr const char* library = "a folder to search for imports, after the file's own; may be repeated";

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "calibration/feel/trusted_declarations.hpp"
@@ -14,7 +16,9 @@
 #include "library/by_name/told.hpp"
 #include "library/by_name/worker.hpp"
 #include "library/by_name/workspaces.hpp"
+#include "schema/name_text.hpp"
 #include "schema/owners_devices_file.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 
@@ -49,19 +53,43 @@ Result<> is_as_asked(const PatchProgram& program, const CompileOptions& options)
   return {};
 }
 
+/// The error of the first of these that is no folder.
+std::optional<Error> first_that_is_missing(const std::vector<std::string>& folders) {
+  for (const std::string& each : folders) {
+    std::error_code why;
+    if (each.empty() || std::filesystem::is_directory(each, why)) continue;
+    return Error{.code = Code::unreadable_file,
+                 .sentence = "no such folder: `" + visible_text(each) + "`",
+                 .mend = "make it first, or leave it out",
+                 .place = {.name = "folders", .text = each}};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 struct Library::Parts {
   std::shared_ptr<const CommonModules> common = common_modules();
   std::vector<std::string> roots;
+  std::optional<Error> missing_folder;  ///< about the first of the given folders that is none
   Sandbox sandbox = Sandbox::required;
   Result<TrustedDeclarations> trusted;
   std::unique_ptr<Worker> worker = std::make_unique<Worker>();
 
   explicit Parts(const LibraryOptions& options)
       : roots(library_folders(options.folders, std::getenv("WALE_LIBRARY"))),
+        missing_folder(first_that_is_missing(options.folders)),
         sandbox(options.unsandboxed_pictures ? Sandbox::if_possible : Sandbox::required),
         trusted(trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")))) {}
+
+  /// Errors: the library's own, and those of options that cannot be names.
+  Result<> is_sound(const CompileOptions& options) const {
+    if (missing_folder) return *missing_folder;
+    if (!options.device.empty())
+      if (auto name = is_name_text("device", options.device); !name) return name;
+    if (!options.material.empty()) return is_name_text("material", options.material);
+    return {};
+  }
 
   /// Shipped devices do not change with what the owner declares.
   FileRequest request(const CompileOptions& options) const {
@@ -110,9 +138,16 @@ struct Library::Parts {
 
 Library::Library(const LibraryOptions& options) : parts_(std::make_unique<Parts>(options)) {}
 
+Result<> Library::folders_exist() const {
+  if (parts_->missing_folder) return *parts_->missing_folder;
+  return {};
+}
+
 Library::~Library() { parts_->worker.reset(); }  // its work uses the other parts
 
 Result<Compiled> Library::find(const std::string& name, const CompileOptions& options) const {
+  if (auto is_name = is_name_text("name", name); !is_name) return std::move(is_name.error());
+  if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   auto named = find_named_material(name, parts_->roots);
   if (!named) {
     Error error = std::move(named.error());
@@ -124,6 +159,8 @@ Result<Compiled> Library::find(const std::string& name, const CompileOptions& op
 
 Result<Compiled> Library::level(const std::string& percept, const std::string& level,
                                 const CompileOptions& options) const {
+  if (auto is_name = is_name_text("percept", percept); !is_name) return std::move(is_name.error());
+  if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   const Declarations& known = parts_->common->declarations;
   if (!known.percept_named(percept).percept)
     return unknown(Code::unknown_name, "percept", percept, known.percept_spellings());
@@ -153,16 +190,19 @@ Result<Compiled> Library::level(const std::string& percept, const std::string& l
 }
 
 Result<Compiled> Library::compile(std::string_view text, const CompileOptions& options) const {
+  if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   return parts_->compiled({.name = options.name, .bytes = std::string(text)}, options);
 }
 
 Result<Compiled> Library::open(const std::string& path, const CompileOptions& options) const {
+  if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   auto named = read_named_file(path);
   if (!named) return std::move(named.error());
   return parts_->compiled(*std::move(named), options);
 }
 
 Result<Compiled> Library::open(std::span<const std::byte> bytes, const CompileOptions& options) const {
+  if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (auto right = is_wale_or_program(options.name, text); !right) return std::move(right.error());
   return parts_->compiled({.name = options.name, .bytes = std::string(text)}, options);
@@ -216,6 +256,7 @@ std::vector<DeclaredDevice> Library::devices() const {
 }
 
 Result<SimulatedPerson> Library::person(const std::string& name) const {
+  if (auto is_name = is_name_text("name", name); !is_name) return std::move(is_name.error());
   const auto& hands = parts_->common->declarations.hands;
   const HandDeclaration* found = hands.find(name);
   if (!found) return unknown(Code::unknown_name, "hand", name, hands.spellings());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "compiler/diagnostics/told.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 
@@ -15,22 +16,20 @@ std::string quoted(const std::string& name) {
   return "`" + visible_text(name.substr(0, longest)) + (name.size() > longest ? "…`" : "`");
 }
 
-}  // namespace
-
-Error told(const Diagnostic& diagnostic, const SourceSet& sources) {
-  const Span& span = diagnostic.span;
-  const LineColumn at = sources.place(span);
-  return {.code = diagnostic.code,
-          .sentence = diagnostic.message,
-          .mend = diagnostic.help,
-          .place = {.name = sources[span.source].name,
-                    .number = at.line,
-                    .text = std::string(sources.line(span)),
-                    .column = at.column,
-                    .length = span.end - span.begin},
-          .expected = diagnostic.expected,
-          .found = diagnostic.found};
+/// "there are: `roughness`, `drag` and 11 more".
+std::string listed(std::vector<std::string> known) {
+  constexpr std::size_t most_told = 8;
+  if (known.empty()) return "there is none to ask for";
+  std::ranges::sort(known);
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  std::string all;
+  for (std::size_t i = 0; i < std::min(known.size(), most_told); ++i)
+    all += (i == 0 ? "there are: `" : ", `") + known[i] + "`";
+  if (known.size() > most_told) all += " and " + std::to_string(known.size() - most_told) + " more";
+  return all;
 }
+
+}  // namespace
 
 std::vector<Error> warnings_in(Diagnostics& diagnostics, const SourceSet& sources) {
   diagnostics.sort();
@@ -45,7 +44,7 @@ Error first_error(Diagnostics& diagnostics, const SourceSet& sources) {
   const auto& all = diagnostics.all();
   const auto first =
       std::ranges::find(all, Severity::error, [](const Diagnostic& each) { return severity_of(each.code); });
-  if (first == all.end()) return {Code::refused_program, "this cannot be compiled", ""};
+  if (first == all.end()) return {Code::refused_program, "this cannot be compiled", "report it as a bug of Wale"};
   Error error = told(*first, sources);
   for (auto each = all.begin(); each != all.end(); ++each)
     if (each != first) error.others.push_back(told(*each, sources));
@@ -62,6 +61,7 @@ Error unknown(Code code, const std::string& argument, const std::string& name, c
   auto nearest = nearest_spellings(name, known);
   std::string mend;
   for (const std::string& each : nearest) mend += (mend.empty() ? "the nearest: `" : ", `") + each + "`";
+  if (nearest.empty()) mend = listed(known);
   return {.code = code,
           .sentence = "no " + argument + " is called " + quoted(name),
           .mend = std::move(mend),

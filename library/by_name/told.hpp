@@ -8,9 +8,6 @@
 
 namespace wale {
 
-/// A diagnostic as a value for programs, with the place in its file.
-Error told(const Diagnostic& diagnostic, const SourceSet& sources);
-
 /// The warnings among `diagnostics`, in the order of their places.
 std::vector<Error> warnings_in(Diagnostics& diagnostics, const SourceSet& sources);
 
@@ -20,7 +17,7 @@ Error first_error(Diagnostics& diagnostics, const SourceSet& sources);
 /// The same about an argument instead of a place in a text.
 Error about(Error error, const Place& argument);
 
-/// "no percept is called `rougness`", with the nearest of `known`.
+/// "no percept is called `rougness`", with the nearest of `known`. If none is near, the mend lists them.
 Error unknown(Code code, const std::string& argument, const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace wale

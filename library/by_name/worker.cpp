@@ -15,7 +15,10 @@ Worker::~Worker() {
   }
   news_.notify_all();
   for (Piece& each : dropped)
-    each.result.set_value(Error{Code::wrong_moment, "the library was destroyed before this was begun", ""});
+    each.result.set_value(Error{Code::wrong_moment,
+                                "the library was destroyed before this was begun",
+                                "keep the library until its futures are ready",
+                                {.name = "library"}});
   thread_.reset();
 }
 
@@ -26,7 +29,10 @@ std::future<Result<Compiled>> Worker::begin(Work work) {
   try {
     if (!thread_) thread_.emplace([this] { serve(); });
   } catch (const std::system_error& refused) {
-    piece.result.set_value(Error{Code::short_of_resources, refused.what(), ""});
+    piece.result.set_value(Error{Code::short_of_resources,
+                                 std::string("the system gives no thread: ") + refused.what(),
+                                 "end other programs, or raise the limit on processes (ulimit -u)",
+                                 {.name = "library"}});
     return result;
   }
   waiting_.push_back(std::move(piece));

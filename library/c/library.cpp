@@ -31,7 +31,7 @@ Result<LibraryOptions> read_library_options(const WaleLibraryOptions* options) {
   const auto given = read_sized("options", options);
   if (!given) return given.error();
   if (given->folder_count > 0 && given->folders == nullptr)
-    return about_argument("folders", "expected a value, found NULL");
+    return about_argument("folders", "expected an array, found NULL", "set `folder_count` to 0");
   const auto unsandboxed = read_flag("unsandboxed_pictures", given->unsandboxed_pictures);
   if (!unsandboxed) return unsandboxed.error();
   LibraryOptions read{.unsandboxed_pictures = *unsandboxed};
@@ -144,7 +144,9 @@ WaleCode wale_library_create(const WaleLibraryOptions* options, WaleLibrary** li
     if (auto clear = clear_result("library", library); !clear) return clear;
     const auto read = read_library_options(options);
     if (!read) return read.error();
-    hand_out(std::unique_ptr<WaleLibrary>(new WaleLibrary{wale::Library(*read)}), library);
+    std::unique_ptr<WaleLibrary> made(new WaleLibrary{wale::Library(*read)});
+    if (auto there = made->library.folders_exist(); !there) return there;
+    hand_out(std::move(made), library);
     return {};
   });
 }
@@ -268,7 +270,8 @@ WaleCode wale_future_take(WaleFuture* future, WaleProgram** program, WaleError**
     if (auto clear = clear_result("program", program); !clear) return clear;
     if (auto given = is_given("future", future); !given) return given;
     if (!future->future.valid())
-      return about_argument("future", "its program was taken already", wale::Code::wrong_moment);
+      return about_argument("future", "its program was taken already", "take it once, and keep it",
+                            wale::Code::wrong_moment);
     return hand_out_program(future->future.get(), program);
   });
 }

@@ -7,6 +7,7 @@
 #include "runtime/c/run.hpp"
 #include "runtime/c/sized.hpp"
 #include "schema/spelling.hpp"
+#include "schema/visible_text.hpp"
 #include "wale/batch.hpp"
 
 namespace wale::c {
@@ -16,18 +17,21 @@ namespace {
 constexpr std::size_t most_forces = std::size_t{1} << 36;
 
 Result<> is_sound(const WaleBatchOptions& given, const WaleVector* forces) {
-  if (given.hands == 0 || given.ticks == 0) return about_argument("hands", "expected a hand and a tick at least");
+  if (given.hands == 0 || given.ticks == 0)
+    return about_argument("hands", "expected a hand and a tick at least", "set `hands` and `ticks`");
   if (given.ticks > most_forces || given.hands > most_forces / given.ticks)
-    return about_argument("hands", "expected 2^36 forces at most");
-  if (given.position == nullptr) return about_argument("position", "expected a value, found NULL");
+    return about_argument("hands", "expected 2^36 forces at most", "run the batch in parts");
+  if (given.position == nullptr)
+    return about_argument("position", "expected an array, found NULL", "give a place for each hand and tick");
   if (given.setting_count > 0 && given.settings == nullptr)
-    return about_argument("settings", "expected a value, found NULL");
-  if (!std::isfinite(given.rim)) return about_argument("rim", "expected a finite number");
+    return about_argument("settings", "expected an array, found NULL", "set `setting_count` to 0");
+  if (!std::isfinite(given.rim)) return about_argument("rim", "expected a finite number", "0 is no rim");
   if (given.time != nullptr)
     for (const double each : std::span(given.time, given.ticks))
-      if (!std::isfinite(each)) return about_argument("time", "expected finite numbers");
+      if (!std::isfinite(each)) return about_argument("time", "expected finite numbers", "give s for each tick");
   for (const WaleVector& each : std::span(given.position, given.hands * given.ticks))
-    if (!std::isfinite(each.x) || !std::isfinite(each.y)) return about_argument("position", "expected finite numbers");
+    if (!std::isfinite(each.x) || !std::isfinite(each.y))
+      return about_argument("position", "expected finite numbers", "give m from the patch's centre");
   return is_given("forces", forces);
 }
 
@@ -35,18 +39,24 @@ Result<> is_sound(const WaleBatchOptions& given, const WaleVector* forces) {
 Result<std::vector<float>> parameters_of(const Program& program, const WaleBatchOptions& given) {
   std::vector<float> values = program.default_parameters();
   for (const WaleSetting& each : std::span(given.settings, given.setting_count)) {
-    const auto name = read_text("settings", each.name);
+    const auto name = read_name("settings", each.name);
     if (!name) return name.error();
     const auto index = program.parameter(*name);
     if (!index) {
-      Error unknown = about_argument("settings", "the program has no parameter `" + *name + "`", Code::unknown_name);
-      unknown.place.text = *name;
       std::vector<std::string> known;
-      for (const Parameter& one : program.description().parameters) known.push_back(one.name);
+      std::string all;
+      for (const Parameter& one : program.description().parameters) {
+        known.push_back(one.name);
+        all += (all.empty() ? "it has " : ", ") + one.name;
+      }
+      Error unknown = about_argument("settings", "the program has no parameter `" + visible_text(*name) + "`",
+                                     all.empty() ? "it has no parameters" : all, Code::unknown_name);
+      unknown.place.text = *name;
       unknown.nearest = nearest_spellings(*name, known);
       return unknown;
     }
-    if (!std::isfinite(each.value)) return about_argument("settings", "expected a finite number for `" + *name + "`");
+    if (!std::isfinite(each.value))
+      return about_argument("settings", "expected a finite number for `" + *name + "`", "give it in SI units");
     values[*index] = static_cast<float>(each.value);
   }
   return values;
@@ -54,10 +64,13 @@ Result<std::vector<float>> parameters_of(const Program& program, const WaleBatch
 
 Result<PatchSize> size_of(const Program& program, const WaleBatchOptions& given) {
   if (given.width == 0 && given.height == 0) return program.default_size();
+  constexpr const char* sides = "give m, as in 0.05; both sides 0 are the program's own size";
   const float widest = static_cast<float>(program.description().device.widest_patch());
   for (const float side : {given.width, given.height})
-    if (!(side > 0 && side <= widest)) return about_argument("width", "expected positive sides within the workspace");
-  if (!(given.rim >= 0 && given.rim <= widest)) return about_argument("rim", "expected a rim that is not negative");
+    if (!(side > 0 && side <= widest))
+      return about_argument("width", "expected positive sides within the workspace", sides);
+  if (!(given.rim >= 0 && given.rim <= widest))
+    return about_argument("rim", "expected a rim that is not negative", sides);
   return PatchSize{given.width, given.height, given.rim};
 }
 

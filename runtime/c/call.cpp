@@ -5,16 +5,20 @@
 #include <new>
 #include <utility>
 
+#include "schema/name_text.hpp"
 #include "schema/utf8.hpp"
 
 namespace wale::c {
 namespace {
 
 constexpr Code without_memory = Code::short_of_resources;
+constexpr const char* text_mend = "count its bytes, or give the length WALE_ZERO_ENDED";
 
 /// Made beforehand, since there is no memory for it when it is needed. Not noted as a handle, so nobody frees it.
 WaleError& no_memory() {
-  static auto* const error = handle_of({.code = without_memory, .sentence = "there is no memory left"}).release();
+  static auto* const error =
+      handle_of({.code = without_memory, .sentence = "there is no memory left", .mend = "free some, and call again"})
+          .release();
   return *error;
 }
 [[maybe_unused]] const WaleError& made_early = no_memory();
@@ -48,7 +52,8 @@ WaleCode give_thrown(WaleError** to) noexcept {
   } catch (const std::bad_alloc&) {
   } catch (const std::exception& thrown) {
     try {
-      return give_error({.code = without_memory, .sentence = thrown.what()}, to);
+      return give_error(
+          {.code = without_memory, .sentence = thrown.what(), .mend = "free memory and threads, and call again"}, to);
     } catch (...) {
     }
   } catch (...) {
@@ -57,27 +62,32 @@ WaleCode give_thrown(WaleError** to) noexcept {
   return static_cast<WaleCode>(without_memory);
 }
 
-Error about_argument(std::string argument, std::string sentence, Code code) {
-  return {.code = code, .sentence = std::move(sentence), .place = {.name = std::move(argument)}};
+Error about_argument(std::string argument, std::string sentence, std::string mend, Code code) {
+  return {
+      .code = code, .sentence = std::move(sentence), .mend = std::move(mend), .place = {.name = std::move(argument)}};
 }
 
 Result<> is_given(const char* argument, const void* value) {
-  if (value == nullptr) return about_argument(argument, "expected a value, found NULL");
+  if (value == nullptr)
+    return about_argument(argument, "expected a value, found NULL",
+                          "look at the error of the call that should have given it");
   return {};
 }
 
 Result<bool> read_flag(const char* argument, std::int32_t value) {
-  if (value != 0 && value != 1) return about_argument(argument, "expected 0 or 1, found " + std::to_string(value));
+  if (value != 0 && value != 1)
+    return about_argument(argument, "expected 0 or 1, found " + std::to_string(value), "write 1 for yes");
   return value == 1;
 }
 
 Result<std::string_view> bytes_of(const char* argument, WaleText text) {
   if (text.data == nullptr) {
     if (text.length == 0 || text.length == WALE_ZERO_ENDED) return std::string_view();
-    return about_argument(argument, "expected a text, found NULL with a length");
+    return about_argument(argument, "expected a text, found NULL with a length", "give the length 0 to the empty text");
   }
   if (text.length == WALE_ZERO_ENDED) return std::string_view(text.data);
-  if (text.length > PTRDIFF_MAX) return about_argument(argument, "expected a length, found one beyond all memory");
+  if (text.length > PTRDIFF_MAX)
+    return about_argument(argument, "expected a length, found one beyond all memory", text_mend);
   return std::string_view(text.data, text.length);
 }
 
@@ -85,7 +95,8 @@ Result<std::string> read_path(const char* argument, WaleText text) {
   const auto bytes = bytes_of(argument, text);
   if (!bytes) return bytes.error();
   if (bytes->find('\0') != std::string_view::npos)
-    return about_argument(argument, "expected a text, found a zero byte in it", Code::invalid_encoding);
+    return about_argument(argument, "expected a text, found a zero byte in it", "hand over the text up to there",
+                          Code::invalid_encoding);
   return std::string(*bytes);
 }
 
@@ -94,9 +105,18 @@ Result<std::string> read_text(const char* argument, WaleText text) {
   if (!read) return read;
   for (std::size_t at = 0; at < read->size();) {
     const Character character = decode(*read, at);
-    if (!character.valid) return about_argument(argument, "expected UTF-8, found other bytes", Code::invalid_encoding);
+    if (!character.valid)
+      return about_argument(argument, "expected UTF-8, found other bytes", "convert the text to UTF-8",
+                            Code::invalid_encoding);
     at += character.bytes;
   }
+  return read;
+}
+
+Result<std::string> read_name(const char* argument, WaleText text) {
+  auto read = read_text(argument, text);
+  if (!read) return read;
+  if (auto name = is_name_text(argument, *read); !name) return std::move(name).error();
   return read;
 }
 

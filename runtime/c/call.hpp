@@ -37,7 +37,7 @@ WaleCode call(WaleError** error, const Body& body) noexcept {
 }
 
 /// The error about an argument.
-Error about_argument(std::string argument, std::string sentence, Code code = Code::malformed_value);
+Error about_argument(std::string argument, std::string sentence, std::string mend, Code code = Code::malformed_value);
 /// Error: an argument is NULL.
 Result<> is_given(const char* argument, const void* value);
 
@@ -51,6 +51,8 @@ Result<bool> read_flag(const char* argument, std::int32_t value);
 Result<std::string_view> bytes_of(const char* argument, WaleText text);
 /// The text of an argument. Errors: `malformed_value`; `invalid_encoding` if it is not UTF-8 or holds a zero byte.
 Result<std::string> read_text(const char* argument, WaleText text);
+/// The name of an argument. Errors: as for a text, and those of `is_name_text`.
+Result<std::string> read_name(const char* argument, WaleText text);
 /// The path of an argument, which need not be UTF-8. Errors: as for a text.
 Result<std::string> read_path(const char* argument, WaleText text);
 

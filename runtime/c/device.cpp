@@ -17,26 +17,14 @@ struct WaleDevices {
 namespace wale::c {
 namespace {
 
-Result<> all_finite(const WaleDeviceOptions& given) {
-  for (const double each : {given.hand_mass, given.hand_damping, given.hand_stiffness, given.amplitude, given.frequency,
-                            given.centre_x, given.centre_y, given.direction_x, given.direction_y})
-    if (!std::isfinite(each)) return about_argument("options", "expected finite numbers");
-  if (given.hand_mass < 0 || given.hand_damping < 0 || given.hand_stiffness < 0)
-    return about_argument("hand", "expected numbers that are not negative");
-  return {};
-}
-
 Result<Motion> trace_of(const WaleDeviceOptions& given) {
   constexpr std::size_t most_points = std::size_t{1} << 28;
   if (given.points == nullptr || given.count == 0 || given.count > most_points)
-    return about_argument("points", "expected a row of time, x and y at least");
+    return about_argument("points", "expected a row of time, x and y at least", "give `count` rows of three numbers");
   Trace trace;
   trace.points.reserve(given.count);
   for (std::size_t i = 0; i < given.count; ++i) {
     const double* row = given.points + 3 * i;
-    if (!std::isfinite(row[0]) || !std::isfinite(row[1]) || !std::isfinite(row[2]))
-      return about_argument("points", "expected finite numbers");
-    if (i > 0 && !(row[0] > trace.points.back().time)) return about_argument("points", "expected rising times");
     trace.points.push_back({.time = row[0], .position = {row[1], row[2]}});
   }
   // As in a file without velocities: the slope over both neighbours.
@@ -60,7 +48,9 @@ Result<Motion> motion_of(const WaleDeviceOptions& given) {
     case WALE_MOTION_circular: return Circular{given.amplitude, given.frequency, centre};
     case WALE_MOTION_press: return Press{given.amplitude, given.frequency, centre, direction};
     case WALE_MOTION_trace: return trace_of(given);
-    default: return about_argument("motion", "expected one of WALE_MOTION_…, found another number");
+    default:
+      return about_argument("motion", "expected one of WALE_MOTION_…, found " + std::to_string(given.motion),
+                            "0 is a hand at rest");
   }
 }
 
@@ -77,13 +67,16 @@ Result<OpenOptions> read_options(const WaleDeviceOptions* options) {
   const auto keeper = read_path("keeper", given->keeper);
   if (!keeper) return keeper.error();
   read.built_for = *built_for, read.transport = *transport, read.keeper = *keeper;
-  if (!std::isfinite(given->max_force)) return about_argument("max_force", "expected a finite number");
+  if (!std::isfinite(given->max_force))
+    return about_argument("max_force", "expected a finite number", "0 sets no limit");
   if (given->max_force != 0) read.max_force = given->max_force;
   if (given->priority != 0) read.priority = given->priority;
   const auto disregard = read_flag("disregard_owner", given->disregard_owner);
   if (!disregard) return disregard.error();
   if (*disregard) read.trusted = TrustedDevices{};
-  if (auto finite = all_finite(*given); !finite) return std::move(finite).error();
+  for (const double each : {given->amplitude, given->frequency, given->centre_x, given->centre_y, given->direction_x,
+                            given->direction_y})  // also of a motion that does not use them
+    if (!std::isfinite(each)) return about_argument("options", "expected finite numbers", "0 is the default of each");
   read.hand = {given->hand_mass, given->hand_damping, given->hand_stiffness};
   auto motion = motion_of(*given);
   if (!motion) return std::move(motion).error();

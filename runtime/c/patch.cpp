@@ -35,7 +35,7 @@ using namespace wale::c;
 WaleCode wale_patch_set(WalePatch* patch, WaleText parameter, double value, WaleError** error) {
   return change_patch(patch, error, [&](wale::Patch& each) -> wale::Result<> {
     const auto name = read_text("parameter", parameter);
-    return name ? each.set(*name, static_cast<float>(value)) : name.error();
+    return name ? each.set(*name, value) : name.error();
   });
 }
 
@@ -104,7 +104,7 @@ WaleCode wale_edit_set(WaleEdit* edit, const WalePatch* patch, WaleText paramete
   return change_edit(edit, patch, error, [&](wale::StageEdit& to, const wale::Patch& each) -> wale::Result<> {
     const auto name = read_text("parameter", parameter);
     if (!name) return name.error();
-    to.set(each, *name, static_cast<float>(value));
+    to.set(each, *name, value);
     return {};
   });
 }

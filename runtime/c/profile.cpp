@@ -5,6 +5,7 @@
 #include "runtime/c/sized.hpp"
 #include "runtime/device/shipped_devices.hpp"
 #include "schema/spelling.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::c {
 namespace {
@@ -49,7 +50,8 @@ Result<Shaker> shaker_of(const std::string& name) {
   if (shipped)
     for (const DeclaredDevice& each : *shipped)
       if (each.profile.name == name && each.profile.shaker) return *each.profile.shaker;
-  return about_argument("profile", "expected the profile of a shipped pad, since no other one's shaker is known");
+  return about_argument("profile", "expected the profile of a shipped pad, since no other one's shaker is known",
+                        "ask wale_profile for it by its name");
 }
 
 }  // namespace
@@ -71,11 +73,12 @@ Result<DeviceProfile> read_profile(const WaleProfile* profile) {
   for (const Figure& each : all_figures) {
     const double figure = (*given).*each.in_c;
     if (!(figure >= 0 && figure < HUGE_VAL))
-      return about_argument(each.name, "expected a finite figure that is not negative");
+      return about_argument(each.name, "expected a finite figure that is not negative",
+                            "0 is one that is not declared");
     read.*each.in_cpp = figure;
   }
   if (!(read.rate >= DeviceProfile::least_rate && read.rate <= DeviceProfile::most_rate))
-    return about_argument("rate", "expected 100 to 10000 ticks per second");
+    return about_argument("rate", "expected 100 to 10000 ticks per second", "give it in Hz");
   const auto vibrates = read_flag("vibrates", given->vibrates);
   if (!vibrates) return vibrates.error();
   if (*vibrates) {
@@ -87,7 +90,7 @@ Result<DeviceProfile> read_profile(const WaleProfile* profile) {
 }
 
 Result<> give_profile(const std::vector<DeclaredDevice>& declared, WaleText name, WaleProfile* to) {
-  const auto wanted = read_text("name", name);
+  const auto wanted = read_name("name", name);
   if (!wanted) return wanted.error();
   std::vector<std::string> names;
   for (const DeclaredDevice& each : declared) {
@@ -97,9 +100,11 @@ Result<> give_profile(const std::vector<DeclaredDevice>& declared, WaleText name
     }
     names.push_back(each.profile.name);
   }
-  Error unknown = about_argument("name", "no device is called `" + *wanted + "`", Code::unknown_device);
+  Error unknown =
+      about_argument("name", "no device is called `" + visible_text(*wanted) + "`", "there are", Code::unknown_device);
   unknown.place.text = *wanted;
   unknown.nearest = nearest_spellings(*wanted, names);
+  for (const std::string& each : names) unknown.mend += (&each == &names.front() ? " `" : ", `") + each + "`";
   return unknown;
 }
 

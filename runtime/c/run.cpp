@@ -104,7 +104,7 @@ WaleCode wale_felt_measure(const WaleRun* run, const WalePatch* patch, const Wal
     if (!given) return given.error();
     for (const double each : {given->settling, given->stuck_seconds, given->stuck_counts})
       if (!(each >= 0 && each < HUGE_VAL))
-        return about_argument("options", "expected finite numbers that are not negative");
+        return about_argument("options", "expected finite numbers that are not negative", "0 is the default of each");
     const auto bank = patch->patch.bank();
     if (!bank) return bank.error();
     wale::MeasureOptions measured{

@@ -25,8 +25,11 @@ bool has_size(const Struct* given) noexcept {
 /// Error: it is NULL, or its size makes no sense.
 template <class Struct>
 Result<> is_sized(const char* argument, const Struct* given) {
-  if (given == nullptr) return about_argument(argument, "expected a value, found NULL");
-  if (!has_size(given)) return about_argument(argument, "expected its size in its first field, found another number");
+  if (given == nullptr)
+    return about_argument(argument, "expected a struct, found NULL", "hand over the address of one");
+  if (!has_size(given))
+    return about_argument(argument, "expected its size in its first field, found another number",
+                          "set all of it to 0, then `size` to its sizeof");
   return {};
 }
 
@@ -41,10 +44,11 @@ Result<Struct> read_sized(const char* argument, const Struct* given) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(given);
   for (std::size_t at = sizeof(Struct); at < size; ++at)
     if (bytes[at] != 0)
-      return about_argument(argument, "it sets fields that are newer than this library", Code::newer_file);
+      return about_argument(argument, "it sets fields that are newer than this library",
+                            "update Wale, or leave these fields 0", Code::newer_file);
   std::memcpy(&read, bytes, std::min(size, sizeof(Struct)));
   if constexpr (requires { read.reserved; })
-    if (read.reserved != 0) return about_argument("reserved", "expected 0");
+    if (read.reserved != 0) return about_argument("reserved", "expected 0", "set all of the struct to 0 first");
   return read;
 }
 
@@ -63,9 +67,11 @@ void write_sized(Struct* to, Struct from) noexcept {
 template <class Struct, class Element>
 Result<> write_elements(std::size_t count, std::size_t each, Struct* to, const Element& element) {
   if (count == 0) return {};
-  if (to == nullptr) return about_argument("ticks", "expected a value, found NULL");
+  if (to == nullptr)
+    return about_argument("ticks", "expected an array, found NULL", "hand over room for `count` ticks");
   if (each == 0 || each > largest_struct || each % alignof(Struct) != 0)
-    return about_argument("each", "expected the size of an element, found another number");
+    return about_argument("each", "expected the size of an element, found another number",
+                          "hand over the sizeof of the array's struct");
   auto* bytes = reinterpret_cast<unsigned char*>(to);
   for (std::size_t i = 0; i < count; ++i, bytes += each) {
     const Struct from = element(i);
@@ -78,13 +84,13 @@ Result<> write_elements(std::size_t count, std::size_t each, Struct* to, const E
 /// Error: `count` elements from `first` on are not among `all`.
 inline Result<> are_there(std::size_t first, std::size_t count, std::size_t all) {
   if (first <= all && count <= all - first) return {};
-  return about_argument("first", "it has only " + std::to_string(all));
+  return about_argument("first", "it has only " + std::to_string(all), "ask for fewer, or from an earlier one on");
 }
 
 /// Error: number `index` is not among `all`.
 inline Result<> is_there(std::size_t index, std::size_t all) {
   if (index < all) return {};
-  return about_argument("index", "it has only " + std::to_string(all));
+  return about_argument("index", "it has only " + std::to_string(all), "count from 0");
 }
 
 }  // namespace wale::c

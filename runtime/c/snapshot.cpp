@@ -66,7 +66,7 @@ WaleCode wale_snapshot_surface(WaleSnapshot* snapshot, const WaleVector* places,
     if (auto given = is_given("heights", heights); !given) return given;
     for (std::size_t i = 0; i < count; ++i)
       if (!std::isfinite(places[i].x) || !std::isfinite(places[i].y))
-        return about_argument("places", "expected finite numbers");
+        return about_argument("places", "expected finite numbers", "give m from the patch's centre");
     const wale::Snapshot& of = snapshot->snapshot;
     const bool wants_colour = colours != nullptr && of.bank.program().description().picture.colour.has_value();
     constexpr std::size_t block = 4096;
@@ -91,7 +91,8 @@ WaleCode wale_snapshot_show(WaleSnapshot* snapshot, WaleVector position, WaleVec
     *count = 0;
     if (auto given = is_given("snapshot", snapshot); !given) return given;
     for (const double each : {double{position.x}, double{position.y}, double{velocity.x}, double{velocity.y}, time})
-      if (!std::isfinite(each)) return about_argument("position", "expected a finite position, velocity and time");
+      if (!std::isfinite(each))
+        return about_argument("position", "expected a finite position, velocity and time", "give m, m/s and s");
     wale::Hand hand{.position = {position.x, position.y}, .velocity = {velocity.x, velocity.y}, .time = time};
     hand.raw_velocity = hand.velocity;
     hand.workspace = hand.position;

@@ -22,8 +22,10 @@ Result<StageOptions> read_stage_options(const WaleStageOptions* options) {
   const auto given = read_sized("options", options);
   if (!given) return given.error();
   if (!(given->max_force >= 0 && given->max_force < HUGE_VAL))
-    return about_argument("max_force", "expected a finite number that is not negative");
-  if (given->priority < 0 || given->priority > 99) return about_argument("priority", "expected 0 to 99");
+    return about_argument("max_force", "expected a finite number that is not negative", "0 sets no limit");
+  if (given->priority < 0 || given->priority > 99)
+    return about_argument("priority", "expected 0 to 99, found " + std::to_string(given->priority),
+                          "the usual one is 80");
   const auto lock_memory = read_flag("lock_memory", given->lock_memory);
   if (!lock_memory) return lock_memory.error();
   const auto low_latency = read_flag("low_latency", given->low_latency);
@@ -44,7 +46,7 @@ Result<StageOptions> read_stage_options(const WaleStageOptions* options) {
 Result<PatchOptions> read_options(const WalePatchOptions* options) {
   const auto given = read_sized("options", options);
   if (!given) return given.error();
-  if (!std::isfinite(given->rim)) return about_argument("rim", "expected a finite number");
+  if (!std::isfinite(given->rim)) return about_argument("rim", "expected a finite number", "0 is no rim");
   PatchOptions read{.at = {given->x, given->y}, .layer = given->layer};
   if (given->width != 0 || given->height != 0) read.size = PatchSize{given->width, given->height, given->rim};
   if (given->shape != nullptr) read.shape = given->shape->shape;
@@ -72,7 +74,8 @@ WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, 
     if (!read) return std::move(read).error();
     const std::shared_ptr<SharedDevice> shared = device->shared;
     if (shared->has_stage.exchange(true))
-      return about_argument("device", "another stage has the device", wale::Code::wrong_moment);
+      return about_argument("device", "another stage has the device", "free that stage first",
+                            wale::Code::wrong_moment);
     try {
       hand_out(std::make_unique<WaleStage>(shared, shared->device->profile(), *read), stage);
     } catch (...) {

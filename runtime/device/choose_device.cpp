@@ -6,6 +6,7 @@
 
 #include "runtime/device/match_device.hpp"
 #include "schema/spelling.hpp"
+#include "schema/without_place.hpp"
 
 namespace wale {
 namespace {
@@ -283,7 +284,7 @@ class Chooser {
       if (is_usable(*each.plugged) && each.match.device != nullptr && fits(each)) return taken(each);
       chosen.is_worth_saying = true;
       if (!is_usable(*each.plugged))
-        chosen.said += in_words(unusable(*each.plugged)) + "\n";
+        chosen.said += in_words_without_place(unusable(*each.plugged)) + "\n";
       else if (each.match.device != nullptr)
         chosen.said += in_words(*each.plugged) + " is used as " + each.match.device->profile().name +
                        ", and the program is built for " + request_.built_for + "\n";

@@ -1,14 +1,19 @@
 #include "wale/devices.hpp"
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include "runtime/device/match_device.hpp"
 #include "runtime/device/open_device.hpp"
+#include "schema/name_text.hpp"
 #include "schema/owners_devices_file.hpp"
 #include "schema/spelling.hpp"
+#include "schema/visible_text.hpp"
 #include "wale/simulated_pad.hpp"
 
 namespace wale {
@@ -40,11 +45,58 @@ DeviceInfo info_of(const PluggedIn& plugged, std::span<const TrustedDevice> trus
   return info;
 }
 
+bool is_finite(glm::dvec2 vector) { return std::isfinite(vector.x) && std::isfinite(vector.y); }
+
+const char* wrong_in(const Rest& rest) { return is_finite(rest.position) ? nullptr : "expected a finite position"; }
+const char* wrong_in(const Circular& circle) {
+  if (std::isfinite(circle.radius) && std::isfinite(circle.frequency) && is_finite(circle.centre)) return nullptr;
+  return "expected a finite radius, frequency and centre";
+}
+const char* wrong_in_stroke(double length, double frequency, glm::dvec2 centre, glm::dvec2 direction) {
+  if (!std::isfinite(length) || !std::isfinite(frequency) || !is_finite(centre))
+    return "expected a finite amplitude, frequency and centre";
+  constexpr double nearly = 1e-6;
+  const double off = std::abs(std::hypot(direction.x, direction.y) - 1);
+  return off < nearly ? nullptr : "expected a direction of length 1";
+}
+const char* wrong_in(const Lateral& stroke) {
+  return wrong_in_stroke(stroke.amplitude, stroke.frequency, stroke.centre, stroke.direction);
+}
+const char* wrong_in(const Press& push) {
+  return wrong_in_stroke(push.depth, push.frequency, push.centre, push.direction);
+}
+const char* wrong_in(const Trace& trace) {
+  if (trace.points.empty()) return "expected a trace of a point at least";
+  const TracePoint* before = nullptr;
+  for (const TracePoint& point : trace.points) {
+    if (!std::isfinite(point.time) || !is_finite(point.position) || !is_finite(point.velocity))
+      return "expected a trace of finite numbers";
+    if (before != nullptr && !(point.time > before->time)) return "expected a trace whose times rise";
+    before = &point;
+  }
+  return nullptr;
+}
+/// The sentence of the error of a motion; null if it has none.
+const char* wrong_in(const Motion& motion) {
+  return std::visit([](const auto& each) { return wrong_in(each); }, motion);
+}
+
 Result<> is_sound(const OpenOptions& options) {
   if (!(options.max_force > 0))
-    return Error{Code::malformed_value, "expected a positive force", "", {.name = "max_force"}};
+    return Error{Code::malformed_value, "expected a positive force", "give newtons, as in 2", {.name = "max_force"}};
   if (options.priority && (*options.priority < 1 || *options.priority > 99))
-    return Error{Code::malformed_value, "expected a priority from 1 to 99", "", {.name = "priority"}};
+    return Error{Code::malformed_value,
+                 "expected a priority from 1 to 99",
+                 "leave it out for an ordinary one",
+                 {.name = "priority"}};
+  for (const double each : {options.hand.mass, options.hand.damping, options.hand.stiffness})
+    if (!(each >= 0 && std::isfinite(each)))
+      return Error{Code::malformed_value,
+                   "expected finite numbers that are not negative",
+                   "give kg, N s/m and N/m; all 0 is no hand",
+                   {.name = "hand"}};
+  if (const char* wrong = wrong_in(options.motion))
+    return Error{Code::malformed_value, wrong, "give m, Hz and s; a direction has length 1", {.name = "motion"}};
   return {};
 }
 
@@ -69,8 +121,12 @@ Result<DeviceProfile> profile_named(const std::string& name, std::span<const Tru
     if (each.profile().name == name) return each.profile();
   std::vector<std::string> names;
   for (const TrustedDevice& each : trusted) names.push_back(each.profile().name);
-  Error unknown{Code::unknown_device, "there is no device `" + name + "`", "", {.name = "built_for", .text = name}};
+  Error unknown{Code::unknown_device,
+                "there is no device `" + visible_text(name) + "`",
+                "there are",
+                {.name = "built_for", .text = name}};
   unknown.nearest = nearest_spellings(name, names);
+  for (const std::string& each : names) unknown.mend += (&each == &names.front() ? " `" : ", `") + each + "`";
   return unknown;
 }
 
@@ -93,6 +149,11 @@ std::vector<DeviceInfo> devices(const TrustedDevices& trusted) {
 }
 
 Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const OpenOptions& options) {
+  if (auto name = is_name_text("spelling", spelling); !name) return std::move(name.error());
+  if (!options.built_for.empty())
+    if (auto name = is_name_text("built_for", options.built_for); !name) return std::move(name.error());
+  if (!options.transport.empty())
+    if (auto name = is_name_text("transport", options.transport); !name) return std::move(name.error());
   if (auto sound = is_sound(options); !sound) return std::move(sound.error());
   const auto trusted = all_of(options.trusted.value_or(TrustedDevices()));
   if (!trusted) return trusted.error();

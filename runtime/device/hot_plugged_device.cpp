@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/device/driver.hpp"
+#include "schema/without_place.hpp"
 
 namespace wale {
 namespace {
@@ -124,7 +125,7 @@ void HotPluggedDevice::attend() {
       OpenedDevice opened = reopen_();
       {
         const std::lock_guard lock(mutex_);
-        report_.refusal = opened ? "" : in_words(opened.error());
+        report_.refusal = opened ? "" : in_words_without_place(opened.error());
       }
       if (!opened) continue;
       returns_.fetch_add(1, std::memory_order_relaxed);

@@ -31,9 +31,15 @@ PatchSize sensible(PatchSize size, PatchSize fallback, float most) {
 }  // namespace
 
 Result<Program> Program::load(std::span<const std::byte> bytes) {
+  const auto refuse = [](Error error) {
+    if (error.mend.empty()) error.mend = "build it again from its Wale file";
+    return error;
+  };
   Result<PatchProgram> read = read_patch_program(bytes);
-  if (!read) return std::move(read).error();
-  return load(*std::move(read));
+  if (!read) return refuse(std::move(read).error());
+  Result<Program> loaded = load(*std::move(read));
+  if (!loaded) return refuse(std::move(loaded).error());
+  return loaded;
 }
 
 Result<Program> Program::load(PatchProgram program) {

@@ -17,6 +17,7 @@ namespace {
 using namespace recording_format;
 
 constexpr std::size_t least_page = 4096;
+constexpr mode_t read_only = 0444, all_permissions = 07777;
 
 /// Why nothing can be recorded in the file, and what to do about it.
 Error unwritable(const std::string& path, int error) {
@@ -51,13 +52,22 @@ Result<std::unique_ptr<ChunkFile>> ChunkFile::create(const std::string& path) {
   header.check = check_of(header);
   int error = posix_fallocate(file, 0, first_chunk);
   if (error == 0 && pwrite(file, &header, sizeof header, 0) != sizeof header) error = ENOSPC;
-  if (error == 0) return std::unique_ptr<ChunkFile>(new ChunkFile(path, file));
+  struct stat made {};
+  if (error == 0 && fstat(file, &made) != 0) error = errno;
+  if (error == 0) {
+    // If this fails, as on a file system without permissions, nobody is kept from cutting the file.
+    [[maybe_unused]] const int kept = fchmod(file, made.st_mode & read_only);
+    return std::unique_ptr<ChunkFile>(new ChunkFile(path, file, made.st_mode & all_permissions));
+  }
   close(file);
   unlink(path.c_str());
   return unwritable(path, error);
 }
 
-ChunkFile::~ChunkFile() { close(file_); }
+ChunkFile::~ChunkFile() {
+  [[maybe_unused]] const int given_back = fchmod(file_, permissions_);
+  close(file_);
+}
 
 Result<std::byte*> ChunkFile::grow(ChunkKind kind, std::uint64_t number) {
   const std::lock_guard lock(mutex_);

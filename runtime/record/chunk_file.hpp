@@ -13,7 +13,8 @@
 namespace wale {
 
 /// A recording's file as it grows: chunks one after the other, each with its own mapping. Bytes that are stored in a
-/// mapped chunk are in the file even if the process is killed.
+/// mapped chunk are in the file even if the process is killed. Until it is complete, nobody may write in it: a store
+/// into a chunk that another program has cut off would end this process (SIGBUS).
 class ChunkFile {
  public:
   /// Makes a new file. Error: `unwritable_file`, also when a file of that name exists already.
@@ -37,10 +38,12 @@ class ChunkFile {
   void cut(std::size_t unused) noexcept;
 
  private:
-  ChunkFile(std::string path, int file) : path_(std::move(path)), file_(file) {}
+  ChunkFile(std::string path, int file, unsigned permissions)
+      : path_(std::move(path)), file_(file), permissions_(permissions) {}
 
   std::string path_;
   int file_ = -1;
+  unsigned permissions_ = 0;  ///< that the complete file gets
   mutable std::mutex mutex_;
   std::vector<recording_format::ChunkKind> chunks_;
 };

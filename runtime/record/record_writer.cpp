@@ -41,7 +41,8 @@ Result<> RecordWriter::start(const RecordingHeader& header) {
     mapper_ = std::thread([this, pause = std::min(0.1, chunk_seconds / 4)] { keep_ahead(pause); });
   } catch (const std::system_error& error) {
     return Error{.code = Code::short_of_resources,
-                 .sentence = std::string("the system gives no thread for recording: ") + error.what()};
+                 .sentence = std::string("the system gives no thread for recording: ") + error.what(),
+                 .mend = "end other programs, or raise the limit on processes (ulimit -u)"};
   }
   return {};
 }

@@ -11,6 +11,7 @@
 #include "runtime/record/recording_contents.hpp"
 #include "schema/regular_file.hpp"
 #include "schema/sentence.hpp"
+#include "schema/without_place.hpp"
 
 namespace wale {
 namespace {
@@ -146,7 +147,8 @@ class RecordingReader {
       if (header.size == 0 || header.size - 1 > rest) return damaged("is damaged");
       const auto payload = stream.subspan(at + sizeof header, header.size - 1);
       if (header.check != check_of(header, payload)) return damaged("is damaged");
-      if (auto read = reader.read(header, payload); !read) return damaged("makes no sense: " + in_words(read.error()));
+      if (auto read = reader.read(header, payload); !read)
+        return damaged("makes no sense: " + in_words_without_place(read.error()));
       most_revision_ = reader.revision();
       at += aligned(sizeof header + payload.size());
     }
@@ -220,6 +222,8 @@ Result<Recording> Recording::open(const std::string& path, std::size_t most_tick
   Result<std::string> bytes = read_regular_file(path, largest_recording);
   if (!bytes) {
     bytes.error().sentence = "the file cannot be read: " + bytes.error().sentence;
+    if (bytes.error().mend.empty()) bytes.error().mend = "name a recording, a .wrec file, that this user may read";
+    if (path.empty()) bytes.error().place.name = "path";
     return std::move(bytes).error();
   }
   auto contents = contents_of<Contents>(*std::move(bytes), path, most_ticks);

@@ -120,7 +120,8 @@ class Replaying final : public TickSink {
       throw Error{
           .code = Code::other_device,
           .sentence = sentence("program ", number, " of the recording was built for ",
-                               loaded->description().device.name, ", not for ", recording_.header().device.name)};
+                               loaded->description().device.name, ", not for ", recording_.header().device.name),
+          .mend = "copy the recording again; if it is as it was made, no replay is possible"};
     known = *std::move(loaded);
     return *known;
   }

@@ -6,16 +6,22 @@
 #include <utility>
 
 #include "runtime/shape/shape_form.hpp"
+
 namespace wale {
 namespace {
 
 /// m, the furthest that a shape reaches from the patch's centre: the widest workspace.
 constexpr float furthest = 10;
 
+constexpr const char* lengths = "give m, as in 0.05";
+
 bool is_length(float value) { return value > 0 && value <= furthest; }
 
-Error malformed(std::string sentence) {
-  return {.code = Code::malformed_value, .sentence = std::move(sentence), .place = {.name = "shape"}};
+Error malformed(std::string sentence, std::string mend) {
+  return {.code = Code::malformed_value,
+          .sentence = std::move(sentence),
+          .mend = std::move(mend),
+          .place = {.name = "shape"}};
 }
 
 double turn(glm::dvec2 one, glm::dvec2 other) { return one.x * other.y - one.y * other.x; }
@@ -66,40 +72,44 @@ EdgeDistance edge_of(const ShapeForm& shape, glm::dvec2 point) noexcept {
 
 Result<Shape> Shape::ellipse(float half_width, float half_height) {
   if (!is_length(half_width) || !is_length(half_height))
-    return malformed("the half axes of an ellipse must be above 0 and at most 10 m");
+    return malformed("the half axes of an ellipse must be above 0 and at most 10 m", lengths);
   return Shape(std::make_shared<const ShapeForm>(
       ShapeForm{EllipseForm(half_width, half_height), glm::vec2(2 * half_width, 2 * half_height), nullptr}));
 }
 
 Result<Shape> Shape::polygon(std::span<const glm::vec2> corners) {
   if (corners.size() < 3 || corners.size() > most_corners)
-    return malformed("expected 3 to " + std::to_string(most_corners) + " corners, found " +
-                     std::to_string(corners.size()));
+    return malformed(
+        "expected 3 to " + std::to_string(most_corners) + " corners, found " + std::to_string(corners.size()),
+        "leave out corners, or draw a mask");
   std::vector<glm::dvec2> exact;
   glm::vec2 half(0.0f);
   for (const glm::vec2 corner : corners) {
     const float x = std::abs(corner.x), y = std::abs(corner.y);
     if (!(x <= furthest && y <= furthest))
-      return malformed("the corners of a polygon must be within 10 m from the patch's centre");
+      return malformed("the corners of a polygon must be within 10 m from the patch's centre", lengths);
     half = {std::max(half.x, x), std::max(half.y, y)};
     exact.emplace_back(corner);
   }
-  if (std::string why = why_no_polygon(exact); !why.empty()) return malformed(std::move(why));
+  if (std::string why = why_no_polygon(exact); !why.empty())
+    return malformed(std::move(why), "give the corners in their order around it, each once");
   return Shape(std::make_shared<const ShapeForm>(ShapeForm{PolygonForm(std::move(exact)), 2.0f * half, nullptr}));
 }
 
 Result<Shape> Shape::mask(std::span<const std::uint8_t> bits, std::size_t columns, std::size_t rows, float side) {
   if (columns == 0 || rows == 0 || columns > most_along_a_side || rows > most_along_a_side)
     return malformed("expected a mask of 1 to " + std::to_string(most_along_a_side) + " cells along a side, found " +
-                     std::to_string(columns) + " by " + std::to_string(rows));
+                         std::to_string(columns) + " by " + std::to_string(rows),
+                     "scale the picture");
   if (bits.size() != columns * rows)
-    return malformed("expected " + std::to_string(columns * rows) + " bits of a mask, found " +
-                     std::to_string(bits.size()));
+    return malformed(
+        "expected " + std::to_string(columns * rows) + " bits of a mask, found " + std::to_string(bits.size()),
+        "give one for each column and row");
   const glm::vec2 size(static_cast<float>(columns) * side, static_cast<float>(rows) * side);
   if (!(side > 0 && size.x <= 2 * furthest && size.y <= 2 * furthest))
-    return malformed("the side of a mask's cells must be positive, and the mask at most 20 m wide and high");
+    return malformed("the side of a mask's cells must be positive, and the mask at most 20 m wide and high", lengths);
   if (std::ranges::none_of(bits, [](std::uint8_t bit) { return bit != 0; }))
-    return malformed("expected a mask with a bit that is set, found none");
+    return malformed("expected a mask with a bit that is set, found none", "set those where the patch is");
   MaskForm form(std::make_shared<const MaskCells>(bits, columns, rows), glm::dvec2(side));
   return Shape(std::make_shared<const ShapeForm>(ShapeForm{std::move(form), size, nullptr}));
 }

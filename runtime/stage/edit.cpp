@@ -32,7 +32,8 @@ struct StageEdit::Parts {
   }
   void step(const std::weak_ptr<StageState>& of, PatchName name, StageState::Change change) {
     const bool other = of.owner_before(stage) || stage.owner_before(of);
-    if (other && !error) error = wrong_moment("the patch is not on the edit's stage");
+    if (other && !error)
+      error = wrong_moment("patch", "the patch is not on the edit's stage", "begin an edit of the patch's own stage");
     steps.push_back({name, std::move(change)});
   }
 };
@@ -46,7 +47,7 @@ StageEdit::~StageEdit() = default;
 
 Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options) {
   const auto state = parts_->stage.lock();
-  if (!state) return wrong_moment("the stage is gone");
+  if (!state) return stage_is_gone();
   Result<Placement> placement = state->placement(program, options);
   if (!placement) return std::move(placement).error();
   const std::lock_guard lock(state->mutex);
@@ -55,7 +56,7 @@ Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options
   return Patch(parts_->stage, name.number, name.generation);
 }
 
-void StageEdit::set(const Patch& patch, std::string_view parameter, float value) {
+void StageEdit::set(const Patch& patch, std::string_view parameter, double value) {
   parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::set(std::string(parameter), value));
 }
 
@@ -85,14 +86,14 @@ void StageEdit::remove(const Patch& patch) { parts_->step(patch.stage_, {patch.n
 
 Result<> StageEdit::commit() {
   const auto state = parts_->stage.lock();
-  if (!state) return wrong_moment("the stage is gone");
+  if (!state) return stage_is_gone();
   const auto refuse = [&](Error error) -> Result<> {
     parts_->discard();
     return error;
   };
   if (parts_->error) return refuse(*parts_->error);
   std::unique_lock lock(state->mutex);
-  if (state->over) return wrong_moment("the stage is gone");
+  if (state->over) return stage_is_gone();
   std::vector<PatchTable::Wish> wishes;
   std::unordered_map<std::uint32_t, std::size_t> known;  // by the patch's number: its wish
   for (auto& [name, placement] : parts_->added) {
@@ -113,7 +114,7 @@ Result<> StageEdit::commit() {
     auto& [name, wish] = wishes[place->second];
     Result<> done;
     if (!(name == step.name) || !wish)
-      done = wrong_moment("the patch is not on the stage any more");
+      done = patch_is_gone();
     else if (!step.change)
       wish.reset();
     else

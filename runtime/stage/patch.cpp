@@ -5,11 +5,14 @@
 namespace wale {
 namespace {
 
-Error no_stage() { return wrong_moment("the patch's stage is gone, or the handle never named a patch"); }
+Error no_stage() {
+  return wrong_moment("patch", "the patch's stage is gone, or the handle never named a patch",
+                      "keep the stage for as long as its patches are used");
+}
 
 }  // namespace
 
-Result<> Patch::set(std::string_view parameter, float value) {
+Result<> Patch::set(std::string_view parameter, double value) {
   const auto stage = stage_.lock();
   if (!stage) return no_stage();
   return stage->change({number_, generation_}, changes::set(std::string(parameter), value));

@@ -43,7 +43,7 @@ Result<> has_loop_figures(const DeviceProfile& profile) {
     if (needed && (!(value > 0) || !std::isfinite(value))) {
       return Error{.code = Code::unusable_device,
                    .sentence = "the device " + profile.name + " declares no positive " + name,
-                   .mend = {},
+                   .mend = "give its profile this figure",
                    .place = {.name = name, .text = few_digits(value)}};
     }
   }
@@ -54,7 +54,7 @@ Result<> has_loop_figures(const DeviceProfile& profile) {
                  .sentence = "the device " + profile.name + " declares a velocity window of " +
                              few_digits(profile.velocity_window) + " ticks, expected " + few_digits(longest_window) +
                              " at most",
-                 .mend = {},
+                 .mend = "declare a shorter one",
                  .place = {.name = "velocity_window", .text = few_digits(profile.velocity_window)}};
   return {};
 }
@@ -69,16 +69,18 @@ struct RunLength {
 Result<RunLength> length_of(const RunOptions& options, double rate) {
   const auto asked = [](double seconds) { return "; asked for " + few_digits(seconds) + " s"; };
   if (!(options.seconds > 0))
-    return malformed("seconds", "the length of a run must be positive" + asked(options.seconds));
+    return malformed("seconds", "the length of a run must be positive" + asked(options.seconds),
+                     "give seconds, as in 5");
   if (!(options.kept_seconds > 0))
-    return malformed("kept_seconds", "the length of a run's record must be positive" + asked(options.kept_seconds));
+    return malformed("kept_seconds", "the length of a run's record must be positive" + asked(options.kept_seconds),
+                     "leave it out to keep all of the run");
   const double kept = std::min(options.seconds, options.kept_seconds);
   if (kept * rate > static_cast<double>(longest_run)) {
     const bool endless_run = kept < options.seconds;
-    return malformed(endless_run ? "kept_seconds" : "seconds", "a run " + std::string(endless_run ? "keeps" : "lasts") +
-                                                                   " at most " +
-                                                                   few_digits(static_cast<double>(longest_run) / rate) +
-                                                                   " s at " + few_digits(rate) + " Hz" + asked(kept));
+    return malformed(endless_run ? "kept_seconds" : "seconds",
+                     "a run keeps at most " + few_digits(static_cast<double>(longest_run) / rate) + " s at " +
+                         few_digits(rate) + " Hz" + asked(kept),
+                     endless_run ? "keep less" : "keep less of it: `kept_seconds`");
   }
   return RunLength{std::max(1L, std::lround(std::min(options.seconds * rate, endless))),
                    std::max(1L, std::lround(kept * rate))};
@@ -86,7 +88,9 @@ Result<RunLength> length_of(const RunOptions& options, double rate) {
 
 Error no_thread(const char* for_what, const std::system_error& error) {
   return {.code = Code::short_of_resources,
-          .sentence = std::string("the system gives no thread for ") + for_what + ": " + error.what()};
+          .sentence = std::string("the system gives no thread for ") + for_what + ": " + error.what(),
+          .mend = "end other programs, or raise the limit on processes (ulimit -u)",
+          .place = {.name = "stage"}};
 }
 
 }  // namespace
@@ -98,9 +102,10 @@ Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stag
   const Result<RunLength> length = length_of(options, profile.rate);
   if (!length) return length.error();
   const StageOptions& how = stage->options;
-  if (!(how.max_force > 0)) return malformed("max_force", "the largest force allowed must be positive");
+  if (!(how.max_force > 0))
+    return malformed("max_force", "the largest force allowed must be positive", "give newtons, as in 2");
   if (how.priority && !(*how.priority >= 1 && *how.priority <= 99))
-    return malformed("priority", "the priority of a loop must be in 1 .. 99");
+    return malformed("priority", "the priority of a loop must be in 1 .. 99", "the usual one is 80");
   std::unique_ptr<Session> session(new Session(stage, options, clock, device));
   session->ticks_ = length->ticks;
   session->kept_ = length->kept;
@@ -110,9 +115,10 @@ Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stag
     session->stage_ = nullptr;  // it was not taken
     return error;
   };
-  if (stage->over) return refuse(wrong_moment("the stage is gone"));
-  if (stage->running) return refuse(wrong_moment("another run is under way on this stage"));
-  if (!may_be_empty && stage->table.size() == 0) return refuse(wrong_moment("nothing is on the stage"));
+  if (stage->over) return refuse(stage_is_gone());
+  if (stage->running) return refuse(another_run());
+  if (!may_be_empty && stage->table.size() == 0)
+    return refuse(wrong_moment("stage", "nothing is on the stage", "add a patch first"));
   if (auto begun = session->begin_recording(); !begun) return refuse(std::move(begun).error());
   stage->running = stage->served = true;
   stage->told_to_stop = false;

@@ -7,6 +7,10 @@
 namespace wale {
 namespace {
 
+Error no_device() {
+  return wrong_moment("stage", "the stage has no device", "make it with a device, or serve its ticks by a `Loop`");
+}
+
 /// Ends the run that `start` began, and waits for its end; false if it began none. Allocates nothing.
 bool end_started_run(StageState& state) {
   if (!state.thread.joinable()) return false;
@@ -78,7 +82,7 @@ bool Stage::is_running() const {
 
 Result<RunResult> Stage::run(const RunOptions& options) {
   const std::shared_ptr<StageState> state = state_;  // the stage may be destroyed in `progress`
-  if (state->device == nullptr) return wrong_moment("the stage has no device");
+  if (state->device == nullptr) return no_device();
   auto session = Session::begin(state, options, options.virtual_time ? Session::Clock::unreal : Session::Clock::real,
                                 false, *state->device);
   if (!session) return std::move(session).error();
@@ -88,8 +92,8 @@ Result<RunResult> Stage::run(const RunOptions& options) {
 Result<> Stage::start() {
   const std::shared_ptr<StageState> state = state_;
   const std::lock_guard starting(state->starting);
-  if (state->device == nullptr) return wrong_moment("the stage has no device");
-  if (state->thread.joinable()) return wrong_moment("another run is under way on this stage");
+  if (state->device == nullptr) return no_device();
+  if (state->thread.joinable()) return another_run();
   auto session = Session::begin(state, {.seconds = HUGE_VAL, .kept_seconds = 1 / state->profile.rate},
                                 Session::Clock::real, true, *state->device);
   if (!session) return std::move(session).error();
@@ -106,14 +110,16 @@ Result<> Stage::start() {
     });
   } catch (const std::system_error& error) {
     return Error{.code = Code::short_of_resources,
-                 .sentence = std::string("the system gives no thread for the run: ") + error.what()};
+                 .sentence = std::string("the system gives no thread for the run: ") + error.what(),
+                 .mend = "end other programs, or raise the limit on processes (ulimit -u)",
+                 .place = {.name = "stage"}};
   }
   return {};
 }
 
 Result<RunResult> Stage::stop() {
   const std::lock_guard starting(state_->starting);
-  if (!end_started_run(*state_)) return wrong_moment("no run was started on this stage");
+  if (!end_started_run(*state_)) return wrong_moment("stage", "no run was started on this stage", "start one first");
   return *std::exchange(state_->outcome, std::nullopt);
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "schema/built_for.hpp"
+#include "schema/name_text.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale {
@@ -18,58 +20,87 @@ std::string six_digits(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6).ptr};
 }
 
-std::string in_its_own_unit(const Parameter& parameter, float value) {
+std::string in_its_own_unit(const Parameter& parameter, double value) {
   const std::string number = six_digits(value / parameter.unit_in_si);
   return parameter.unit.empty() ? number : number + " " + parameter.unit;
+}
+
+constexpr const char* place_in_m = "give m from the workspace's centre, as in 0.02";
+
+Error no_ticks() {
+  return wrong_moment("patch", "the run serves no ticks", "ask again later; a loop of one's own must go on meanwhile");
 }
 
 bool is_finite(glm::vec2 place) { return std::isfinite(place.x) && std::isfinite(place.y); }
 
 Result<> check_size(PatchSize size) {
+  constexpr const char* lengths = "give lengths in m, as in 0.05";
   if (!(std::isfinite(size.width) && size.width > 0 && std::isfinite(size.height) && size.height > 0))
-    return malformed("size", "the width and height of a patch must be positive and finite");
+    return malformed("size", "the width and height of a patch must be positive and finite", lengths);
   if (!(std::isfinite(size.rim) && size.rim >= 0))
-    return malformed("size", "the rim of a patch must be finite and not negative");
+    return malformed("size", "the rim of a patch must be finite and not negative", lengths);
   return {};
 }
 
 Result<> check_layer(float layer) {
   if (std::isfinite(layer)) return {};
-  return malformed("layer", "the layer of a patch must be finite");
+  return malformed("layer", "the layer of a patch must be finite", "give any number; the greatest is in front");
 }
 
 }  // namespace
 
-Error malformed(std::string name, std::string sentence) {
-  return {.code = Code::malformed_value, .sentence = std::move(sentence), .place = {.name = std::move(name)}};
+Error malformed(std::string name, std::string sentence, std::string mend) {
+  return {.code = Code::malformed_value,
+          .sentence = std::move(sentence),
+          .mend = std::move(mend),
+          .place = {.name = std::move(name)}};
 }
 
-Error wrong_moment(std::string sentence) { return {.code = Code::wrong_moment, .sentence = std::move(sentence)}; }
+Error wrong_moment(std::string name, std::string sentence, std::string mend) {
+  return {.code = Code::wrong_moment,
+          .sentence = std::move(sentence),
+          .mend = std::move(mend),
+          .place = {.name = std::move(name)}};
+}
+
+Error stage_is_gone() {
+  return wrong_moment("stage", "the stage is gone",
+                      "keep the stage for as long as its patches, edits and loops are used");
+}
+
+Error another_run() {
+  return wrong_moment("stage", "another run is under way on this stage", "wait for its end, or stop it first");
+}
+
+Error patch_is_gone() { return wrong_moment("patch", "the patch is not on the stage any more", "add it again"); }
 
 StageState::StageState(std::unique_ptr<Device> own, Device* others, const DeviceProfile& of, StageOptions how)
     : owned(std::move(own)), device(owned ? owned.get() : others), profile(of), options(std::move(how)) {}
 
 Result<> StageState::has(PatchName name) const {
-  if (over) return wrong_moment("the stage is gone");
+  if (over) return stage_is_gone();
   if (table.wanted(name) != nullptr) return {};
-  return wrong_moment("the patch is not on the stage any more");
+  return patch_is_gone();
 }
 
 Result<> StageState::fits(const PatchProgram& program) const {
   const bool same_kind = program.vibrates() == profile.shaker.has_value();
-  if (same_kind && program.device.name == profile.name) return {};
+  if (same_kind && program.device.name == profile.name) return is_built_for(program, profile);
   std::string sentence = program.material + " was built for " + program.device.name;
   if (same_kind)
     sentence += ", and the device is " + profile.name;
   else
     sentence += std::string(program.vibrates() ? ", which vibrates, and " : ", which pushes, and ") + profile.name +
                 (program.vibrates() ? " pushes" : " only vibrates");
-  return Error{.code = Code::other_device, .sentence = std::move(sentence), .mend = "build it for " + profile.name};
+  return Error{.code = Code::other_device,
+               .sentence = std::move(sentence),
+               .mend = "build it for " + profile.name,
+               .place = {.name = "program", .text = program.device.name}};
 }
 
 Result<Placement> StageState::placement(const Program& program, const PatchOptions& patch) const {
   if (auto fit = fits(program.description()); !fit) return std::move(fit).error();
-  if (!is_finite(patch.at)) return malformed("at", "the place of a patch must be finite");
+  if (!is_finite(patch.at)) return malformed("at", "the place of a patch must be finite", place_in_m);
   if (patch.size)
     if (auto good = check_size(*patch.size); !good) return std::move(good).error();
   if (auto good = check_layer(patch.layer); !good) return std::move(good).error();
@@ -156,21 +187,22 @@ Result<Snapshot> StageState::snapshot(PatchName name) {
       }();
       if ((ended || Clock::now() - began > patience) && outlets.desk.take_back(request)) {
         if (ended) break;
-        return wrong_moment("the run serves no ticks");
+        return no_ticks();
       }
       std::this_thread::sleep_for(pause);
     }
     if (request.outcome == MemoryRequest::Outcome::copied) return Snapshot{felt.bank->bank, std::move(request.copy)};
     seen = request.revision;
-    if (Clock::now() - began > patience) return wrong_moment("the run serves no ticks");
+    if (Clock::now() - began > patience) return no_ticks();
     std::this_thread::sleep_for(pause);
   }
 }
 
 namespace changes {
 
-StageState::Change set(std::string parameter, float value) {
+StageState::Change set(std::string parameter, double value) {
   return [parameter = std::move(parameter), value](Placement& patch) -> Result<> {
+    if (auto named = is_name_text("parameter", parameter); !named) return named;
     const PatchProgram& program = patch.program.description();
     const std::optional<std::size_t> index = patch.program.parameter(parameter);
     if (!index) {
@@ -185,17 +217,21 @@ StageState::Change set(std::string parameter, float value) {
                    .nearest = nearest_spellings(parameter, known)};
     }
     const Parameter& range = program.parameters[*index];
-    if (!(value >= range.low && value <= range.high))
-      return malformed("value", range.name + " = " + in_its_own_unit(range, value) + " is not in its range " +
-                                    in_its_own_unit(range, range.low) + " .. " + in_its_own_unit(range, range.high));
-    patch.parameters[*index] = value;
+    const auto wanted = static_cast<float>(value);  // the range is one of floats
+    if (!(wanted >= range.low && wanted <= range.high))
+      return malformed(
+          "value",
+          range.name + " = " + in_its_own_unit(range, value) + " is not in its range " +
+              in_its_own_unit(range, range.low) + " .. " + in_its_own_unit(range, range.high),
+          range.si_unit.empty() ? "give a number in this range" : "give a value in this range, in " + range.si_unit);
+    patch.parameters[*index] = wanted;
     return {};
   };
 }
 
 StageState::Change move(glm::vec2 to) {
   return [to](Placement& patch) -> Result<> {
-    if (!is_finite(to)) return malformed("to", "the position to which a patch is moved must be finite");
+    if (!is_finite(to)) return malformed("to", "the position to which a patch is moved must be finite", place_in_m);
     patch.position = to;
     return {};
   };

@@ -16,8 +16,11 @@
 namespace wale {
 
 /// The error for a wrong argument.
-Error malformed(std::string name, std::string sentence);
-Error wrong_moment(std::string sentence);
+Error malformed(std::string name, std::string sentence, std::string mend);
+Error wrong_moment(std::string name, std::string sentence, std::string mend);
+Error stage_is_gone();
+Error another_run();
+Error patch_is_gone();
 
 /// What a stage, its handles and its runs share. It lives as long as the stage or a run of it.
 struct StageState : std::enable_shared_from_this<StageState> {
@@ -72,7 +75,7 @@ struct StageState : std::enable_shared_from_this<StageState> {
 
 /// The changes that `Patch` and `StageEdit` make.
 namespace changes {
-StageState::Change set(std::string parameter, float value);
+StageState::Change set(std::string parameter, double value);
 StageState::Change move(glm::vec2 to);
 StageState::Change resize(PatchSize size);
 StageState::Change enable(bool enabled);

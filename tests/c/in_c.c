@@ -195,8 +195,8 @@ static void libraries(void) {
   WaleLibrary* another = NULL;
   const WaleText folders[] = {WALE_TEXT("/does/not/exist")};
   WaleLibraryOptions options = {.size = sizeof options, .folders = folders, .folder_count = 1};
-  CHECK_GOOD(wale_library_create(&options, &another, &error));
-  wale_library_free(another);
+  CHECK_CODE(WALE_CODE_unreadable_file, wale_library_create(&options, &another, &error));
+  CHECK(another == NULL);
   options.folders = NULL;
   CHECK_MALFORMED(wale_library_create(&options, &another, &error));
   CHECK_MALFORMED(wale_library_create(NULL, NULL, &error));

@@ -10,6 +10,7 @@
 
 #include "calibration/feel/felt_report.hpp"
 #include "calibration/feel/rehearsal.hpp"
+#include "schema/without_place.hpp"
 #include "tests/calibration/declared.hpp"
 
 namespace wale::hand_motion_test {
@@ -46,7 +47,7 @@ TEST(HandMotion, ShiftsTurnsAndPresses) {
 TEST(HandMotion, RefusesWhatNobodyCanMean) {
   const auto error = [](const std::string& typed) {
     const auto found = motion_of(typed, person(), known().declarations());
-    return found ? std::string("none") : in_words(found.error());
+    return found ? std::string("none") : in_words_without_place(found.error());
   };
   EXPECT_NE(error("lateral along z").find("expected `x`, `y` or an angle"), std::string::npos);
   EXPECT_NE(error("lateral along 30").find("expected `x`, `y` or an angle"), std::string::npos);

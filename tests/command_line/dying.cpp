@@ -9,6 +9,7 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
@@ -80,6 +81,7 @@ TEST(Dying, ACrashLeavesARecordingUpToTheLastTick) {
 
 TEST(Dying, ARecordingThatSomebodyTruncatesIsACrashThatIsSaid) {
   Recording feeling;
+  ASSERT_EQ(chmod(feeling.file.c_str(), 0644), 0);  // it is read-only during the run
   ASSERT_EQ(truncate(feeling.file.c_str(), 0), 0);
   const int status = feeling.child.wait();
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGBUS) << status;

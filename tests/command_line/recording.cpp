@@ -137,8 +137,9 @@ TEST(Replay, DamagedFilesAndOtherFilesAreRefused) {
   ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
   EXPECT_TRUE(contains(wale({"replay", program}).err, program + ": expected a recording, found a patch program"));
   const std::string missing = folder / "none.wrec";
-  EXPECT_EQ(wale({"replay", missing}).err,
-            "wale: error[W0501]: " + missing + ": the file cannot be read: no such file\n");
+  EXPECT_EQ(wale({"replay", missing}).err, "wale: error[W0501]: " + missing +
+                                               ": the file cannot be read: no such file\n"
+                                               "  = help: name a recording, a .wrec file, that this user may read\n");
   EXPECT_EQ(wale({"replay"}).status, 2);
 }
 

@@ -15,6 +15,7 @@
 #include "runtime/device/identify_device.hpp"
 #include "runtime/device/shipped_devices.hpp"
 #include "runtime/device/trusted_device.hpp"
+#include "schema/without_place.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace wale::choosing_test {
@@ -54,7 +55,7 @@ Choice choice(const DeviceRequest& request, const std::vector<PluggedIn>& plugge
   const auto chosen = choose_device(request, *shipped_devices(), *trusted_devices(), plugged);
   if (!chosen) {
     const bool is_absent = chosen.error().code == Code::absent_device;
-    return {is_absent ? "absent" : "refused", chosen.error().mend, in_words(chosen.error())};
+    return {is_absent ? "absent" : "refused", chosen.error().mend, in_words_without_place(chosen.error())};
   }
   return {chosen->plugged ? chosen->plugged->port : "simulated", chosen->declared ? chosen->declared->profile.name : "",
           chosen->said};

@@ -7,10 +7,10 @@
 #include <type_traits>
 
 #include "calibration/feel/trusted_declarations.hpp"
-#include "schema/owners_devices_file.hpp"
-#include "runtime/device/built_for.hpp"
 #include "runtime/device/driver.hpp"
 #include "runtime/device/force_limits.hpp"
+#include "schema/built_for.hpp"
+#include "schema/owners_devices_file.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/temporary_folder.hpp"
 

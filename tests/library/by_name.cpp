@@ -89,8 +89,9 @@ TEST(ByName, ErrorsAreAboutTheArgument) {
     std::vector<std::string> first;  ///< of `nearest`
   } cases[] = {
       {library.level("rougness", "coarse"), Code::unknown_name, "percept", {"roughness"}},
-      {library.level("", "coarse"), Code::unknown_name, "percept", {}},
-      {library.level("rough\xff\x1bness", "coarse"), Code::unknown_name, "percept", {"roughness"}},
+      {library.level("", "coarse"), Code::malformed_value, "percept", {}},
+      {library.level("rough\xff\x1bness", "coarse"), Code::invalid_encoding, "percept", {}},
+      {library.level("rough\x1bness", "coarse"), Code::malformed_value, "percept", {}},
       {library.level(huge, "coarse"), Code::unknown_name, "percept", {}},
       {library.level("roughness", "coarze"), Code::unknown_name, "level", {"coarse"}},
       {library.level("roughness", "0.5 } }"), Code::malformed_value, "level", {}},
@@ -105,9 +106,17 @@ TEST(ByName, ErrorsAreAboutTheArgument) {
       {library.find("denim", {.material = "denin"}), Code::unknown_material, "material", {"denim"}},
       {library.open(denim_file(), {.material = "velvet"}), Code::unknown_material, "material", {}},
       {library.find("corderoy"), Code::unknown_name, "name", {"corduroy"}},
-      {library.find(""), Code::unknown_name, "name", {}},
+      {library.find(""), Code::malformed_value, "name", {}},
+      {library.find(" "), Code::malformed_value, "name", {}},
+      {library.find("\t\n"), Code::malformed_value, "name", {}},
+      {library.find("den\nim"), Code::malformed_value, "name", {}},
+      {library.find(std::string("den\0im", 6)), Code::invalid_encoding, "name", {}},
+      {library.find("denim", {.device = "\xff"}), Code::invalid_encoding, "device", {}},
+      {library.find("denim", {.device = " "}), Code::malformed_value, "device", {}},
+      {library.find("denim", {.material = "a\nb"}), Code::malformed_value, "material", {}},
+      {library.find("leather"), Code::unknown_name, "name", {"suede"}},  // a kind
       {library.find(huge), Code::unknown_name, "name", {}},
-      {library.find("den\xffim"), Code::unknown_name, "name", {"denim"}},
+      {library.find("den\xffim"), Code::invalid_encoding, "name", {}},
       {library.find("denim:"), Code::malformed_value, "name", {}},
       {library.find(denim_file()), Code::unknown_name, "name", {}},  // a path is no name
       {library.find("corderoy:denim"), Code::unknown_name, "name", {"corduroy"}},
@@ -121,12 +130,29 @@ TEST(ByName, ErrorsAreAboutTheArgument) {
     EXPECT_EQ(error.place.column, std::nullopt);
     EXPECT_LE(error.nearest.size(), 3u);
     EXPECT_LT(error.sentence.size(), 400u);
+    EXPECT_FALSE(error.mend.empty() && error.nearest.empty()) << error.sentence;
+    EXPECT_TRUE(in_words(error).starts_with(error.place.name + ": ")) << in_words(error).substr(0, 300);
     if (!each.first.empty()) {
       ASSERT_FALSE(error.nearest.empty()) << error.sentence;
       EXPECT_EQ(error.nearest.front(), each.first.front());
       EXPECT_NE(error.mend.find("`" + each.first.front() + "`"), std::string::npos) << error.mend;
     }
   }
+}
+
+TEST(ByName, AFolderThatDoesNotExistIsAnErrorOfEachProgram) {
+  const TemporaryFolder folder;
+  const std::string missing = folder / "missing";
+  const Library library({.folders = {folder.path().string(), missing}});
+  ASSERT_FALSE(library.folders_exist());
+  for (const Result<Compiled>& result :
+       {library.find("denim"), library.level("roughness", "coarse"), library.compile(text_of(denim_file())),
+        library.open(denim_file()), library.find_later("denim").get()}) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, Code::unreadable_file);
+    EXPECT_EQ(result.error().place.text, missing);
+  }
+  EXPECT_TRUE(Library({.folders = {folder.path().string()}}).folders_exist());
 }
 
 TEST(ByName, ErrorsInATextHaveTheirPlaceAndTheirParts) {
@@ -141,6 +167,7 @@ TEST(ByName, ErrorsInATextHaveTheirPlaceAndTheirParts) {
   EXPECT_EQ(error.place.length, std::string("3 m").size());
   EXPECT_EQ(error.place.text, wrong_line);
   EXPECT_FALSE(error.expected.empty() && error.mend.empty());
+  EXPECT_TRUE(in_words(error).starts_with("my.wale:2:" + std::to_string(*error.place.column) + ": " + error.sentence));
   EXPECT_TRUE(error.others.empty());
 
   // Columns count characters, not bytes.

@@ -267,7 +267,7 @@ TEST(Machine, LoadSaysWhyNot) {
   auto bytes = write_patch_program(example::program());
   EXPECT_TRUE(Program::load(bytes));
   bytes[100] ^= std::byte{4};
-  EXPECT_EQ(in_words(Program::load(bytes).error()), "the file is damaged: its checksum does not match its bytes");
+  EXPECT_EQ(Program::load(bytes).error().sentence, "the file is damaged: its checksum does not match its bytes");
   EXPECT_EQ(Program::load(bytes).error().code, Code::damaged_file);
   PatchProgram unsafe = example::program();
   unsafe.outputs[0].ceiling = 37;

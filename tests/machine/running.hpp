@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/machine/verify.hpp"
+#include "schema/without_place.hpp"
 #include "tests/schema/example_program.hpp"
 #include "wale/program.hpp"
 
@@ -22,7 +23,7 @@ inline Program loaded(PatchProgram program) {
 /// The sentence with which `verify` refuses the program; empty when it accepts it.
 inline std::string refusal_of(const PatchProgram& program) {
   const auto verified = verify(program);
-  return verified ? "" : in_words(verified.error());
+  return verified ? "" : in_words_without_place(verified.error());
 }
 
 }  // namespace wale::example

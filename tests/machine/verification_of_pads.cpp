@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "schema/without_place.hpp"
 #include "tests/schema/example_program.hpp"
 #include "wale/program.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 std::string refusal_of(PatchProgram program) {
   const auto loaded = Program::load(std::move(program));
-  return !loaded ? in_words(loaded.error()) : "";
+  return !loaded ? in_words_without_place(loaded.error()) : "";
 }
 
 template <typename Change>

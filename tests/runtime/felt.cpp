@@ -189,14 +189,14 @@ TEST(LevelsBack, AreRefusedWithTheReason) {
   const Bank bank(corduroy(1.934f));
   Felt felt;
   felt.crossings = 49;
-  EXPECT_EQ(in_words(levels_back(bank, felt)[0].back.error()),
+  EXPECT_EQ(levels_back(bank, felt)[0].back.error().sentence,
             "the hand crossed the texture 49 times, expected at least 50");
 
   PatchProgram program = corduroy(1.934f).description();
   program.percepts[0].alone = false;
   const Bank mixed(*Program::load(program));
   felt.crossings = 1000;
-  EXPECT_EQ(in_words(levels_back(mixed, felt)[0].back.error()),
+  EXPECT_EQ(levels_back(mixed, felt)[0].back.error().sentence,
             "other forces push besides the lateral amplitude, so the force at the handle does not give the level of "
             "roughness");
 }

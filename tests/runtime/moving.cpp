@@ -172,7 +172,7 @@ TEST(Moving, RefusesInvalidPlaces) {
   Led device;
   Stage stage(device);
   Patch patch = *stage.add(push(1));
-  EXPECT_EQ(in_words(patch.move({std::nanf(""), 0}).error()), "the position to which a patch is moved must be finite");
+  EXPECT_EQ(patch.move({std::nanf(""), 0}).error().sentence, "the position to which a patch is moved must be finite");
   EXPECT_FALSE(patch.move({0, std::numeric_limits<float>::infinity()}));
   EXPECT_TRUE(patch.move({0.5f, 0}));
   run_of(stage, 3);

@@ -62,9 +62,31 @@ TEST(OpeningDevices, TheSimulatedHandMovesAsItShould) {
   }
 }
 
+TEST(OpeningDevices, RefusesNumbersThatAreNoneInAnyPlace) {
+  for (const double none : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    for (double HandModel::*part : {&HandModel::mass, &HandModel::damping, &HandModel::stiffness}) {
+      HandModel wrong = hand;
+      wrong.*part = none;
+      EXPECT_EQ(code_of(open_device("simulated", {.hand = wrong})), Code::malformed_value);
+    }
+    for (const Motion& motion : std::initializer_list<Motion>{
+             Rest{{none, 0}}, Rest{{0, none}}, Lateral{none, 1}, Lateral{0.02, none}, Lateral{0.02, 1, {none, 0}},
+             Lateral{0.02, 1, {}, {none, 0}}, Circular{none, 1}, Circular{0.02, none}, Circular{0.02, 1, {0, none}},
+             Press{none, 1}, Press{0.02, none}, Press{0.02, 1, {none, 0}}, Press{0.02, 1, {}, {0, none}},
+             Trace{{{none, {0, 0}}}}, Trace{{{0, {none, 0}}}}, Trace{{{0, {0, 0}, {0, none}}}}})
+      for (const char* device : {"simulated", "simulated:falcon"})
+        EXPECT_EQ(code_of(open_device(device, {.hand = hand, .motion = motion})), Code::malformed_value);
+  }
+  for (const Motion& motion : std::initializer_list<Motion>{Trace{}, Trace{{{1, {0, 0}}, {1, {0, 0}}}},
+                                                            Lateral{0.02, 1, {}, {0, 0}}, Press{0.02, 1, {}, {2, 0}}})
+    EXPECT_EQ(code_of(open_device("simulated", {.hand = hand, .motion = motion})), Code::malformed_value);
+  EXPECT_TRUE(open_device("simulated", {.hand = hand, .motion = Trace{{{0, {0, 0}}}}}));
+}
+
 TEST(OpeningDevices, RefusesWhatMakesNoSense) {
-  EXPECT_EQ(code_of(open_device("")), Code::unknown_device);
-  EXPECT_EQ(code_of(open_device("\xff")), Code::unknown_device);
+  for (const char* no_name : {"", " ", "a\nb"}) EXPECT_EQ(code_of(open_device(no_name)), Code::malformed_value);
+  EXPECT_EQ(code_of(open_device("\xff")), Code::invalid_encoding);
+  EXPECT_EQ(code_of(open_device(std::string_view("falcon\0", 7))), Code::invalid_encoding);
   EXPECT_EQ(code_of(open_device("falcom")), Code::unknown_device);
   EXPECT_EQ(code_of(open_device("simulated:")), Code::unknown_device);
   EXPECT_EQ(code_of(open_device("simulated:falcom")), Code::unknown_device);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "runtime/stage/guards.hpp"
+#include "schema/without_place.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/schema/example_program.hpp"
 #include "wale/felt.hpp"
@@ -144,11 +145,11 @@ TEST(Pads, AStageRunsWithoutAPosition) {
 TEST(Pads, ProgramsOfTheOtherKindAreRefused) {
   SimulatedPad pad(pad_device(), Rest{});
   Stage on_pad(pad);
-  EXPECT_EQ(in_words(on_pad.add(push(1)).error()),
+  EXPECT_EQ(in_words_without_place(on_pad.add(push(1)).error()),
             "by hand was built for sandpaper, which pushes, and bench pad only vibrates; build it for bench pad");
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Rest{});
   Stage on_joystick(joystick);
-  EXPECT_EQ(in_words(on_joystick.add(ribs()).error()),
+  EXPECT_EQ(in_words_without_place(on_joystick.add(ribs()).error()),
             "bench ribs was built for bench pad, which vibrates, and sandpaper pushes; build it for sandpaper");
 }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "runtime/record/format.hpp"
+#include "schema/without_place.hpp"
 #include "tests/runtime/figures.hpp"
 #include "tests/temporary_folder.hpp"
 #include "wale/recording.hpp"
@@ -34,7 +35,7 @@ inline Recording opened(const std::string& path) {
 }
 
 inline std::string refused(const Result<Recording>& recording) {
-  return recording ? "not refused" : in_words(recording.error());
+  return recording ? "not refused" : in_words_without_place(recording.error());
 }
 
 inline RunResult run(Stage& stage, const RunOptions& options) {

@@ -140,9 +140,10 @@ TEST(Recording, ReplaysStaleAndLostDevicesAndEveryGuard) {
   none.evolve(state, none.constant(1), none.tick(Operation::divide, none.constant(1), none.constant(1)));
   none.push(0, none.tick(Operation::multiply, none.constant(0), state), none.constant(0));
   none.push(1, none.constant(1), none.constant(0));
-  Patch patch = *stage.add(spring(8000, 2.9f));
-  Patch another =
-      *stage.add(oil(-8, 2.9f), {.at = {0.03f, 0}, .size = PatchSize{.width = 0.06f, .height = 0.16f}, .layer = 1});
+  none.program.device = device.profile_;
+  Patch patch = *stage.add(built_for(spring(8000, 2.9f), device.profile_));
+  Patch another = *stage.add(built_for(oil(-8, 2.9f), device.profile_),
+                             {.at = {0.03f, 0}, .size = PatchSize{.width = 0.06f, .height = 0.16f}, .layer = 1});
   Patch nothing =
       *stage.add(none.load(), {.at = {-0.05f, 0}, .size = PatchSize{.width = 0.02f, .height = 0.16f}, .layer = 1});
   const RunResult done = run(stage, {.seconds = 8, .virtual_time = true});
@@ -275,7 +276,11 @@ TEST(Recording, WhoseFileAnotherProgramTakesAwayIsTold) {
     std::function<void(const std::string&)> take;
     std::string said;
   } ways[] = {{[](const std::string& file) { std::filesystem::remove(file); }, "removed"},
-              {[](const std::string& file) { std::filesystem::resize_file(file, 5000); }, "cut"},
+              {[](const std::string& file) {
+                 std::filesystem::permissions(file, std::filesystem::perms(0644));  // it is read-only during the run
+                 std::filesystem::resize_file(file, 5000);
+               },
+               "cut"},
               {[](const std::string& file) { std::filesystem::rename(file, file + "2"); }, "renamed"}};
   for (const auto& [take, said] : ways) {
     const TemporaryFolder folder;
@@ -381,7 +386,7 @@ TEST(Recording, ARunMayKeepOnlyItsEnd) {
   for (std::size_t i = 0; i < 630; ++i) ASSERT_EQ(end.record.ticks[i].time, whole.record.ticks[2070 + i].time);
   const auto endless = stage.run({.seconds = HUGE_VAL, .virtual_time = true});
   ASSERT_FALSE(endless);
-  EXPECT_EQ(in_words(endless.error()), "a run lasts at most 18641.4 s at 900 Hz; asked for inf s");
+  EXPECT_EQ(endless.error().sentence, "a run keeps at most 18641.4 s at 900 Hz; asked for inf s");
   std::atomic<bool> stop = false;
   const auto enough = [&](const Now& now) { stop = now.ticks_run >= 1800; };
   EXPECT_EQ(

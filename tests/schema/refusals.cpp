@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "schema/without_place.hpp"
 #include "tests/schema/example_program.hpp"
 #include "tests/schema/wpp_bytes.hpp"
 #include "wale/patch_program.hpp"
@@ -18,7 +19,7 @@ Bytes example_bytes() { return write_patch_program(example::program()); }
 
 std::string refusal_of(const Bytes& bytes) {
   const auto result = read_patch_program(bytes);
-  return result ? "" : in_words(result.error());
+  return result ? "" : in_words_without_place(result.error());
 }
 
 /// The refusal of the example after the `size` bytes at `at` are set to `value` and the checksum is corrected.
@@ -283,7 +284,7 @@ TEST(Refusals, VibrationOfAPad) {
     for (auto& section : sections)
       if (section.kind == "VIBR") change(section.content);
     const auto result = read_patch_program(wpp::file_of(sections));
-    return !result ? in_words(result.error()) : "";
+    return !result ? in_words_without_place(result.error()) : "";
   };
   EXPECT_EQ(refusal([](Bytes&) {}), "");
   EXPECT_EQ(refusal([](Bytes& b) { b[0] = std::byte{3}; }),

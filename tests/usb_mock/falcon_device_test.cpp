@@ -10,6 +10,7 @@
 #include <string>
 
 #include "runtime/device/driver.hpp"
+#include "schema/without_place.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/usb/allocations.hpp"
@@ -74,7 +75,7 @@ class FalconDriver : public MockedUsb {
 
   std::string refusal(int port, const FalconOptions& options = falcon_in_mock_time()) {
     auto result = open(port, options);
-    return result ? "opened" : in_words(result.error());
+    return result ? "opened" : in_words_without_place(result.error());
   }
 
   TemporaryFolder folder_;

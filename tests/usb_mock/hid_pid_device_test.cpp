@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "runtime/device/driver.hpp"
+#include "schema/without_place.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/usb/allocations.hpp"
 #include "tests/usb/profiles.hpp"
@@ -45,7 +46,7 @@ class UsbDriver : public MockedUsb {
     HidPidDevice::Options options = in_mock_time();
     options.timeout = options.set_up_timeout = timeout;
     auto result = HidPidDevice::open(context(), found(port), trusted(joystick_profile()), options);
-    return result ? "opened" : in_words(result.error());
+    return result ? "opened" : in_words_without_place(result.error());
   }
 };
 
@@ -102,7 +103,7 @@ TEST(UsbRefusal, PermissionComesWithTheRuleToInstall) {
   constexpr int access = -3;  // LIBUSB_ERROR_ACCESS
   const Error error = why_not_usable(access, info);
   EXPECT_EQ(error.code, Code::no_permission);
-  EXPECT_EQ(in_words(error),
+  EXPECT_EQ(in_words_without_place(error),
             "no permission to open it; as root, write the lines\n"
             "  SUBSYSTEM==\"usb\", ATTR{idVendor}==\"1209\", ATTR{idProduct}==\"ffb0\", TAG+=\"uaccess\"\n"
             "  SUBSYSTEM==\"hidraw\", ATTRS{idVendor}==\"1209\", ATTRS{idProduct}==\"ffb0\", TAG+=\"uaccess\"\n"

@@ -27,7 +27,8 @@ struct SimulatedPerson {
 
 struct LibraryOptions {
   /// Folders that are searched for materials and imports besides the shipped library, as by `--library`; those of the
-  /// environment variable WALE_LIBRARY come after them.
+  /// environment variable WALE_LIBRARY come after them. If one of them is no folder, `Library::folders_exist` and each
+  /// call that makes a program give `unreadable_file`.
   std::vector<std::string> folders = {};
   /// Whether a stranger's picture may be decoded where the system offers no sandbox for its decoder. Otherwise a
   /// material that needs it is an error there (W0807).
@@ -68,7 +69,9 @@ struct Compiled {
 /// `place.text` the line's text; `expected`, `found` and `mend` are the diagnostic's. It is the first error; `others`
 /// has the further errors and warnings. Errors about an argument have the argument's name as `place.name` ("name",
 /// "percept", "level", "device", "material") and its value as `place.text`. For an unknown name `nearest` has up to
-/// three that may have been meant. All calls: `unknown_device` for a device that nothing declares.
+/// three that may have been meant. All calls: `unknown_device` for a device that nothing declares; `invalid_encoding`
+/// for a name that is not UTF-8 or holds a zero byte; `malformed_value` for one that is empty, blank or of several
+/// lines.
 class Library {
  public:
   explicit Library(const LibraryOptions& options = {});
@@ -76,6 +79,9 @@ class Library {
   ~Library();
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
+
+  /// Error: `unreadable_file` about the first of `LibraryOptions::folders` that is no folder.
+  Result<> folders_exist() const;
 
   /// A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL, by
   /// the rule of the command line: of the project in the process's current folder, of `LibraryOptions::folders`, or of
@@ -119,7 +125,7 @@ class Library {
 
   /// The devices that Wale ships, and those of the owner.
   std::vector<DeclaredDevice> devices() const;
-  /// Error: `unknown_name`.
+  /// Errors: `unknown_name`; those of a text that is no name.
   Result<SimulatedPerson> person(const std::string& name = "normal") const;
 
   /// The declarations that scale a real device on this computer: those of its owner's file and the shipped ones. Error:

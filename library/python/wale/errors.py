@@ -55,8 +55,5 @@ class Error(Exception):
         return self.code.name if isinstance(self.code, Code) else ""
 
     def __str__(self) -> str:
-        place = self.argument
-        if self.span is not None:
-            place = f"{self.span.file}:{self.span.line}:{self.span.column}"
         near = f" (near: {', '.join(self.nearest)})" if self.nearest else ""
-        return f"W{self.code:04}: {f'{place}: ' if place else ''}{self.args[0]}{near}"
+        return f"W{self.code:04}: {self.args[0]}{near}"

@@ -73,8 +73,8 @@ struct OpenOptions {
   /// The program `wale-keeper`, which lets a real device go when this process cannot. Empty: it is found where Wale is
   /// installed (libexec/wale), seen from this library or from the executable, or beside the executable.
   std::string keeper = {};
-  HandModel hand = {};  ///< that holds a simulated device; of mass 0 nothing holds it
-  Motion motion = {};   ///< of the person with that hand
+  HandModel hand = {};  ///< that holds a simulated device; of mass 0 nothing holds it; finite, not negative
+  Motion motion = {};   ///< of the person with that hand; finite; a trace as wale/trace.hpp says
 };
 
 /// Opens a device as `--device` of the command line spells it: "auto" (the best real one, else a simulated one), "usb",

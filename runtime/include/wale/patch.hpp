@@ -54,7 +54,7 @@ class Patch {
   Patch() = default;
 
   /// Sets a parameter, in SI units, in the range that the program declares. Errors also: `unknown_name`.
-  Result<> set(std::string_view parameter, float value);
+  Result<> set(std::string_view parameter, double value);
   /// Moves the patch's centre, m from the workspace's centre. A hand that is still on it does not enter anew; the
   /// energy that moving gives to the hand counts as the program's own.
   Result<> move(glm::vec2 to);
@@ -64,7 +64,7 @@ class Patch {
   /// program's. A parameter that is not at its default keeps its value if the new program has one of the same name and
   /// unit (clamped to the new range). A state keeps its value if the new program has one of the same name and unit and
   /// the hand stays on the patch. Grids keep their cells if all have the same names, units, sizes and bounds; after 64
-  /// replacements without a touch they begin anew. Errors also: `other_device`.
+  /// replacements without a touch they begin anew. Errors also: `other_device`, `other_figures`.
   Result<> replace(const Program& program);
   /// A patch that is not enabled is not felt, and keeps its memory.
   Result<> enable(bool enabled = true);

@@ -30,8 +30,9 @@ typedef struct WaleGuards {
 
 typedef struct WaleRunOptions {
   size_t size;
-  double seconds;       /* how long; positive, may be fractional */
-  double kept_seconds;  /* how much of the run's end the record keeps; 0: all */
+  double seconds;       /* how long; positive, may be fractional or infinite */
+  double kept_seconds;  /* how much of the run's end the record keeps, 2^24 ticks at most (4.6 hours at 1000 Hz); 0: all,
+                           so that a run without it is no longer than that */
   int32_t virtual_time; /* 1: as fast as possible on the calling thread; every run gives the same bits */
   int32_t reserved;     /* 0 */
 } WaleRunOptions;

@@ -65,7 +65,7 @@ struct ContactEvent {
 inline constexpr std::size_t most_contacts_waiting = 1024;
 
 struct RunOptions {
-  double seconds = 0;         ///< how long; positive, may be fractional
+  double seconds = 0;         ///< how long; positive, may be fractional; as many as `kept_seconds` lets be kept
   bool virtual_time = false;  ///< as fast as possible on the calling thread; every run gives the same bits
   /// Called about ten times a second, never on the real-time thread; changes of the stage are not handed over while it
   /// runs, so it should return soon. In virtual time it is called between two ticks, ten times per second of the run; a
@@ -73,7 +73,8 @@ struct RunOptions {
   std::function<void(const Now&)> progress = {};
   /// Ends the run when it becomes true; a signal handler may set it.
   const std::atomic<bool>* stop = nullptr;
-  /// s: how much of the run's end `RunResult::record` keeps. With a finite value the run may be infinitely long.
+  /// s: how much of the run's end `RunResult::record` keeps, 2^24 ticks at most (4.6 hours at 1000 Hz). With less than
+  /// that the run may be infinitely long.
   double kept_seconds = HUGE_VAL;
 };
 

@@ -29,8 +29,9 @@ typedef struct WaleStageOptions {
   int32_t low_latency;  /* 1: keeps processors out of deep sleep during a run, for the whole system */
   int32_t reserved;     /* 0 */
   double max_force;     /* N (of a pad m/s^2), the largest that the user allows; 0: only the device's own limit */
-  WaleText record;      /* records the run in this file, which must not exist yet; empty: does not. It is mapped: who
-                           truncates it meanwhile ends this process (SIGBUS) */
+  WaleText record;      /* records the run in this file, which must not exist yet; empty: does not. It is mapped, and
+                           read-only to others until the run ends; who truncates it in spite of that, as the superuser
+                           may, ends this process (SIGBUS) */
   WaleText record_hand; /* what moves the handle, kept in the recording: "simulated, lateral"; may be empty */
 } WaleStageOptions;
 
@@ -58,7 +59,8 @@ WALE_API WaleCode wale_stage_create_for(const WaleProfile* profile, const WaleSt
 WALE_API void wale_stage_free(WaleStage* stage);
 
 /* Puts a patch on the stage, in front of all others of its layer. `options` may be NULL; `patch` may be NULL if no handle is
-   wanted. Errors: malformed_value; other_device for a program that was built for another device. */
+   wanted. Errors: malformed_value; other_device for a program that was built for another device; other_figures for one that
+   was built for other figures of this device. */
 WALE_API WaleCode wale_stage_add(WaleStage* stage, const WaleProgram* program, const WalePatchOptions* options,
                                  WalePatch** patch, WaleError** error);
 
@@ -67,7 +69,7 @@ WALE_API size_t wale_stage_size(const WaleStage* stage);
 
 /* Runs for `options->seconds`, in real time or in virtual time on the calling thread, and returns at the end. `run`, which may
    be NULL, gets the figures and the record. Errors:
-   - malformed_value: the time is not positive, or an option is out of its range;
+   - malformed_value: the time is not positive, or longer than can be kept, or an option is out of its range;
    - wrong_moment: nothing is on the stage, it has no device, or another run is under way;
    - unusable_device: the profile lacks a figure that a loop needs;
    - unwritable_file: the recording cannot be made; short_of_resources: the system gives no thread. */
@@ -104,7 +106,7 @@ WALE_API WaleCode wale_patch_set(WalePatch* patch, WaleText parameter, double va
 WALE_API WaleCode wale_patch_move(WalePatch* patch, float x, float y, WaleError** error);
 /* m. */
 WALE_API WaleCode wale_patch_resize(WalePatch* patch, float width, float height, float rim, WaleError** error);
-/* other_device. */
+/* other_device, other_figures. */
 WALE_API WaleCode wale_patch_replace(WalePatch* patch, const WaleProgram* program, WaleError** error);
 /* A patch that is not enabled is not felt, and keeps its memory. */
 WALE_API WaleCode wale_patch_enable(WalePatch* patch, int32_t enabled, WaleError** error);

@@ -58,7 +58,7 @@ class StageEdit {
   /// As `Stage::add`. The handle names the patch from `commit` on; within this edit it may be used at once.
   Result<Patch> add(const Program& program, const PatchOptions& options = {});
   /// As the calls of `Patch` of the same names. The error comes from `commit`.
-  void set(const Patch& patch, std::string_view parameter, float value);
+  void set(const Patch& patch, std::string_view parameter, double value);
   void move(const Patch& patch, glm::vec2 to);
   void resize(const Patch& patch, PatchSize size);
   void replace(const Patch& patch, const Program& program);
@@ -101,7 +101,8 @@ class Stage {
   /// memory. Each run begins with new memories. The hand enters a patch anew each time it comes to it, also from
   /// another patch. Finding the patch takes as long among a hundred thousand patches as among ten. Errors:
   /// `malformed_value` for an option out of its range; `other_device` for a program that was built for another device,
-  /// or that pushes where the device only vibrates, or the other way round.
+  /// or that pushes where the device only vibrates, or the other way round; `other_figures` if its forces, places or
+  /// times would mean something else by the figures of this device (schema/PATCH_PROGRAM.md lists them).
   Result<Patch> add(const Program& program, const PatchOptions& options = {});
 
   /// Begins an edit.

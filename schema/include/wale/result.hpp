@@ -22,7 +22,7 @@ struct Place {
 };
 
 /// An error or a warning (`severity_of(code)`), as a value. Programs decide by `code`; `sentence` is for people and is
-/// never searched. It makes sense without `place`, and does not repeat its name.
+/// never searched. It does not repeat the name of `place`, which `in_words` puts before it.
 struct Error {
   Code code = {};
   std::string sentence = {};              ///< what is wrong: "expected a number, found a vector"
@@ -35,7 +35,7 @@ struct Error {
   std::vector<Error> others = {};  ///< the other errors and warnings of the same text, in the order of their places
 };
 
-/// The error in one line for a person: "the disk is full; make room or record elsewhere".
+/// The error in one line for a person, its place first: "my.wale:2:9: expected a number, found a vector; divide by …".
 std::string in_words(const Error& error);
 
 /// The error for a person in several lines: the line of `in_words`, then the causes, one per line.

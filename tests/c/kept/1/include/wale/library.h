@@ -33,17 +33,19 @@ typedef struct WaleCompileOptions {
   WaleText name;     /* of a text in memory: what errors and warnings call it; imports are looked for beside; empty: "text" */
 } WaleCompileOptions;
 
-/* `options` may be NULL. The owner's devices are read once, here. */
+/* `options` may be NULL. The owner's devices are read once, here. Errors: malformed_value; unreadable_file for a folder that
+   does not exist. */
 WALE_API WaleCode wale_library_create(const WaleLibraryOptions* options, WaleLibrary** library, WaleError** error);
 /* Waits for the work that is under way, at most. Futures that were not begun then give wrong_moment. */
 WALE_API void wale_library_free(WaleLibrary* library);
 
 /* All: `options` may be NULL; `program` gets a handle to free. Errors in a text have its place; those about an argument have the
    argument's name as `place`, its value as `place_text`, and for an unknown name up to three that may have been meant.
-   All: unknown_device for a device that nothing declares; invalid_encoding for an argument that is not UTF-8. */
+   All: unknown_device for a device that nothing declares; invalid_encoding for an argument that is not UTF-8;
+   malformed_value for a name that is empty, blank or of several lines. */
 
 /* A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL.
-   Errors: unknown_name, ambiguous_material, malformed_value for a text that is no name. */
+   Errors: unknown_name, for a kind ("fabric") with three of its materials as nearest; ambiguous_material. */
 WALE_API WaleCode wale_library_find(WaleLibrary* library, WaleText name, const WaleCompileOptions* options,
                                     WaleProgram** program, WaleError** error);
 /* A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6").

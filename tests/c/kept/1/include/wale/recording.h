@@ -51,7 +51,7 @@ typedef struct WaleReplay {
   double largest_force; /* the largest difference of the commanded force, N or m/s^2 */
 } WaleReplay;
 
-/* Maps the file and checks it. Errors: unreadable_file, newer_file, damaged_file. */
+/* Reads the file and checks it; what happens to it later does not matter. Errors: unreadable_file, newer_file, damaged_file. */
 WALE_API WaleCode wale_recording_open(WaleText path, WaleRecording** recording, WaleError** error);
 WALE_API void wale_recording_free(WaleRecording* recording);
 WALE_API WaleCode wale_recording_details(const WaleRecording* recording, WaleRecordingDetails* details, WaleError** error);

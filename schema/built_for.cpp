@@ -1,4 +1,4 @@
-#include "runtime/device/built_for.hpp"
+#include "schema/built_for.hpp"
 
 #include <array>
 #include <charconv>

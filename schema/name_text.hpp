@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "wale/result.hpp"
+
+namespace wale {
+
+/// Whether a text that a program hands over may be a name at all. `argument` is the name of that argument. Errors:
+/// `invalid_encoding` for a text that is not UTF-8 or holds a zero byte; `malformed_value` for one that is empty, of
+/// blanks alone, or of several lines.
+Result<> is_name_text(const std::string& argument, std::string_view text);
+
+}  // namespace wale
