@@ -87,18 +87,15 @@ class Matcher {
   /// The nearest colour within the tolerance. Pictures have far fewer colours than pixels, and each is looked up once.
   AreaId nearest(std::uint32_t pixel) {
     if (is_transparent(pixel)) return nobody;
-    if (pixel == last_) return last_nearest_;
-    const auto [known, is_new] = known_.try_emplace(pixel & 0xffffff, nobody);
-    if (is_new) {
-      double least = tolerance_;
-      for (std::size_t i = 0; i < colours_.size(); ++i)
-        if (const double far = distance_of(colour_of(pixel), colours_[i]); far <= least) {
-          if (far == least && known->second != nobody) continue;
-          least = far, known->second = static_cast<AreaId>(i);
-        }
-    }
-    last_ = pixel, last_nearest_ = known->second;
-    return last_nearest_;
+    AreaId& known = known_[pixel & 0xffffff];
+    if (known != unknown) return known;
+    known = nobody;
+    double least = tolerance_;
+    for (std::size_t i = 0; i < colours_.size(); ++i)
+      if (const double far = distance_of(colour_of(pixel), colours_[i]);
+          far < least || (far == least && known == nobody))
+        least = far, known = static_cast<AreaId>(i);
+    return known;
   }
 
   /// A core is a pixel whose neighbours all have its colour: no edge is there.
@@ -232,9 +229,8 @@ class Matcher {
   int width_, height_;
   double tolerance_;
   std::vector<Colour> colours_;
-  std::unordered_map<std::uint32_t, AreaId> known_;
-  std::uint32_t last_ = 0;  ///< transparent: of no pixel that is looked up
-  AreaId last_nearest_ = nobody;
+  static constexpr AreaId unknown = nobody - 1;
+  std::vector<AreaId> known_ = std::vector<AreaId>(1 << 24, unknown);  ///< of each red, green and blue
   std::vector<AreaId> nearest_, core_;
 };
 
