@@ -33,6 +33,7 @@ class PictureChecker {
     for (const Setting& setting : node_.settings) read(setting);
     if (areas_.empty() && surroundings_.diagnostics.error_count() == errors_before)
       refuse(Code::missing_setting, node_.span, "no colour of this picture has a material", example_of_colour);
+    if (surroundings_.diagnostics.error_count() > errors_before) return {};
     const auto picture = file();
     if (!picture || surroundings_.diagnostics.error_count() > errors_before) return {};
     auto image = read_colour_image(std::as_bytes(std::span(picture->file.bytes)), picture->file.name,

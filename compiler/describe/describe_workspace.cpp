@@ -48,6 +48,15 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
+/// How the patches lie, and the declared rules that this does not keep.
+nlohmann::ordered_json layout_json(const WorkspaceDescription& description) {
+  nlohmann::ordered_json layout{{"textures", description.layout.textures}};
+  if (description.layout.gap) layout["narrowest_gap_m"] = *description.layout.gap;
+  if (description.layout.element) layout["smallest_m"] = *description.layout.element;
+  layout["rules_not_kept"] = description.rules;
+  return layout;
+}
+
 }  // namespace
 
 std::string outline_text(const Outline& outline) {
@@ -66,7 +75,7 @@ std::string outline_text(const Outline& outline) {
 
 WorkspaceDescription describe_workspace(const CheckedWorkspace& workspace, const std::vector<LaidPatch>& laid,
                                         const std::string& device, const Declarations& declarations) {
-  WorkspaceDescription description{workspace.name, workspace.documentation, device, {}};
+  WorkspaceDescription description{workspace.name, workspace.documentation, device, {}, {}, {}};
   std::map<const Program*, std::string> known;
   for (const LaidPatch& each : laid) {
     const auto [feels, is_new] = known.try_emplace(each.program.get());
@@ -84,6 +93,11 @@ WorkspaceDescription describe_workspace(const CheckedWorkspace& workspace, const
     }
     description.patches.push_back(std::move(described));
   }
+  const DeviceDeclaration* declared = declarations.devices.find(device);
+  if (declared == nullptr || !declared->profile.has_position()) return description;
+  description.layout = layout_figures(laid, Ground(laid, 0.5 * declared->profile.workspace_diameter));
+  for (const BrokenRule& each : broken_rules(description.layout, declarations))
+    description.rules.push_back(rule_words(each));
   return description;
 }
 
@@ -103,6 +117,15 @@ std::string workspace_text(const WorkspaceDescription& description) {
       text += fmt::format("  {}  marked: {}, {}{}\n", padded("", widest), described.mark.slider, ends_of(described),
                           described.mark.says.empty() ? "" : fmt::format(", \"{}\"", described.mark.says));
   }
+  const LayoutFigures& layout = description.layout;
+  if (layout.textures > 1) {
+    text += readable("  {} textures", layout.textures);
+    if (layout.gap)
+      text += *layout.gap > 0 ? readable(", the narrowest gap {:.2g} mm", 1e3 * *layout.gap) : ", some edge to edge";
+    if (layout.element) text += readable(", the smallest {:.3g} mm wide", 1e3 * *layout.element);
+    text += "\n";
+  }
+  for (const std::string& rule : description.rules) text += fmt::format("  not kept, {}\n", rule);
   return text;
 }
 
@@ -134,7 +157,8 @@ std::string workspaces_json(const std::vector<WorkspaceDescription>& description
     all.push_back({{"workspace", each.name},
                    {"documentation", each.documentation},
                    {"device", each.device},
-                   {"patches", std::move(patches)}});
+                   {"patches", std::move(patches)},
+                   {"layout", layout_json(each)}});
   }
   return json_lines(all.size() == 1 ? all.front() : all);
 }

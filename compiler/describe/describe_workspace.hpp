@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "compiler/compile_workspace.hpp"
+#include "compiler/layout/layout_rules.hpp"
 
 namespace wale {
 
@@ -27,6 +28,8 @@ struct DescribedPatch {
 struct WorkspaceDescription {
   std::string name, documentation, device;
   std::vector<DescribedPatch> patches;  ///< the last lies in front
+  LayoutFigures layout;
+  std::vector<std::string> rules;  ///< those that the layout does not keep, with what they are made for
 };
 
 /// Describes a workspace by its finished programs, each of which is read once.

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "compiler/diagnostics/advice.hpp"
-#include "compiler/legibility/layout_rules.hpp"
+#include "compiler/layout/layout_rules.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {

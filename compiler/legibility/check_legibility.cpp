@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compiler/compare/compare.hpp"
 #include "compiler/diagnostics/advice.hpp"
+#include "compiler/layout/ground.hpp"
 #include "compiler/legibility/check_count.hpp"
 #include "compiler/legibility/check_sizes.hpp"
-#include "compiler/legibility/ground.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {
@@ -39,11 +41,22 @@ void check_neighbours(const std::vector<LaidPatch>& laid, const Ground& ground, 
 
 }  // namespace
 
-const Cues& ReadCues::of(const LaidPatch& patch) {
-  const auto known = read_.find(patch.program.get());
-  if (known != read_.end()) return known->second;
-  const Bank bank(*patch.program, patch.program->default_parameters(), patch.program->default_size());
-  return read_.emplace(patch.program.get(), cues_of(bank, declarations_)).first->second;
+const Cues& ReadCues::read(std::map<const Program*, Cues>& known, const Program& program, PatchSize size) {
+  const auto found = known.find(&program);
+  if (found != known.end()) return found->second;
+  const Bank bank(program, program.default_parameters(), size);
+  return known.emplace(&program, cues_of(bank, declarations_)).first->second;
+}
+
+const Cues& ReadCues::of(const LaidPatch& patch) { return read(read_, *patch.program, patch.program->default_size()); }
+
+const Cues& ReadCues::of_material(const LaidPatch& patch) {
+  constexpr float small = 0.25f;  // of the usual size: a texture has some periods in more
+  const DeviceProfile& device = patch.program->description().device;
+  const PatchSize size{static_cast<float>(device.patch_width), static_cast<float>(device.patch_height),
+                       static_cast<float>(device.patch_rim)};
+  const bool is_small = std::min(patch.size.width, patch.size.height) < small * std::min(size.width, size.height);
+  return is_small ? read(of_materials_, *patch.program, size) : of(patch);
 }
 
 void check_legibility(const CheckedWorkspace& workspace, const std::vector<LaidPatch>& laid,

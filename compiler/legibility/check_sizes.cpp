@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "compiler/diagnostics/advice.hpp"
-#include "compiler/legibility/layout_rules.hpp"
+#include "compiler/layout/layout_rules.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {
@@ -53,10 +53,12 @@ NarrowestFelt::Reason NarrowestFelt::for_patch(const Cues& cues, double rim) con
 
 NarrowestFelt::Reason NarrowestFelt::for_gap(const Cues& one, const Cues& other) const {
   Reason reason = for_hand(std::max(one[CueKind::amplitude].value_or(0), other[CueKind::amplitude].value_or(0)));
-  const double period = std::max(one[CueKind::period].value_or(0), other[CueKind::period].value_or(0));
-  return stronger(std::move(reason),
-                  {period, readable("the textures beside it have valleys as wide: their periods are up to {:.3g} mm",
-                                    1e3 * period)});
+  const double period = std::min(one[CueKind::period].value_or(0), other[CueKind::period].value_or(0));
+  return stronger(
+      std::move(reason),
+      {period,
+       readable("the textures beside it have valleys as wide: one has a period of {:.3g} mm, the other no shorter one",
+                1e3 * period)});
 }
 
 void check_sizes(const std::vector<LaidPatch>& laid, const Ground& ground, const Declarations& declarations,
@@ -68,11 +70,11 @@ void check_sizes(const std::vector<LaidPatch>& laid, const Ground& ground, const
     if (!(widths[i] > 0)) continue;  // hidden, or beyond reach
     const double shorter = std::min<double>(patch.size.width, patch.size.height);
     const double width = std::min(widths[i] + ground.square(), shorter);
-    const auto reason = narrowest.for_patch(cues.of(patch), patch.size.rim);
+    const auto reason = narrowest.for_patch(cues.of_material(patch), patch.size.rim);
     if (width >= reason.needed) continue;
     diagnostics.report(
         Advice(typeable("make it at least {:.4g} mm wide{}", 1e3 * rounded_up(reason.needed),
-                        cues.of(patch)[CueKind::period] ? ", or take a material with a shorter period" : ""))
+                        cues.of_material(patch)[CueKind::period] ? ", or take a material with a shorter period" : ""))
             .fact("width", 1e3 * width, "mm")
             .fact("low", 1e3 * reason.needed, "mm")
             .because(layout_rule("element", width, declarations))
@@ -83,7 +85,7 @@ void check_sizes(const std::vector<LaidPatch>& laid, const Ground& ground, const
   for (const auto& [both, between] : ground.gaps()) {
     const LaidPatch &one = laid[static_cast<std::size_t>(both.first)],
                     &other = laid[static_cast<std::size_t>(both.second)];
-    const auto reason = narrowest.for_gap(cues.of(one), cues.of(other));
+    const auto reason = narrowest.for_gap(cues.of_material(one), cues.of_material(other));
     if (between >= reason.needed) continue;
     diagnostics.report(
         Advice(typeable("leave {:.4g} mm between them, or lay them edge to edge", 1e3 * rounded_up(reason.needed)))

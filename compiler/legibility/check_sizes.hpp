@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/legibility/ground.hpp"
+#include "compiler/layout/ground.hpp"
 #include "compiler/legibility/read_cues.hpp"
 
 namespace wale {

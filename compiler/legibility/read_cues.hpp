@@ -14,10 +14,15 @@ class ReadCues {
   explicit ReadCues(const Declarations& declarations) : declarations_(declarations) {}
 
   const Cues& of(const LaidPatch& patch);
+  /// The cues of the material itself: as those of the patch, but where it is so small that its own texture may not be
+  /// read in it, as on a patch of the device's usual size.
+  const Cues& of_material(const LaidPatch& patch);
 
  private:
+  const Cues& read(std::map<const Program*, Cues>& known, const Program& program, PatchSize size);
+
   const Declarations& declarations_;
-  std::map<const Program*, Cues> read_;
+  std::map<const Program*, Cues> read_, of_materials_;
 };
 
 }  // namespace wale

@@ -221,8 +221,10 @@ void Parser::declaration() {
                 "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, "
                 "`class`, `device`, `levels`, `hand`, `workspace`, `movie`, `keys` or `groups`",
                 shown(here()), std::move(help),
-                borrowed && *borrowed == "let" && !meant ? std::vector{replace(span_of(here()), *borrowed)}
-                : meant                                  ? respell_here(declaration_words)
+                // Behind something else in a line it is rather what is left of a mistake there.
+                borrowed && *borrowed == "let" && !meant
+                    ? std::vector{replace(span_of(here()), *borrowed, {}, here().starts_line)}
+                : meant   ? respell_here(declaration_words)
                 : defines ? std::vector{insert_before(span_of(here()), "material ", "write `material`", false),
                                         insert_before(span_of(here()), "let ", "write `let`", false)}
                           : std::vector<Fix>{},

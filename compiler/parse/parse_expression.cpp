@@ -253,7 +253,7 @@ bool Parser::suffix_factor() {
 
 ExprId Parser::text() {
   // `"wet glass"(roughness: 0.3)`: a material has its arguments behind whichever of its names is written.
-  if (in_origin_ && followed_by(TokenKind::left_parenthesis) && !token(at_ + 1).starts_line) return call();
+  if (followed_by(TokenKind::left_parenthesis)) return call();
   const std::size_t begin = at_;
   const TextLiteral literal{input_.texts[here().value]};
   advance();

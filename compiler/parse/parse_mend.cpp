@@ -129,6 +129,17 @@ std::vector<Fix> Parser::fix_origin() const {
                   fmt::format("{} {}", spelling(here()), spelling(previous)), {}, false)};
 }
 
+/// Whether the parenthesis that opens there closes in its line.
+bool Parser::closes_in_line(std::size_t open) const {
+  int depth = 0;
+  for (std::size_t i = open; i == open || !(token(i).starts_line || kind(i) == TokenKind::end); ++i) {
+    depth += kind(i) == TokenKind::left_parenthesis;
+    depth -= kind(i) == TokenKind::right_parenthesis;
+    if (depth == 0) return true;
+  }
+  return false;
+}
+
 /// Fixes for the cases of `mend_here` that a program can mend.
 std::vector<Fix> Parser::fixes_here() const {
   if (at_ == 0) return {};
@@ -145,9 +156,11 @@ std::vector<Fix> Parser::fixes_here() const {
     case TokenKind::name:
     case TokenKind::left_parenthesis:
       if (mend_here().empty()) return {};
-      // `2 sin(x)` and `2 (a + b)` can only be products; `k hand` may lack any operator.
+      // `2 sin(x)` and `2 (a + b)` can only be products; `k hand` may lack any operator. In `(1 + 2(`, the last `(` is
+      // rather a mistyped `)`.
       return {insert_after(span_of(previous), " *", "multiply with `*`",
-                           number_before && (call || next.kind == TokenKind::left_parenthesis))};
+                           number_before && (call || next.kind == TokenKind::left_parenthesis) &&
+                               closes_in_line(call ? at_ + 1 : at_))};
     case TokenKind::comma:
       if (mend_here().empty()) return {};
       if (previous.kind != TokenKind::number) return {replace(span_of(next), " +", "add the forces", false)};

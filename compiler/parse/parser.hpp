@@ -146,6 +146,7 @@ class Parser {
   bool begins_argument(std::size_t index) const;
   bool is_inch_here() const;
   bool is_like(std::size_t index) const;
+  bool closes_in_line(std::size_t open) const;
   std::string_view value_at(std::size_t index) const;
   std::string mend_argument() const;
   std::string mend_other_order() const;

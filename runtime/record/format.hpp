@@ -17,7 +17,9 @@ static_assert(std::endian::native == std::endian::little, "recordings are stored
 
 /// As in PNG: a byte that no text has, the name, then line ends and an end-of-file mark, which a text transfer changes.
 inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'R', 'C', '\r', '\n', 0x1a, '\n'};
-inline constexpr std::uint32_t version = 3, oldest_version = 1;
+inline constexpr std::uint32_t version = 4, oldest_version = 1;
+/// From this version on, slewing ends also when the wanted force comes past between two ticks (`Guards`).
+inline constexpr std::uint32_t slewing_ends_when_passed = 4;
 
 /// Bytes before the first chunk, and of a chunk. Each chunk begins at a page, for pages of 4 to 64 KiB.
 inline constexpr std::size_t first_chunk = 64 * 1024, chunk_size = 256 * 1024;

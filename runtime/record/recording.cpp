@@ -75,7 +75,7 @@ class RecordingReader {
   /// Notes damage at a byte of the file; it replaces earlier damage.
   void note(std::string sentence, std::size_t byte) { problem_ = damaged_at(byte, std::move(sentence)); }
 
-  Result<> read_file_header() const {
+  Result<> read_file_header() {
     if (bytes_.empty()) return not_a_recording("the file is empty: nothing was recorded in it");
     const auto begins = [&](std::size_t length) {
       return std::equal(magic.begin(), magic.begin() + static_cast<std::ptrdiff_t>(length), bytes_.begin(),
@@ -97,6 +97,7 @@ class RecordingReader {
     if (header.check != check_of(header) || header.version < oldest_version || header.version > version ||
         header.first_chunk != first_chunk || header.chunk_size != chunk_size || header.tick_size != sizeof(TickEntry))
       return damaged_at(0, "the recording's header (byte 0) is damaged", "copy it again");
+    contents_.version = header.version;
     return {};
   }
 
@@ -238,6 +239,7 @@ Result<Recording> Recording::read(std::vector<std::byte> bytes, const std::strin
 }
 
 const RecordingHeader& Recording::header() const { return contents_->header; }
+std::uint32_t Recording::version() const { return contents_->version; }
 std::size_t Recording::ticks() const { return contents_->ticks; }
 RecordedTick Recording::tick(std::size_t number) const { return decode(contents_->entry(number)); }
 const std::vector<RecordedEvent>& Recording::events() const { return contents_->events; }

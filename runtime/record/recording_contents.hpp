@@ -14,6 +14,7 @@ namespace wale {
 /// The contents of a recording that have been read so far.
 struct RecordingContents {
   std::variant<std::string, std::vector<std::byte>> held;  ///< the file, or what the caller handed in
+  std::uint32_t version = 0;
   std::vector<std::size_t> tick_chunks;                    ///< bytes from the file's beginning
   std::size_t ticks = 0;
   std::vector<std::byte> events_bytes;  ///< all events one after the other

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/record/format.hpp"
 #include "runtime/stage/session.hpp"
 #include "schema/sentence.hpp"
 #include "wale/recording.hpp"
@@ -65,6 +66,7 @@ class Replaying final : public TickSink {
     Record record;
     act_until(1);  // the patches that were there when the run began
     Player player(device, patches_, record, 1, header.most_newton, false, this);
+    if (recording_.version() < recording_format::slewing_ends_when_passed) player.end_slewing_only_when_near();
     while (replay_.ticks < recording_.ticks()) {
       tick_ = recording_.tick(replay_.ticks);
       act_until(tick_.revision);

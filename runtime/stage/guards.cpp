@@ -88,10 +88,15 @@ Force Guards::slewed(Force wanted) noexcept {
     Force step = wanted - last_;
     if (vibrates_) step.y = 0;
     const float size = glm::length(step);
-    slewing_ = size > max_step_;
+    // A fast hand on a fine texture may never be near the wanted force at a tick. If what is missing has turned round,
+    // the wanted force came past between the last two ticks: the step to it is then no larger than its own, since the
+    // sides of an obtuse angle are shorter than the one across.
+    const bool is_passed = ends_when_passed_ && glm::dot(step, missing_) < 0;
+    slewing_ = size > max_step_ && !is_passed;
     if (slewing_) {
       force = last_ + step * (max_step_ / size);
-      if (vibrates_) force.y = wanted.y;
+      missing_ = wanted - force;
+      if (vibrates_) force.y = wanted.y, missing_.y = 0;
       ++counts_.slew;
     }
   }

@@ -14,18 +14,21 @@ namespace wale {
 /// Limits the force of any program before it reaches the device. In order: a force that is not a number becomes zero; a
 /// force that gives more energy than allowed is reduced; its size is clamped to the user's limit, and each axis to the
 /// device's peak force and to the force that its motor bears without overheating; after a call of `slew` the force
-/// moves no faster than the profile's slew, until it reaches the wanted one; the passivity observer takes away the
-/// energy that the sampled loop gained, within the same limits. Begins at zero force, slewing. On a pad, which gives no
-/// energy, the amplitude is clamped between 0 and the lesser of the user's limit and the greatest acceleration, and
-/// moves no faster than the profile's slew; the frequency is clamped to the pad's range, and is its least one while the
-/// wanted amplitude is 0.
+/// moves no faster than the profile's slew, until it reaches or passes the wanted one; the passivity observer takes
+/// away the energy that the sampled loop gained, within the same limits. Begins at zero force, slewing. On a pad, which
+/// gives no energy, the amplitude is clamped between 0 and the lesser of the user's limit and the greatest
+/// acceleration, and moves no faster than the profile's slew; the frequency is clamped to the pad's range, and is its
+/// least one while the wanted amplitude is 0.
 class Guards {
  public:
   /// A profile without a slew (zero) does not limit the rate. `most` is the largest force that the user allows, N.
   explicit Guards(const DeviceProfile& profile, double most = HUGE_VAL);
 
   /// Slews from now on: call it when a change may make the wanted force jump.
-  void slew() noexcept { slewing_ = max_step_ > 0; }
+  void slew() noexcept { slewing_ = max_step_ > 0, missing_ = Force(0); }
+
+  /// From now on slewing ends only within a step of the wanted force, as when recordings of version 3 were made.
+  void end_slewing_only_when_near() noexcept { ends_when_passed_ = false; }
 
   /// The hand is on another program now. Its force may give the energy `range` (J) and the power `active` (W), but no
   /// more power than the device allows; see `EnergyMeter`.
@@ -61,7 +64,9 @@ class Guards {
   double most_active_;  // W
   float max_step_;      // N or m/s^2 per tick
   bool vibrates_;
+  bool ends_when_passed_ = true;
   bool slewing_ = false;
+  Force missing_{0};  // what lacked of the wanted force after the last tick that slewed
   Force last_{0};
   EnergyMeter meter_;
   MotorHeat heat_;

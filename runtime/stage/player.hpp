@@ -50,6 +50,8 @@ class Player {
   Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats,
          double most_newton = HUGE_VAL, bool real_time = false, TickSink* sink = nullptr, Outlets* outlets = nullptr);
   ~Player() { device_.command(Force(0)); }
+  /// As `Guards::end_slewing_only_when_near`. Before the first tick.
+  void end_slewing_only_when_near() noexcept { guards_.end_slewing_only_when_near(); }
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 

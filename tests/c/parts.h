@@ -10,5 +10,6 @@ extern WaleProgram* corduroy;
 /* Each returns how many checks failed. */
 int stage_parts(void);
 int running_parts(void);
+int workspace_parts(void);
 
 #endif

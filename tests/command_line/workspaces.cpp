@@ -157,6 +157,66 @@ TEST(WorkspacesOnTheCommandLine, AMaskIsWhereItsPictureIsLight) {
   EXPECT_TRUE(contains(masked("check", "half.pgm", "100 mm").out, "W0427"));
 }
 
+/// A coloured picture of 60 x 40 pixels: red on the left, blue on the right, a white band of 10 pixels between them.
+std::string coloured() {
+  std::string picture = "P6\n60 40\n255\n";
+  for (int row = 0; row < 40; ++row)
+    for (int column = 0; column < 60; ++column)
+      picture += column < 25 ? "\xc0\x40\x20" : column < 35 ? "\xff\xff\xff" : "\x20\x60\xc0";
+  return picture;
+}
+
+TEST(WorkspacesOnTheCommandLine, AMapIsMadeOfAColouredPicture) {
+  const Desk desk;
+  desk.folder.write("map.ppm", coloured());
+  const auto map = [&](const std::string& settings) {
+    return desk.folder.write("map.wale",
+                             "wale 1\n\nworkspace map {\n  patch oak = oak { at 0 mm, 80 mm; size 20 mm, 20 mm }\n"
+                             "  patches from picture(\"map.ppm\", scale: 1 mm/px) {\n" +
+                                 settings + "  }\n}\n");
+  };
+  const std::string file =
+      map("    colour \"#c04020\" = denim(roughness: 0.6)\n    colour \"#2060c0\" = oak\n    blank  \"#ffffff\"\n");
+  const Outcome checked = wale({"check", file});
+  EXPECT_EQ(checked.status, 0) << checked.err << checked.out;
+  EXPECT_EQ(wale({"format", file}).status, 0);
+  EXPECT_EQ(wale({"format", "--check", file}).status, 0);
+  const Outcome told = wale({"describe", file});
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_TRUE(contains(told.out, "  denim  at -17.5 mm, 0 mm; 25 mm x 40 mm colour #c04020 of map.ppm")) << told.out;
+  EXPECT_TRUE(contains(told.out, "  oak_2  at 17.5 mm, 0 mm; 25 mm x 40 mm colour #2060c0 of map.ppm")) << told.out;
+  EXPECT_EQ(wale({"preview", file, "--workspace", "map", "-o", desk.folder / "map.png"}).status, 0);
+  const std::string built = desk.folder / "map.wws";
+  ASSERT_EQ(wale({"build", file, "--workspace", "map", "-o", built}).status, 0);
+  // Along x at 100 mm/s: 25 mm on the one, 10 mm on nothing, 25 mm on the other.
+  std::string trace = "t (s),x (m),y (m)\n";
+  for (int i = 0; i <= 80; ++i) trace += std::to_string(0.01 * i) + "," + std::to_string(-0.04 + 1e-3 * i) + ",0\n";
+  const Outcome felt = wale(
+      {"feel", built, "--virtual-time", "--seconds", "0.8", "--hand", desk.folder.write("hand.csv", trace), "--json"});
+  ASSERT_EQ(felt.status, 0) << felt.err;
+  const auto json = felt.json();
+  ASSERT_EQ(json["patches"].size(), 3u);
+  for (const int patch : {1, 2}) {
+    EXPECT_EQ(json["patches"][patch]["entries"], 1) << patch;
+    EXPECT_NEAR(json["patches"][patch]["seconds"].get<double>(), 0.25, 0.07) << patch;
+  }
+  // A picture without one of the colours, and one that is no picture.
+  EXPECT_TRUE(
+      contains(wale({"check", map("    colour \"#c04020\" = denim\n    colour \"#00ff00\" = oak\n")}).out, "W0314"));
+  const Outcome partly = wale({"check", map("    colour \"#c04020\" = denim\n    blank \"#fff\"\n")});
+  EXPECT_TRUE(contains(partly.out, "41.7 % of `map.ppm` has none of these colours: it is mostly \"#2060c0\""))
+      << partly.out;
+  EXPECT_EQ(partly.status, 0);
+  for (const auto& [bytes, code] : {std::pair<std::string, std::string>{"", "W0502"},
+                                    {"P6\n60 40\n255\nxyz", "W0502"},
+                                    {"P6\n90000 90000\n255\n", "W0503"}}) {
+    desk.folder.write("map.ppm", bytes);
+    const Outcome damaged = wale({"check", file});
+    EXPECT_EQ(damaged.status, 1) << code;
+    EXPECT_TRUE(contains(damaged.out, code) && contains(damaged.out, "map.wale:5:24")) << damaged.out;
+  }
+}
+
 TEST(WorkspacesOnTheCommandLine, AnUnknownNameIsWrongUsage) {
   const Desk desk;
   for (const char* verb : {"describe", "feel"}) {

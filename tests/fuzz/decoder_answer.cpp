@@ -20,7 +20,24 @@ bool is_plain(const std::string& text) {
 
 }  // namespace
 
+namespace {
+
+/// The same bytes as an answer in colours.
+void read_colours(std::span<const std::byte> bytes) {
+  const auto answer = wale::read_colour_answer(bytes);
+  if (!answer || !*answer) return;
+  const wale::ColourImage& image = **answer;
+  demand(image.width >= 1 && image.width <= wale::largest_image_side);
+  demand(image.height >= 1 && image.height <= wale::largest_image_side);
+  demand(image.pixels.size() == std::size_t{image.width} * image.height);
+  demand(image.pixels_per_column >= 1 && image.pixels_per_row >= 1);
+  demand(wale::write_colour_answer(image) == std::vector<std::byte>(bytes.begin(), bytes.end()));
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  read_colours(std::as_bytes(std::span(data, size)));
   const auto answer = wale::read_answer(std::as_bytes(std::span(data, size)));
   if (!answer) return 0;
   const wale::Result<wale::HeightImage>& image = *answer;

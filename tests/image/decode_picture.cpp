@@ -194,7 +194,7 @@ TEST(HostileDecoders, GetThePictureAndNothingElse) {
   const std::string checks =
       "[ -z \"$WALE_TEST_SECRET$HOME\" ] || exit 1\n"
       "for each in /proc/$$/fd/*; do case $each in */0|*/1|*/2|*/10|*/255) ;; *) [ -e $each ] && exit 2;; esac; done\n"
-      "[ \"$*\" = 'png 0 required' ] || exit 3\n"
+      "[ \"$*\" = 'png 0 required heights' ] || exit 3\n"
       "echo changed 2>/dev/null >&0 && exit 4\n"
       "kill -XCPU $$";
   EXPECT_EQ(FakeDecoder(checks).problem(), "the picture takes more than 10 s of processor time to decode");

@@ -84,6 +84,48 @@ TEST(WorkspaceSyntax, AreFormattedAndNothingIsLost) {
   EXPECT_EQ(Reading(expected).printed(), Reading(kitchen).printed());
 }
 
+TEST(WorkspaceSyntax, ATitleInQuotesTakesArguments) {
+  const std::string written =
+      "wale 1\n"
+      "material damp = \"wet glass\"(roughness: 0.3)\n"
+      "workspace desk {\n"
+      "  patch a = 0.5 oak + 0.3 * \"wet glass\"(roughness: 0.3)\n"
+      "  patch b = between(\"wet glass\", \"wet glass\"(roughness: 0.9), 0.5) { at 40 mm, 0 mm }\n"
+      "  patches from picture(\"map.png\", scale: 0.3 mm/px) {\n"
+      "    colour \"#c04020\" = \"wet glass\"(roughness: 0.3)\n"
+      "  }\n"
+      "}\n";
+  EXPECT_EQ(Reading(written).printed(),
+            "(material damp = (\"wet glass\" roughness: 0.3))\n"
+            "(workspace desk\n"
+            "  (patch a = (+ [0.5 oak] (* 0.3 (\"wet glass\" roughness: 0.3))))\n"
+            "  (patch b = (between \"wet glass\" (\"wet glass\" roughness: 0.9) 0.5)\n"
+            "    (at [40 mm] [0 mm]))\n"
+            "  (patches from (picture \"map.png\" scale: [0.3 mm/px])\n"
+            "    (colour {\"#c04020\" = (\"wet glass\" roughness: 0.3)})))\n");
+  EXPECT_EQ(formatted_workspace(written), written);
+}
+
+TEST(WorkspaceSyntax, MoviesKeysAndGroupsAreRecords) {
+  const std::string written =
+      "wale 1\n"
+      "/// In this order.\n"
+      "movie demo { frames kitchen, workshop }\n"
+      "keys sorting {\n"
+      "  of     kitchen\n"
+      "  area   80 mm, 80 mm\n"
+      "  labels random\n"
+      "}\n"
+      "groups sorted {\n"
+      "  of    kitchen\n"
+      "  group board, cloth, \"rough\"\n"
+      "  group steel\n"
+      "}\n";
+  EXPECT_EQ(formatted_workspace(written), written);
+  EXPECT_EQ(Reading("wale 1\nexport movie demo { frames kitchen }\n").errors(),
+            std::vector<std::string>{"W0103 2:1 a movie cannot be exported: no other file names it"});
+}
+
 TEST(WorkspaceSyntax, AnUnclosedPatchIsOneError) {
   const Reading reading(desk("  patch a = oak { at 0 mm, 0 mm\n  patch b = oak\n"));
   EXPECT_EQ(reading.errors(), std::vector<std::string>{"W0103 4:3 expected `}` before `patch`"});

@@ -107,6 +107,53 @@ TEST(Workspaces, PatchesOfOneMaterialAndSizeShareAProgram) {
   EXPECT_TRUE(said.all().empty());
 }
 
+TEST(Workspaces, OnlyAMaterialIsCalledByAText) {
+  EXPECT_EQ(errors_of("wale 1\nlet a = \"sin\"(1)\n"), std::vector<std::string>{"a text is no function"});
+  EXPECT_EQ(errors_of("wale 1\nmaterial a { representative { title \"b\"(1) }; perceptual { roughness 0.4 } }\n"),
+            std::vector<std::string>{"`title` takes texts in quotes"});
+  EXPECT_EQ(errors_of(desk("patch a = \"denim\"(rougness: 0.3)")),
+            std::vector<std::string>{"`denim` has no parameter `rougness`"});
+  EXPECT_EQ(errors_of(desk("patch a = \"dennim\"(roughness: 0.3)")),
+            std::vector<std::string>{"no material is called `dennim`"});
+  EXPECT_EQ(errors_of(desk("patch a = oak { shape \"mask\"(\"a.png\", scale: 1 mm/px) }")),
+            std::vector<std::string>{"expected a shape"});
+}
+
+TEST(Workspaces, AreShownInMoviesByKeysAndInGroups) {
+  const std::string two = "wale 1\nworkspace kitchen { patch board = oak; patch cloth = denim }\nworkspace hall { }\n";
+  const Checked checked(two +
+                        "/// First one, then the other.\nmovie demo { frames kitchen, hall; frames kitchen }\n"
+                        "keys sorting { of kitchen; area 80 mm, 6 cm; at 10 mm, -20 mm; key 25 mm; labels random }\n"
+                        "groups sorted { of kitchen; group board, \"hard\"; group cloth }\n");
+  const CheckedMovie& movie = checked.module.movies.at(0);
+  EXPECT_EQ(movie.documentation, "First one, then the other.");
+  ASSERT_EQ(movie.frames.size(), 3u);
+  EXPECT_EQ(movie.frames[1].name, "hall");
+  const CheckedKeys& keys = checked.module.keys.at(0);
+  EXPECT_EQ(keys.workspace.name, "kitchen");
+  EXPECT_NEAR(keys.area[1], 0.06, 1e-12);
+  EXPECT_NEAR(keys.at[1], -0.02, 1e-12);
+  EXPECT_NEAR(*keys.key, 0.025, 1e-12);
+  EXPECT_TRUE(keys.numbered_at_random);
+  const CheckedGroups& groups = checked.module.groups.at(0);
+  ASSERT_EQ(groups.groups.size(), 2u);
+  EXPECT_EQ(groups.groups[0].says, "hard");
+  EXPECT_EQ(groups.groups[1].patches.at(0).name, "cloth");
+  for (const auto& [declared, message] : std::vector<std::pair<std::string, std::string>>{
+           {"movie a { frames kitchn }", "this file has no workspace `kitchn`"},
+           {"movie a { }", "the movie `a` lacks `frames`"},
+           {"movie a { frames hall }\nmovie a { frames hall }", "there are two movies `a`"},
+           {"movie a { frames hall; speed 2 }", "a movie has no setting `speed`"},
+           {"keys a { of kitchen }", "the keys `a` lacks `area`"},
+           {"keys a { of kitchen; area 0 mm, 80 mm }", "the sides of the `area` must be greater than zero"},
+           {"keys a { of kitchen; area 80 mm, 80 mm; labels big }",
+            "the labels of keys are `names` or `random` numbers"},
+           {"groups a { of kitchen; group board, board }", "`board` is in two groups"},
+           {"groups a { of kitchen; group bord }", "`kitchen` has no patch `bord`"},
+           {"groups a { group board }", "the groups `a` lacks `of`"}})
+    EXPECT_EQ(errors_of(two + declared + "\n"), std::vector<std::string>{message}) << declared;
+}
+
 /// The workspace of sandpaper is a disc, 228.6 mm across.
 TEST(Workspaces, TheReachIsThatOfTheOutline) {
   const double radius = 114.3;

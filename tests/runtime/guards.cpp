@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "tests/runtime/figures.hpp"
 
@@ -90,6 +91,43 @@ TEST(Guards, SlewingToAMovingForceEndsWhenItIsReached) {
       ASSERT_EQ(force, wanted);
     }
     last = force;
+  }
+}
+
+TEST(Guards, SlewingEndsWhenAFastForceComesPast) {
+  // The wanted force goes to and fro by far more than a step at each tick, and is never near the commanded one.
+  for (const float offset : {0.0f, 3.0f}) {
+    Guards guards(sandpaper());
+    at(guards, {0, 0});
+    guards.slew();
+    Force wanted{0};
+    int ticks = 0;
+    for (; ticks < 40; ++ticks) {
+      wanted = Force(offset + (ticks % 2 == 0 ? 2.5f : -2.5f), 0);
+      if (at(guards, wanted) == wanted) break;
+    }
+    EXPECT_LT(ticks, 4 + offset / step) << offset;
+    for (int i = 0; i < 10; ++i) {
+      wanted = Force(offset + (i % 2 == 0 ? 2.5f : -2.5f), 1);
+      EXPECT_EQ(at(guards, wanted), wanted);
+    }
+  }
+}
+
+TEST(Guards, TheLastStepOfSlewingIsNoLargerThanThatOfTheWantedForce) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> newton(-6, 6);
+  for (int run = 0; run < 500; ++run) {
+    Guards guards(sandpaper());
+    Force wanted(newton(random), newton(random));
+    Force commanded = at(guards, wanted);
+    for (int tick = 0; tick < 30; ++tick) {
+      const Force next = wanted + 0.4f * Force(newton(random), newton(random)), clamped = glm::clamp(next, -8.0f, 8.0f);
+      const Force given = at(guards, clamped);
+      const float own = glm::length(clamped - wanted), changed = glm::length(given - commanded);
+      EXPECT_LE(changed, std::max(own, step) + 1e-4f) << "run " << run << ", tick " << tick;
+      wanted = clamped, commanded = given;
+    }
   }
 }
 

@@ -67,7 +67,7 @@ TEST(Refusals, DamageByATransferAsText) {
 
 TEST(Refusals, NewerMajorVersionSaysWhatToDo) {
   EXPECT_EQ(refusal_with(8, 2, 2),
-            "this patch program has format version 2.1, but this Wale reads only up to 1; update Wale, or build the "
+            "this patch program has format version 2.2, but this Wale reads only up to 1; update Wale, or build the "
             "material again with this one");
   EXPECT_EQ(refusal_with(8, 0, 2), "this patch program claims format version 0, which never existed");
 }

@@ -73,7 +73,7 @@ inline Bytes file_of(const std::vector<Section>& sections) {
   Bytes file;
   for (const int byte : {0x89, 0x57, 0x50, 0x50, 0x0d, 0x0a, 0x1a, 0x0a}) append(file, byte, 1);
   append(file, 1, 2);
-  append(file, 1, 2);
+  append(file, 2, 2);
   append(file, sections.size(), 4);
   append(file, 0, 8);
   append(file, 0, 4);

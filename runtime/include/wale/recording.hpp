@@ -115,6 +115,7 @@ class Recording {
                                 std::size_t most_ticks = SIZE_MAX);
 
   const RecordingHeader& header() const;
+  std::uint32_t version() const;  ///< of the file's format: what was recorded then replays by the rules of then
   std::size_t ticks() const;
   /// `number` below `ticks()`.
   RecordedTick tick(std::size_t number) const;

@@ -3,6 +3,7 @@
 
 #include "wale/device.h"
 #include "wale/program.h"
+#include "wale/workspace.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -32,6 +33,16 @@ typedef struct WaleCompileOptions {
   WaleText material; /* one of the materials of a text that has several; empty: the one that was named, or else the first */
   WaleText name;     /* of a text in memory: what errors and warnings call it; imports are looked for beside; empty: "text" */
 } WaleCompileOptions;
+
+/* All 0 is the default. */
+typedef struct WaleWorkspaceOptions {
+  size_t size;
+  WaleText device;    /* as in WaleCompileOptions */
+  WaleText workspace; /* which of the text; empty: the first */
+  WaleText name;      /* as in WaleCompileOptions */
+  int32_t legibility; /* 1: warns also of what a hand cannot tell, as `wale check`: it reads every program, up to a second each */
+  int32_t reserved;   /* 0 */
+} WaleWorkspaceOptions;
 
 /* `options` may be NULL. The owner's devices are read once, here. Errors: malformed_value; unreadable_file for a folder that
    does not exist. */
@@ -63,7 +74,16 @@ WALE_API WaleCode wale_library_open(WaleLibrary* library, WaleText path, const W
 WALE_API WaleCode wale_library_open_bytes(WaleLibrary* library, const void* bytes, size_t length,
                                           const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
 
-/* The same on a thread of the library's own, one after the other. Arguments are copied. Error: short_of_resources. */
+/* A workspace of a Wale text with the programs, places and shapes of its patches; `workspace` gets a handle to free. It takes the
+   time of each different material. Errors: those in the text; unknown_workspace. */
+WALE_API WaleCode wale_library_workspace(WaleLibrary* library, WaleText text, const WaleWorkspaceOptions* options,
+                                         WaleWorkspace** workspace, WaleError** error);
+/* The same of a Wale file (.wale), or a workspace file (.wws). Errors also: unreadable_file, damaged_file, newer_file, and
+   other_device for a workspace file that is built for another device. */
+WALE_API WaleCode wale_library_open_workspace(WaleLibrary* library, WaleText path, const WaleWorkspaceOptions* options,
+                                              WaleWorkspace** workspace, WaleError** error);
+
+/* As the calls without `_later`, on a thread of the library's own, one after the other. Arguments are copied. Error: short_of_resources. */
 WALE_API WaleCode wale_library_find_later(WaleLibrary* library, WaleText name, const WaleCompileOptions* options,
                                           WaleFuture** future, WaleError** error);
 WALE_API WaleCode wale_library_level_later(WaleLibrary* library, WaleText percept, WaleText level,

@@ -13,5 +13,6 @@
 #include "wale/shape.h"
 #include "wale/snapshot.h"
 #include "wale/stage.h"
+#include "wale/workspace.h"
 
 #endif

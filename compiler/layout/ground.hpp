@@ -43,7 +43,11 @@ class Ground {
   int at(int column, int row) const { return felt_[static_cast<std::size_t>(row * side_ + column)]; }
   void lay(int number, double radius);
   double rim(int patch) const { return laid_[static_cast<std::size_t>(patch)].size.rim; }
-  /// Calls visit(here, there, squares between) for the next patch to the right of each square, and above it.
+  bool is_on(int patch, glm::dvec2 place) const;
+  /// The last place of a patch on the way from one of its own to one beyond, to a micrometre.
+  glm::dvec2 edge_of(int patch, glm::dvec2 within, glm::dvec2 beyond) const;
+  /// Calls visit(here, there, squares between, last place of the one, first place of the other) for each two patches
+  /// that follow each other in a row to the right, or in a column upwards.
   template <class Visit>
   void each_way(const Visit& visit) const;
 

@@ -1,4 +1,4 @@
-#include "compiler/legibility/layout_rules.hpp"
+#include "compiler/layout/layout_rules.hpp"
 
 #include <fmt/format.h>
 
@@ -20,8 +20,8 @@ std::vector<BrokenRule> broken_by(const Sizes& sizes, const Declarations& declar
   std::vector<BrokenRule> broken;
   for (const Rule* rule : declarations.rules()) {
     if (rule->classified != Classified::layout) continue;
-    const auto first = std::ranges::find_if(rule->cases, [&](const Rule::Case& each) { return holds(each, sizes); });
-    if (first != rule->cases.end()) broken.push_back({rule, &*first});
+    for (const Rule::Case& each : rule->cases)
+      if (holds(each, sizes)) broken.push_back({rule, &each});
   }
   return broken;
 }
@@ -59,11 +59,13 @@ std::vector<BrokenRule> broken_rules(const LayoutFigures& figures, const Declara
   return broken_by(sizes, declarations);
 }
 
+std::string rule_words(const BrokenRule& broken) {
+  return fmt::format("made for a {}: {} ({})", broken.rule->device, broken.broken->label, broken.rule->source);
+}
+
 std::string layout_rule(std::string_view quantity, double size, const Declarations& declarations) {
   const auto broken = broken_by({{std::string(quantity), size}}, declarations);
-  if (broken.empty()) return {};
-  const auto& [rule, which] = broken.front();
-  return fmt::format("made for a {}: {} ({})", rule->device, which->label, rule->source);
+  return broken.empty() ? std::string() : rule_words(broken.front());
 }
 
 }  // namespace wale

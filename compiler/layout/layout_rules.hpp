@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compiler/declarations/declarations.hpp"
-#include "compiler/legibility/ground.hpp"
+#include "compiler/layout/ground.hpp"
 
 namespace wale {
 
@@ -25,6 +25,9 @@ struct BrokenRule {
   const Rule::Case* broken;
 };
 std::vector<BrokenRule> broken_rules(const LayoutFigures& figures, const Declarations& declarations);
+
+/// "made for a fingertip: at least 1/8 inch between two elements (Hasty)".
+std::string rule_words(const BrokenRule& broken);
 
 /// What a declared rule says of a size of "textures", "gap" or "element", SI, with what it was made for: "made for a
 /// fingertip: at least 3.2 mm between two (Hasty)". Empty if none says anything.

@@ -1,4 +1,4 @@
-#include "compiler/legibility/ground.hpp"
+#include "compiler/layout/ground.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,13 +36,25 @@ void Ground::lay(int number, double radius) {
   for (int row = index(middle.y - half.y, true); row <= index(middle.y + half.y, false); ++row)
     for (int column = index(middle.x - half.x, true); column <= index(middle.x + half.x, false); ++column) {
       const glm::dvec2 place(x_of(column), y_of(row));
-      const glm::dvec2 from = place - middle;
-      if (std::hypot(place.x, place.y) > radius || std::abs(from.x) > half.x || std::abs(from.y) > half.y ||
-          !patch.shape.contains(glm::vec2(from)))
-        continue;
+      if (std::hypot(place.x, place.y) > radius || !is_on(number, place)) continue;
       felt_[static_cast<std::size_t>(row * side_ + column)] = number;
       ++covered_[static_cast<std::size_t>(number)];
     }
+}
+
+bool Ground::is_on(int number, glm::dvec2 place) const {
+  const LaidPatch& patch = laid_[static_cast<std::size_t>(number)];
+  const glm::dvec2 from = place - glm::dvec2(patch.patch->at[0], patch.patch->at[1]);
+  return std::abs(from.x) <= 0.5 * patch.size.width && std::abs(from.y) <= 0.5 * patch.size.height &&
+         patch.shape.contains(glm::vec2(from));
+}
+
+glm::dvec2 Ground::edge_of(int patch, glm::dvec2 within, glm::dvec2 beyond) const {
+  while (std::hypot(beyond.x - within.x, beyond.y - within.y) > 1e-6) {
+    const glm::dvec2 middle = 0.5 * (within + beyond);
+    (is_on(patch, middle) ? within : beyond) = middle;
+  }
+  return within;
 }
 
 template <class Visit>
@@ -53,7 +65,10 @@ void Ground::each_way(const Visit& visit) const {
       for (int i = 0; i < side_; ++i) {
         const int here = upwards ? at(line, i) : at(i, line);
         if (here == nobody) continue;
-        if (last != nobody && last != here) visit(last, here, i - last_at - 1);
+        const auto place = [&](int at) {
+          return upwards ? glm::dvec2(x_of(line), y_of(at)) : glm::dvec2(x_of(at), y_of(line));
+        };
+        if (last != nobody && last != here) visit(last, here, i - last_at - 1, place(last_at), place(i));
         last = here, last_at = i;
       }
     }
@@ -61,7 +76,7 @@ void Ground::each_way(const Visit& visit) const {
 
 std::set<std::pair<int, int>> Ground::neighbours() const {
   std::set<std::pair<int, int>> all;
-  each_way([&](int here, int there, int between) {
+  each_way([&](int here, int there, int between, glm::dvec2, glm::dvec2) {
     if (between * step_ <= rim(here) + rim(there)) all.insert(std::minmax(here, there));
   });
   return all;
@@ -70,14 +85,15 @@ std::set<std::pair<int, int>> Ground::neighbours() const {
 std::map<std::pair<int, int>, double> Ground::gaps() const {
   std::map<std::pair<int, int>, double> all;
   std::set<std::pair<int, int>> touching;
-  each_way([&](int here, int there, int between) {
+  each_way([&](int here, int there, int between, glm::dvec2 last, glm::dvec2 first) {
     const std::pair<int, int> both = std::minmax(here, there);
     if (between == 0) touching.insert(both);
-    const double gap = (between + 1) * step_;
-    const auto [known, is_new] = all.emplace(both, gap);
-    if (!is_new) known->second = std::min(known->second, gap);
+    const auto [known, is_new] = all.emplace(both, HUGE_VAL);
+    if ((between - 1) * step_ >= known->second) return;
+    const glm::dvec2 gap = edge_of(there, first, last) - edge_of(here, last, first);
+    known->second = std::min(known->second, std::max(0.0, gap.x + gap.y));
   });
-  for (const auto& both : touching) all.erase(both);
+  std::erase_if(all, [&](const auto& each) { return touching.contains(each.first) || each.second < 1e-5; });
   return all;
 }
 
