@@ -1,0 +1,181 @@
+// What an editor and a window need of a text: colours, proposals, problems with mends, layouts, the catalogue.
+#include "wale/language_service.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "wale/catalogue.hpp"
+
+namespace wale::language_service_test {
+namespace {
+
+const LanguageService& service() {
+  static const LanguageService one;
+  return one;
+}
+
+std::vector<std::string> proposed(const std::string& text) {
+  std::vector<std::string> words;
+  for (const Proposal& each : service().proposals(text, text.size()).words) words.push_back(each.text);
+  return words;
+}
+
+bool proposes(const std::string& text, const std::string& word) {
+  return std::ranges::count(proposed(text), word) == 1;
+}
+
+TEST(LanguageService, ColoursEachWordByWhatItIs) {
+  const std::string text = "wale 1\n/// told\nmaterial a { // why\n physical { force = 120 N/m * hand \"t\" }\n}\n";
+  std::vector<std::pair<std::string, WordKind>> found;
+  for (const ColouredWord& each : coloured_words(text))
+    found.emplace_back(text.substr(each.begin, each.end - each.begin), each.kind);
+  using enum WordKind;
+  const std::vector<std::pair<std::string, WordKind>> expected = {
+      {"wale", keyword},  {"1", number},       {"/// told", documentation}, {"material", keyword}, {"a", name},
+      {"{", symbol},      {"// why", comment}, {"physical", keyword},       {"{", symbol},         {"force", keyword},
+      {"=", symbol},      {"120", number},     {"N", unit},                 {"/", symbol},         {"m", unit},
+      {"*", symbol},      {"hand", name},      {"\"t\"", WordKind::text},   {"}", symbol},         {"}", symbol}};
+  EXPECT_EQ(found, expected);
+}
+
+TEST(LanguageService, AnyBytesAreSafe) {
+  std::mt19937 random(19);
+  const std::string pieces[] = {"wale 1\n", "material a {", "}", "physical {", "\"", "//", "/*", "*/", "5 mm", "\xc3", "\0x",
+                                "patch b = oak { at", "workspace w {", "é", "\n", "..", "(", ")", "patches from", "///"};
+  for (int i = 0; i < 1500; ++i) {
+    std::string text;
+    for (unsigned n = random() % 14; n > 0; --n) text += pieces[random() % std::size(pieces)];
+    std::size_t behind = 0;
+    for (const ColouredWord& each : coloured_words(text)) {
+      EXPECT_LE(behind, each.begin);
+      EXPECT_LT(each.begin, each.end);
+      behind = each.end;
+    }
+    EXPECT_LE(behind, text.size());
+    const std::size_t at = random() % (text.size() + 1);
+    const Proposals found = service().proposals(text, at);
+    EXPECT_LE(found.begin, found.end);
+    EXPECT_EQ(found.end, at);
+    for (const Problem& each : service().check(text).problems) {
+      EXPECT_LE(each.begin, each.end);
+      EXPECT_LE(each.end, text.size());
+    }
+  }
+}
+
+TEST(LanguageService, ProposesWhatMayStandThere) {
+  EXPECT_TRUE(proposes("wale 1\nmat", "material"));
+  EXPECT_TRUE(proposes("wale 1\nmaterial a { perceptual { rough", "roughness"));
+  EXPECT_TRUE(proposes("wale 1\nmaterial a { perceptual { roughness co", "coarse"));
+  EXPECT_TRUE(proposes("wale 1\nmaterial a { physical { param k = 5 m", "mm"));
+  EXPECT_TRUE(proposes("wale 1\nmaterial a { physical { param k = 5m", "mm"));
+  EXPECT_TRUE(proposes("wale 1\nmaterial a { physical { param springy = 5 mm\n force = vector(spr", "springy"));
+  EXPECT_TRUE(proposes("wale 1\nmaterial a { physical { force = lat", "lateral"));
+  EXPECT_TRUE(proposes("wale 1\nworkspace w { patch a = den", "denim"));
+  EXPECT_TRUE(proposes("wale 1\nworkspace w { patch a = denim { sh", "shape"));
+  EXPECT_TRUE(proposes("wale 1\nworkspace w { patch a = denim { shape el", "ellipse"));
+  EXPECT_TRUE(proposed("wale 1\n// mat").empty());                                         // a comment
+  EXPECT_TRUE(proposed("wale 1\nmaterial a { representative { title \"mat").empty());      // a text
+  EXPECT_FALSE(proposes("wale 1\nmaterial a { physical { param k = 5 m", "material"));
+}
+
+/// Applying the first mend of a problem leaves fewer problems.
+TEST(LanguageService, MendsAreEditsOfTheText) {
+  const std::string text = "wale 1\nmaterial a { perceptual { roughnes 0.6 } }\n";
+  const auto checked = service().check(text);
+  ASSERT_TRUE(checked.has_errors());
+  ASSERT_FALSE(checked.problems.front().fixes.empty());
+  EXPECT_EQ(text.substr(checked.problems.front().begin, checked.problems.front().end - checked.problems.front().begin),
+            "roughnes");
+  std::string mended = text;
+  for (const TextEdit& each : checked.problems.front().fixes.front().edits)
+    mended.replace(each.begin, each.end - each.begin, each.replacement);
+  EXPECT_FALSE(service().check(mended).has_errors()) << mended;
+}
+
+/// Layouts by chance are the same after they were written and read.
+TEST(LanguageService, ALayoutIsReadAsItWasWritten) {
+  std::mt19937 random(7);
+  const auto chance = [&](int in) { return static_cast<int>(random() % in); };
+  for (int i = 0; i < 60; ++i) {
+    Layout layout{.name = "table_" + std::to_string(i)};
+    if (chance(2) == 0) layout.documentation = "What lies here.\nAnd there.";
+    for (int n = chance(6); n >= 0; --n) {
+      LaidOutPatch patch{.name = "p" + std::to_string(n), .made_of = chance(2) ? "oak" : "denim(roughness: 0.3)"};
+      patch.at = {(chance(2001) - 1000) / 1e5, (chance(2001) - 1000) / 1e5};
+      if (chance(3)) patch.size = glm::dvec2((1 + chance(900)) / 1e4 + 0.01, (1 + chance(900)) / 1e4 + 0.01);
+      if (chance(4) == 0) patch.shape = "ellipse";
+      else if (chance(4) == 0) patch.shape = "polygon(0 mm, 0 mm, 20 mm, 0 mm, 0 mm, 30 mm)", patch.size.reset();
+      if (chance(4) == 0) patch.rim = 0.0005;
+      if (chance(4) == 0) patch.before = "// before\n";
+      if (chance(4) == 0) patch.inside = "// inside\n";
+      layout.patches.push_back(patch);
+    }
+    if (chance(3) == 0) layout.trailing = "// at the end\n";
+    const std::string text = "wale 1\n\n" + layout_text(layout) + "\n";
+    const auto checked = service().check(text);
+    EXPECT_FALSE(checked.has_errors()) << text;
+    ASSERT_EQ(checked.layouts.size(), 1u) << text;
+    const Layout& again = checked.layouts.front();
+    ASSERT_EQ(again.patches.size(), layout.patches.size()) << text;
+    EXPECT_EQ(again.documentation, layout.documentation);
+    EXPECT_EQ(again.trailing, layout.trailing) << text;
+    EXPECT_EQ(text.substr(0, again.begin) + layout_text(again) + text.substr(again.end), text);
+    for (std::size_t n = 0; n < layout.patches.size(); ++n) {
+      const LaidOutPatch &one = layout.patches[n], &other = again.patches[n];
+      EXPECT_EQ(one.name, other.name);
+      EXPECT_EQ(one.made_of, other.made_of);
+      EXPECT_NEAR(one.at.x, other.at.x, 1e-9);
+      EXPECT_NEAR(one.at.y, other.at.y, 1e-9);
+      EXPECT_EQ(one.size.has_value(), other.size.has_value()) << text;
+      if (one.size && other.size) EXPECT_NEAR(one.size->x, other.size->x, 1e-9);
+      EXPECT_EQ(one.shape, other.shape);
+      EXPECT_EQ(one.rim.has_value(), other.rim.has_value());
+      EXPECT_EQ(one.before, other.before) << text;
+      EXPECT_EQ(one.inside, other.inside) << text;
+    }
+  }
+}
+
+TEST(LanguageService, TellsWhatAMaterialReadsAs) {
+  const auto compiled = service().compile("wale 1\nmaterial m { perceptual { roughness 0.6 } }\n");
+  ASSERT_TRUE(compiled.program);
+  const auto told = service().tell(*compiled.program);
+  ASSERT_TRUE(told);
+  ASSERT_EQ(told->percepts.size(), 1u);
+  EXPECT_EQ(told->percepts.front().name, "roughness");
+  EXPECT_NEAR(*told->percepts.front().asked, 0.6, 1e-6);
+  EXPECT_NEAR(*told->percepts.front().reads, 0.6, 0.01);
+  EXPECT_TRUE(told->text.starts_with("m\n")) << told->text;
+}
+
+TEST(Catalogue, EachSpellingNamesItsMaterial) {
+  const auto catalogue = library_catalogue();
+  const auto all = catalogue->search("");
+  EXPECT_GT(all.size(), 100u);
+  std::set<std::string> spellings;
+  std::string text = "wale 1\nworkspace all {\n";
+  for (const CatalogueEntry& each : all) {
+    EXPECT_TRUE(spellings.insert(each.spelling).second) << each.spelling;
+    text += "  patch p" + std::to_string(spellings.size()) + " = " + each.spelling + "\n";
+  }
+  const auto checked = service().check(text + "}\n");
+  for (const Problem& each : checked.problems)
+    if (severity_of(each.error.code) == Severity::error) ADD_FAILURE() << in_words(each.error);
+}
+
+TEST(Catalogue, SearchesAsFindDoes) {
+  const auto catalogue = library_catalogue();
+  const auto found = catalogue->search("ribb");
+  ASSERT_FALSE(found.empty());
+  EXPECT_TRUE(std::ranges::any_of(found, [](const CatalogueEntry& each) { return each.name == "corduroy"; }));
+  EXPECT_TRUE(catalogue->search("no such words").empty());
+  EXPECT_LT(catalogue->search("", "fabric").size(), catalogue->search("").size());
+  EXPECT_EQ(std::ranges::count(catalogue->kinds(), "fabric"), 1);
+}
+
+}  // namespace
+}  // namespace wale::language_service_test
