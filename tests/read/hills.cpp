@@ -43,6 +43,20 @@ TEST(ReadingHills, OfEachShapeAreBumps) {
   }
 }
 
+TEST(ReadingHills, OfBellsAreNoRoundWalls) {
+  std::mt19937 random(22);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
+  for (int i = 0; i < 16; ++i) {
+    const std::string statements = fmt::format(
+        "let off = (hand - vector({:.2f} mm, {:.2f} mm)) / {:.2f} mm\nforce = {:.2f} N * exp(0.5 - dot(off, off) / 2) "
+        "* off",
+        between(-20, 20), between(-20, 20), i == 0 ? 6.61 : between(6, 15), between(0.5, 4));
+    const ForceReading found = reading(statements);
+    EXPECT_FALSE(found.wall) << statements;
+    EXPECT_GT(found.outward, 0) << statements;
+  }
+}
+
 TEST(ReadingHills, ASmallOneBesideAWaveIsTold) {
   for (const char* wave : {"cos(2 pi * x / 8 mm)", "cos(2 pi * (x + y) / 5 mm)"}) {
     const std::string alone = fmt::format("force wave = lateral({}, amplitude: 1 N)", wave);
