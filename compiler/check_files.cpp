@@ -14,6 +14,7 @@
 #include "compiler/solve/level_scale.hpp"
 #include "compiler/text/other_file.hpp"
 #include "compiler/text/output_file.hpp"
+#include "compiler/try_fixes.hpp"
 
 namespace wale {
 namespace {
@@ -24,12 +25,18 @@ constexpr int most_rounds = 20;
 /// Passes over all files: mending one file may uncover errors in a file that imports it.
 constexpr int most_passes = 3;
 
-/// All errors and warnings of one text.
+}  // namespace
+
 Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<std::string>& roots, Sandbox sandbox) {
   Diagnostics diagnostics;
   const auto resolver = file_resolver(roots, nullptr, sandbox);
   const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
-  if (diagnostics.has_errors()) return diagnostics;
+  if (diagnostics.has_errors())
+    return with_fixes_that_mend(sources, source, diagnostics, [&](SourceSet& again, SourceId changed) {
+      Diagnostics found;
+      check_source(again, changed, *file_resolver(roots, nullptr, sandbox), found);
+      return found;
+    });
   check_levels(module.declarations(), source, default_device, diagnostics);
   for (const auto& material : module.materials) {
     Diagnostics of_material;
@@ -43,6 +50,33 @@ Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<st
   return diagnostics;
 }
 
+namespace {
+
+/// The text after those fixes of it that make it no worse.
+FixedText carefully_fixed(const std::string& file, const std::string& text, SourceId source,
+                          const Diagnostics& diagnostics, const std::vector<std::string>& roots, Sandbox sandbox) {
+  const std::vector<Fix> fixes = safe_fixes(diagnostics.all());
+  const ErrorCount before(diagnostics);
+  const auto helps = [&](const FixedText& fixed) {
+    SourceSet again;
+    const SourceId changed = again.add(file, fixed.text);
+    return ErrorCount(check_text(again, changed, roots, sandbox)).is_no_more_than(before);
+  };
+  FixedText all = apply_fixes(text, source, fixes);
+  if (all.applied.empty() || helps(all)) return all;
+  FixedText good{text, {}};
+  std::vector<Fix> chosen;
+  for (const Fix& fix : fixes) {
+    chosen.push_back(fix);
+    FixedText more = apply_fixes(text, source, chosen);
+    if (more.applied.size() > good.applied.size() && helps(more))
+      good = std::move(more);
+    else
+      chosen.pop_back();
+  }
+  return good;
+}
+
 /// Applies fixes to a text until none are left; adds them to `mends`.
 std::string mended(const std::string& file, std::string text, const std::vector<std::string>& roots, Sandbox sandbox,
                    std::vector<Mend>& mends) {
@@ -51,7 +85,7 @@ std::string mended(const std::string& file, std::string text, const std::vector<
     SourceSet sources;
     const SourceId source = sources.add(file, text);
     const Diagnostics diagnostics = check_text(sources, source, roots, sandbox);
-    FixedText fixed = apply_fixes(text, source, safe_fixes(diagnostics.all()));
+    FixedText fixed = carefully_fixed(file, text, source, diagnostics, roots, sandbox);
     // Stop if the fixes lead back to an earlier text.
     if (fixed.applied.empty() || !seen.insert(fixed.text).second) break;
     for (const Fix& fix : fixed.applied) mends.push_back({sources.place(fix.edits.front().span), fix.title});

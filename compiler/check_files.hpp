@@ -15,6 +15,10 @@ struct CheckedFiles {
   Diagnostics diagnostics;
 };
 
+/// All errors and warnings of one text, of which the errors offer those fixes alone that mend (`try_fixes.hpp`).
+Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<std::string>& roots = {},
+                       Sandbox sandbox = Sandbox::required);
+
 /// Reads and checks files; a file that cannot be read gives a diagnostic (W0501), and so does a file of another kind,
 /// such as a picture or a patch program (W0506). Errors in a file that several of them import are reported once.
 /// `roots` are the last folders that are searched for imports.

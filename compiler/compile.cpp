@@ -43,14 +43,22 @@ void warn_of_undeclared_energy(const Bank& bank, const CheckedMaterial& checked,
   const double watt = std::max(energy.watt(), least_declared_watt);
   const std::string mend = typeable("active {:.2g} W", std::ceil(watt * 100) / 100);
   // A device's limit cuts x and y separately, and so turns a slanted force.
-  if (energy.reasons.size() == 1 && energy.curl_watt > 0 && has_no_curl(checked, material.device))
+  if (energy.reasons.size() == 1 && energy.curl_watt > 0 && has_no_curl(checked, material.device)) {
+    // A limited force keeps its direction, but one that differs with the direction turns in circles all the same.
+    const double most = material.device.most();
+    const bool helps = has_no_curl(checked, material.device, most), declares = material.active_watt > 0;
     return diagnostics.report(
         {.code = Code::undeclared_energy,
          .span = material.force_span,
          .message = readable("`{}` gives energy to a hand that moves in circles, up to {:.2g} W at an ordinary pace: "
                              "`{}` limits its force along x and y separately, which turns it",
                              material.name, energy.watt(), material.device.name),
-         .help = typeable("let the force keep its direction: `force = … limit {:.4g} N`", material.device.most())});
+         .help = !helps ? readable("keep the force below {:.4g} N, or {} `{}`", most,
+                                   declares ? "declare" : "declare what it gives:", mend)
+                 : checked.forces.size() > 1
+                     ? typeable("let the whole force keep its direction: `force = … + … limit {:.4g} N`", most)
+                     : typeable("let the force keep its direction: `force = … limit {:.4g} N`", most)});
+  }
   diagnostics.report({.code = Code::undeclared_energy,
                       .span = material.force_span,
                       .message = readable("`{}` gives energy to the hand, up to {:.2g} W at an ordinary pace: {}",

@@ -66,14 +66,14 @@ std::vector<Stretch> stretches(const SyntaxTree& tree) {
   return result;
 }
 
-/// Adds the words of the line up to the end of the unreadable place: one of them may be the name that the line
-/// declares.
+/// Adds the words of the line about the unreadable place: one of them may be the name that the line declares.
 void add_words(Span span, const SourceSet& sources, std::set<std::string>& words) {
   const std::string_view line = sources.line(span);
   const auto begin = static_cast<std::size_t>(line.data() - sources[span.source].text.data());
-  const std::size_t end = std::min(line.size(), std::max<std::size_t>(span.end, begin) - begin);
-  constexpr std::size_t longest_line = 256;  // in bytes; of longer lines only the nearest part is searched
-  for (std::size_t at = end > longest_line ? end - longest_line : 0; at < end;) {
+  const std::size_t middle = std::min(line.size(), std::max<std::size_t>(span.end, begin) - begin);
+  constexpr std::size_t longest_part = 256;  // in bytes; of longer lines only the nearest parts are searched
+  const std::size_t end = std::min(line.size(), middle + longest_part);
+  for (std::size_t at = middle > longest_part ? middle - longest_part : 0; at < end;) {
     std::size_t after = at;
     if (begins_name(line[at]))
       while (after < end && continues_name(line[after])) ++after;
@@ -100,6 +100,19 @@ void add_repetition(Diagnostic& first, const Diagnostic& again) {
   for (Fix& fix : first.fixes)
     for (const Fix& other : again.fixes)
       if (other.title == fix.title) fix.edits.insert(fix.edits.end(), other.edits.begin(), other.edits.end());
+}
+
+/// What a wrong dimension comes from: the declaration that would be right in another unit, and what it was meant as.
+std::optional<std::pair<std::pair<SourceId, std::uint32_t>, std::string>> origin_of(const Diagnostic& diagnostic) {
+  if (diagnostic.code != Code::wrong_dimension) return std::nullopt;
+  const Span* declared = nullptr;
+  const std::string* meant = nullptr;
+  for (const Fact& fact : diagnostic.facts) {
+    if (fact.name == "declared") declared = std::get_if<Span>(&fact.value);
+    if (fact.name == "meant") meant = std::get_if<std::string>(&fact.value);
+  }
+  if (!declared || !meant) return std::nullopt;
+  return std::pair(std::pair(declared->source, declared->begin), *meant);
 }
 
 /// The name that the message is about: the text between its first backticks.
@@ -164,8 +177,16 @@ Diagnostics without_follow_ons(const Diagnostics& diagnostics, const std::vector
   };
   std::vector<Diagnostic> kept;
   std::map<std::pair<SourceId, std::string>, std::size_t> first_of;
+  std::map<std::pair<std::pair<SourceId, std::uint32_t>, std::string>, std::size_t> first_from;
   for (const Diagnostic& each : diagnostics.all()) {
     if (is_echo(each)) continue;
+    if (const auto origin = origin_of(each)) {
+      const auto [first, is_new] = first_from.emplace(*origin, kept.size());
+      if (!is_new) {
+        add_repetition(kept[first->second], each);
+        continue;
+      }
+    }
     const bool unknown = each.code == Code::unknown_name || each.code == Code::unknown_unit;
     const auto [first, is_new] = first_of.emplace(std::pair(each.span.source, each.message), kept.size());
     if (unknown && !is_new && kept[first->second].code == each.code)

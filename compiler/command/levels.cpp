@@ -23,22 +23,27 @@ struct LevelsOptions {
   bool json = false;
 };
 
-/// Why a material with nothing but that percept does not have one of the proposed levels on the device, as its finished
-/// program reads; nothing if it has all, or if the device makes no force of it alone.
-std::optional<Error> unread_level(const LevelProposal& proposal, const FileRequest& request,
-                                  const Declarations& declarations) {
-  const DeviceDeclaration* device = declarations.devices.find(proposal.device);
-  if (!device || device->profile.shaker || proposal.levels.empty()) return std::nullopt;
+/// What the finished program of one material has of the proposed levels.
+struct LevelsRead {
+  std::optional<Error> missing;  ///< why it does not have one of them
+  bool lacks_wall = false;       ///< it is felt in a wall, and has none
+};
+
+/// A material with that percept on the device, and with another one beside it unless that is empty. Nothing is missing
+/// if the device makes no force of it.
+LevelsRead levels_read(const LevelProposal& proposal, const std::string& beside, const FileRequest& request,
+                       const Declarations& declarations) {
   SourceSet sources;
   Diagnostics diagnostics;
   const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
-  const std::string text = fmt::format("wale 1\nmaterial alone {{ perceptual {{ {} {} }} }}\n", proposal.percept,
-                                       proposal.levels.back().level);
+  const std::string text =
+      fmt::format("wale 1\nmaterial alone {{ perceptual {{ {} {}{} }} }}\n", proposal.percept,
+                  proposal.levels.back().level, beside.empty() ? "" : fmt::format("; {} 1", beside));
   const auto program = compile(sources, sources.add("levels", text), "alone", proposal.device, *resolver, diagnostics);
-  if (!program) return std::nullopt;
+  if (!program) return {};
   const auto& percepts = program->description().percepts;
   const auto record = std::ranges::find(percepts, proposal.percept, &PerceptRecord::name);
-  if (record == percepts.end() || !record->parameter) return std::nullopt;
+  if (record == percepts.end() || !record->parameter) return {};
   for (const ProposedLevel& each : proposal.levels) {
     std::vector<float> values;
     for (const Parameter& parameter : program->description().parameters) values.push_back(parameter.value);
@@ -48,13 +53,32 @@ std::optional<Error> unread_level(const LevelProposal& proposal, const FileReque
     const auto index = static_cast<std::size_t>(record - percepts.begin());
     const PerceptReading told = percept_reading(bank, index, found, declarations);
     if (told.readable && told.size == 0)
-      return Error{Code::percept_unrealised,
-                   fmt::format("no hand on `{}` meets {} {:.{}f}: its finished program reads 0", proposal.device,
-                               proposal.percept, each.level, proposal.digits),
-                   stands_outside(*record, found) ? "its wall stands outside of the patch of that device"
-                                                  : "its patch or its speed is too small for it"};
+      return {Error{Code::percept_unrealised,
+                    fmt::format("no hand on `{}` meets {} {:.{}f}: its finished program reads 0", proposal.device,
+                                proposal.percept, each.level, proposal.digits),
+                    stands_outside(*record, found) ? "its wall stands outside of the patch of that device"
+                                                   : "its patch or its speed is too small for it"},
+              !found.wall && record->extractor == Extractor::wall_damping};
   }
-  return std::nullopt;
+  return {};
+}
+
+/// Why a hand does not meet one of the proposed levels on the device; nothing if it meets all. What is felt in a wall
+/// is looked for beside one, which the proposal then names.
+std::optional<Error> unread_level(LevelProposal& proposal, const FileRequest& request,
+                                  const Declarations& declarations) {
+  const DeviceDeclaration* device = declarations.devices.find(proposal.device);
+  if (!device || device->profile.shaker || proposal.levels.empty()) return std::nullopt;
+  LevelsRead alone = levels_read(proposal, {}, request, declarations);
+  if (!alone.lacks_wall) return alone.missing;
+  std::string wall;
+  declarations.percepts.each([&](const std::string& name, const Percept& percept) {
+    if (wall.empty() && percept.extractor == Extractor::wall_stiffness && percept.has_reference) wall = name;
+  });
+  if (wall.empty()) return alone.missing;
+  LevelsRead beside = levels_read(proposal, wall, request, declarations);
+  if (!beside.missing) proposal.beside = wall;
+  return beside.missing;
 }
 
 int levels(const LevelsOptions& options) {
@@ -62,10 +86,10 @@ int levels(const LevelsOptions& options) {
   if (const auto has = has_device(known, options.choice); !has) return refuse(has.error());
   warn_of_device_files(options.choice);
   const bool to_recognise = !options.steps && !options.apart && !options.side_by_side;
-  const auto proposed = to_recognise
-                            ? propose_recognised_levels(options.percept, options.choice.device, 1, known.declarations())
-                            : propose_levels(options.percept, options.choice.device, options.steps,
-                                             options.apart.value_or(1), known.declarations());
+  auto proposed = to_recognise
+                      ? propose_recognised_levels(options.percept, options.choice.device, 1, known.declarations())
+                      : propose_levels(options.percept, options.choice.device, options.steps, options.apart.value_or(1),
+                                       known.declarations());
   if (!proposed) return refuse(proposed.error());
   if (const auto unread = unread_level(*proposed, options.choice.request(), known.declarations()))
     return refuse(*unread);

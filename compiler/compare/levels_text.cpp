@@ -59,6 +59,10 @@ std::string proposal_text(const LevelProposal& proposal) {
       fmt::format("\n  {} by {} ({})\n", proposal.carrier, proposal.map->source, evidence_word(proposal.map_evidence));
   text += fmt::format("  told apart side by side: {} levels{}\n", proposal.most,
                       proposal.most > count ? "; `--side-by-side` proposes them" : "");
+  if (proposal.apart != 1)
+    text += readable("  {:.4g} just noticeable differences apart or more: {} levels\n", proposal.apart, proposal.fit);
+  if (!proposal.beside.empty())
+    text += readable("  felt in the face of a wall only: ask for {} too, or write a wall\n", proposal.beside);
   if (const Threshold* found = proposal.recognition)
     text += readable("  recognised alone: about {:.0f} ({:.2g} within {}: {}, {})\n", std::round(found->recognised),
                      found->recognised, found->valid ? found->valid->written : "an unknown range", found->source,
@@ -78,7 +82,10 @@ std::string proposal_json(const LevelProposal& proposal) {
                {"carrier", proposal.carrier},
                {"unit", proposal.unit},
                {"map", {{"source", proposal.map->source}, {"evidence", evidence_word(proposal.map_evidence)}}},
-               {"most", proposal.most}};
+               {"most", proposal.most},
+               {"apart", proposal.apart},
+               {"fit", proposal.fit},
+               {"beside", proposal.beside.empty() ? Json(nullptr) : Json(proposal.beside)}};
   Json& alone = json["recognised_alone"] = nullptr;
   if (const Threshold* found = proposal.recognition)
     alone = Json{{"levels", found->recognised},

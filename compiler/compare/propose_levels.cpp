@@ -103,7 +103,7 @@ std::size_t LevelProposal::recognised() const {
 Result<LevelProposal> propose_recognised_levels(const std::string& percept, const std::string& device, double apart,
                                                 const Declarations& declarations) {
   auto all = propose_levels(percept, device, std::nullopt, apart, declarations);
-  if (!all || all->recognised() == all->levels.size()) return all;
+  if (!all || all->recognised() >= all->levels.size()) return all;
   return propose_levels(percept, device, all->recognised(), apart, declarations);
 }
 
@@ -145,9 +145,10 @@ Result<LevelProposal> propose_levels(const std::string& name, const std::string&
                     choice.map->valid_assumed ? "is assumed for its map" : "was measured", choice.map->source)};
 
   LevelProposal proposal;
-  proposal.most = stairs(scale, from, to, apart, most_levels).size();
-  const std::size_t count = steps.value_or(proposal.most);
-  if (count > proposal.most || count < 2) return too_many(count, proposal.most, apart, name);
+  proposal.most = stairs(scale, from, to, 1, most_levels).size();
+  proposal.apart = apart, proposal.fit = stairs(scale, from, to, apart, most_levels).size();
+  const std::size_t count = steps.value_or(proposal.fit);
+  if (count > proposal.fit || count < 2) return too_many(count, proposal.fit, apart, name);
   std::vector<double> levels;
   for (const double size : even_stairs(scale, from, to, apart, count)) levels.push_back(scale.level_of(size));
   std::vector<double> written;

@@ -32,7 +32,12 @@ struct LevelProposal {
 
   /// The number of levels that people recognise alone, a whole number of 2 at least; `most` if it is unknown.
   std::size_t recognised() const;
-  std::size_t most = 0;  ///< the largest number of levels at the distance that was asked for: told apart side by side
+  std::size_t most = 0;  ///< the largest number of levels one just noticeable difference apart: told apart side by side
+  double apart = 1;      ///< just noticeable differences: the least distance that was asked for
+  std::size_t fit = 0;   ///< the largest number of levels at that distance
+  /// The percept of the walls in which this one is felt, which has to be asked for too; empty for one that is felt
+  /// alone.
+  std::string beside{};
   /// How many people recognise when each is felt alone; null if nobody has published it for this cue.
   const Threshold* recognition = nullptr;
   Evidence recognition_evidence = Evidence::estimated;  ///< the worst of its grades on this device

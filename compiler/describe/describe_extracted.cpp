@@ -167,7 +167,9 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
   description.travel = found.directions.travel;
   description.aside = counting(found.opposing.aside);
   const double unread = std::abs(cues[CueKind::other_force].value_or(0));
-  if (unread > std::max(description.other.largest(), description.aside)) description.unread = unread;
+  // What is told already is not told again as a little more than it is.
+  constexpr double plainly_more = 1.05;
+  if (unread > plainly_more * std::max(description.other.largest(), description.aside)) description.unread = unread;
 }
 
 }  // namespace

@@ -21,6 +21,11 @@ Advice Advice::fact(std::string name, double value, std::string unit) && {
   return std::move(*this);
 }
 
+Advice Advice::fact(std::string name, Span place) && {
+  about_.facts.push_back({std::move(name), place});
+  return std::move(*this);
+}
+
 Advice Advice::because(std::string rule) && {
   about_.rule = std::move(rule);
   return std::move(*this);

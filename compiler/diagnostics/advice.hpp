@@ -20,6 +20,7 @@ class Advice {
   Advice see(Span span, std::string label) &&;
   Advice fact(std::string name, std::string value) &&;
   Advice fact(std::string name, double value, std::string unit = {}) &&;
+  Advice fact(std::string name, Span place) &&;
   Advice because(std::string rule) &&;
   Advice fix(Fix fix) &&;
   Advice fix(std::vector<Fix> fixes) &&;

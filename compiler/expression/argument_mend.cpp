@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <set>
 
 #include "compiler/diagnostics/fix.hpp"
@@ -29,40 +30,110 @@ bool misfits(const CallArguments& arguments, std::size_t i) {
          actual.value.dimension != *arguments.dimensions[i];
 }
 
-/// Whether the actual `i` would do as the formal `j`, which it does not have to for its own.
-bool would_do(const CallArguments& arguments, std::size_t i, std::size_t j) {
-  const Value& value = arguments.actuals[i].value;
-  if (!is_measured(value)) return false;
-  return arguments.dimensions[j] ? value.dimension == *arguments.dimensions[j] : true;
+bool of_place(const ExpressionReading& reading, const Actual& actual) {
+  return actual.given && actual.value.type == Value::Type::number &&
+         reading.terms.dependence(actual.value.x).on(Dependence::position);
 }
 
-/// The other argument with which a misfitting one was exchanged: each fits at the place of the other.
-std::optional<std::size_t> exchanged_with(const CallArguments& arguments, std::size_t i) {
-  for (std::size_t j = 0; j < arguments.actuals.size(); ++j) {
-    const bool stated = arguments.dimensions[j].has_value();
-    if (j == i || !arguments.actuals[j].given || (stated && !misfits(arguments, j))) continue;
-    if (!would_do(arguments, i, j) || !would_do(arguments, j, i)) continue;
-    // Where any value fits, the place alone tells nothing.
-    if (!stated && arguments.actuals[j].value.dimension == arguments.actuals[i].value.dimension) continue;
-    return j;
+/// The call as it would be written with the arguments in another order: each at the place of the one that it replaces.
+std::string reordered(const SourceSet& sources, const CallArguments& arguments, const Fix& order) {
+  std::vector<Edit> edits = order.edits;
+  std::ranges::sort(edits, {}, [](const Edit& each) { return each.span.begin; });
+  std::string text;
+  Span rest = arguments.span;
+  for (const Edit& each : edits) {
+    text += sources.text({rest.source, rest.begin, each.span.begin});
+    text += each.replacement;
+    rest.begin = each.span.end;
   }
-  return std::nullopt;
+  return text += sources.text(rest);
 }
 
-void report_exchanged(ExpressionReading& reading, const CallArguments& arguments, std::size_t i, std::size_t j) {
+/// An order of a call's arguments: for each formal the actual that it gets.
+using Order = std::vector<std::size_t>;
+
+Fix fix_of(const SourceSet& sources, const CallArguments& arguments, const Order& order) {
+  Fix fix;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (order[i] != i)
+      fix.edits.push_back({arguments.actuals[i].span, std::string(sources.text(arguments.actuals[order[i]].span))});
+  fix.title = fix.edits.size() == 2 ? "exchange the two arguments" : "put the arguments in order";
+  return fix;
+}
+
+/// The orders of the arguments that a call has in which each fits, and in which most stay at their places.
+class Orders {
+ public:
+  Orders(const ExpressionReading& reading, const CallArguments& arguments) : reading_(reading), arguments_(arguments) {
+    const std::size_t count = arguments.actuals.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!arguments.actuals[i].given || !is_measured(arguments.actuals[i].value)) continue;
+      given_.push_back(i), any_of_place_ = any_of_place_ || of_place(reading, arguments.actuals[i]);
+    }
+    order_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) order_[i] = i;
+    taken_.resize(count);
+    constexpr std::size_t most_ordered = 6;
+    if (given_.size() <= most_ordered) look(0, 0);
+  }
+
+  /// The only one of those with the fewest exchanges.
+  std::optional<Order> best() const { return number_ == 1 ? std::optional(best_) : std::nullopt; }
+
+ private:
+  bool is_named(const Actual& actual) const {
+    return std::ranges::any_of(arguments_.tree.arguments(arguments_.call), [&](const Argument& each) {
+      return each.name && arguments_.tree.span(each.value) == actual.span;
+    });
+  }
+
+  bool fits(std::size_t from, std::size_t to) const {
+    const Actual &actual = arguments_.actuals[from], &there = arguments_.actuals[to];
+    const auto& expected = arguments_.dimensions[to];
+    if (expected && actual.value.dimension != *expected) return false;
+    const FormalUse use = use_of(arguments_.function.parameters[to]);
+    const bool place = of_place(reading_, actual);
+    if (use == FormalUse::place && any_of_place_ && !place) return false;
+    if ((use == FormalUse::repeating || use == FormalUse::choosing) && place) return false;
+    if (from == to) return true;
+    // Where any value fits, neither a name that the author wrote nor the place alone tells anything.
+    return expected || (!is_named(there) && actual.value.dimension != there.value.dimension);
+  }
+
+  void look(std::size_t at, std::size_t moved) {
+    if (moved > fewest_) return;
+    if (at == given_.size()) {
+      number_ = moved < fewest_ ? 1 : number_ + 1;
+      fewest_ = moved, best_ = order_;
+      return;
+    }
+    for (const std::size_t from : given_) {
+      if (taken_[from] || !fits(from, given_[at])) continue;
+      taken_[from] = true, order_[given_[at]] = from;
+      look(at + 1, moved + (from == given_[at] ? 0 : 1));
+      taken_[from] = false, order_[given_[at]] = given_[at];
+    }
+  }
+
+  const ExpressionReading& reading_;
+  const CallArguments& arguments_;
+  std::vector<std::size_t> given_;
+  bool any_of_place_ = false;
+  std::vector<char> taken_;
+  Order order_, best_;
+  std::size_t fewest_ = SIZE_MAX, number_ = 0;
+};
+
+void report_order(ExpressionReading& reading, const CallArguments& arguments, const Order& order, std::size_t wrong) {
   const SourceSet& sources = reading.surroundings.sources;
   const auto& formals = arguments.function.parameters;
-  const Span first = arguments.actuals[std::min(i, j)].span, second = arguments.actuals[std::max(i, j)].span;
-  Fix fix = replace(first, std::string(sources.text(second)), "exchange the two arguments", false);
-  fix.edits.push_back({second, std::string(sources.text(first))});
+  Fix fix = fix_of(sources, arguments, order);
   const DimensionNames& names = reading.dimension_names();
-  const std::size_t wrong = arguments.dimensions[std::min(i, j)] ? std::min(i, j) : std::max(i, j);
   const std::string expected = names.words(*arguments.dimensions[wrong]);
   const std::string found = names.words(arguments.actuals[wrong].value.dimension);
   reading.calls.say(
-      Advice(fmt::format("exchange the two arguments: `{}({}, {})`", arguments.call.callee.text, sources.text(second),
-                         sources.text(first)))
-          .see(arguments.actuals[wrong == i ? j : i].span, fmt::format("this would be `{}`", formals[wrong].name.text))
+      Advice(fmt::format("{}: `{}`", fix.title, reordered(sources, arguments, fix)))
+          .see(arguments.actuals[order[wrong]].span, fmt::format("this would be `{}`", formals[wrong].name.text))
           .fix(std::move(fix))
           .fact("expected", expected)
           .fact("found", found)
@@ -119,18 +190,15 @@ bool fit(ExpressionReading& reading, const CallArguments& arguments, const Scope
   std::vector<std::size_t> wrong;
   for (std::size_t i = 0; i < arguments.actuals.size(); ++i)
     if (misfits(arguments, i)) wrong.push_back(i);
+  if (wrong.empty()) return true;
+  if (const auto order = Orders(reading, arguments).best()) {
+    report_order(reading, arguments, *order, wrong.front());
+    return false;
+  }
   std::set<std::size_t> said;
   std::vector<std::pair<Dimension, Dimension>> pairs;
   for (const std::size_t i : wrong) {
     if (said.contains(i)) continue;
-    const bool named = std::ranges::any_of(arguments.tree.arguments(arguments.call), [&](const Argument& each) {
-      return each.name && arguments.tree.span(each.value) == arguments.actuals[i].span;
-    });
-    if (const auto other = named ? std::nullopt : exchanged_with(arguments, i)) {
-      report_exchanged(reading, arguments, i, *other);
-      said.insert(*other);
-      continue;
-    }
     if (is_decimal_comma(reading, arguments, i)) {
       said.insert(i + 1);
       continue;
@@ -147,7 +215,7 @@ bool fit(ExpressionReading& reading, const CallArguments& arguments, const Scope
         advice = std::move(*advice).see(arguments.actuals[other].span, "and here");
     report_dimension(reading, arguments.tree, expr, pair.second, pair.first, *std::move(advice));
   }
-  return wrong.empty();
+  return false;
 }
 
 bool are_vectors_where_needed(ExpressionReading& reading, const CallArguments& arguments, const SyntaxTree& home) {
@@ -188,29 +256,34 @@ std::string on_a_plane(const ExpressionReading& reading, const CallArguments& ar
 
 void warn_of_exchanged(ExpressionReading& reading, const CallArguments& arguments) {
   const auto& formals = arguments.function.parameters;
-  const auto of_place = [&](const Actual& actual) {
-    return actual.given && actual.value.type == Value::Type::number &&
-           reading.terms.dependence(actual.value.x).on(Dependence::position);
-  };
-  const auto warn = [&](std::size_t i, std::string message, std::string help) {
+  const auto warn = [&](std::size_t i, std::string message, Advice help) {
     reading.surroundings.diagnostics.report(
-        Advice(std::move(help)).about(Code::swapped_arguments, arguments.actuals[i].span, std::move(message)));
+        std::move(help).about(Code::swapped_arguments, arguments.actuals[i].span, std::move(message)));
   };
   const SourceSet& sources = reading.surroundings.sources;
   for (std::size_t i = 0; i < formals.size(); ++i) {
     const Actual& actual = arguments.actuals[i];
     if (!actual.given || actual.value.type != Value::Type::number) continue;
-    const std::string_view name = formals[i].name.text, callee = arguments.call.callee.text;
+    const std::string_view name = formals[i].name.text;
     const FormalUse use = use_of(formals[i]);
     if (use == FormalUse::place && constant_value(reading.terms, actual.value.x)) {
-      const auto other = std::ranges::find_if(arguments.actuals, of_place);
+      const auto other =
+          std::ranges::find_if(arguments.actuals, [&](const Actual& each) { return of_place(reading, each); });
       if (other == arguments.actuals.end()) continue;
+      const auto j = static_cast<std::size_t>(other - arguments.actuals.begin());
+      Advice help = "let it change with `x` or `y`";
+      if (other->value.dimension == actual.value.dimension) {
+        Order order(formals.size());
+        for (std::size_t k = 0; k < order.size(); ++k) order[k] = k == i ? j : k == j ? i : k;
+        Fix fix = fix_of(sources, arguments, order);
+        help = Advice(fmt::format("exchange the two: `{}`", reordered(sources, arguments, fix))).fix(std::move(fix));
+      }
       warn(i,
            fmt::format("`{}` is the place, but it is the same everywhere here, and `{}` changes with the place", name,
-                       formals[static_cast<std::size_t>(other - arguments.actuals.begin())].name.text),
-           fmt::format("exchange the two: `{}({}, {})`", callee, sources.text(other->span), sources.text(actual.span)));
+                       formals[j].name.text),
+           std::move(help));
     }
-    if (use == FormalUse::choosing && of_place(actual))
+    if (use == FormalUse::choosing && of_place(reading, actual))
       warn(i,
            fmt::format("a `{}` chooses one of many noises, but this one changes with the place, so the noise jumps",
                        name),

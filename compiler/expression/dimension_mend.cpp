@@ -63,9 +63,52 @@ std::string surplus(const DimensionNames& names, const Dimension& ratio) {
   return {};
 }
 
+/// A name that would fit if it were declared with another unit.
+struct Culprit {
+  std::string name;
+  const Scope::Binding* binding = nullptr;
+  Dimension needed;
+};
+
+/// The formula of the `let` of a material that is declared there.
+const ExprId* formula_of(const SyntaxTree& tree, const Span& declared) {
+  for (const auto& declaration : tree.declarations) {
+    const auto* material = std::get_if<MaterialDecl>(&declaration);
+    if (!material || declared.source != tree.source) continue;
+    for (const PhysicalStatement& statement : material->physical)
+      if (const auto* let = std::get_if<LetStatement>(&statement.what); let && let->name.span.begin == declared.begin)
+        return &let->value;
+  }
+  return nullptr;
+}
+
+/// The factor of a product that would fit if its dimension were smaller by `ratio`. If it is a `let` whose formula has
+/// such a factor, that one.
+std::optional<Culprit> culprit_of(const DimensionNames& names, const SyntaxTree& tree,
+                                  const std::vector<ProductName>& factors, const Scope& scope, const Dimension& ratio) {
+  for (const ProductName& factor : factors) {
+    const auto* binding = scope.find(factor.name);
+    if (!binding) continue;
+    const Dimension own = factor.divides ? Dimension{} / ratio : ratio, needed = binding->value.dimension / own;
+    if (!names.name(needed) || needed.plain()) continue;
+    if (const ExprId* formula = formula_of(tree, binding->declared)) {
+      std::vector<ProductName> inside;
+      collect_names(tree, *formula, false, inside);
+      // A name is known only below its declaration, so this ends.
+      std::erase_if(inside, [&](const ProductName& each) {
+        const auto* other = scope.find(each.name);
+        return !other || other->declared.begin >= binding->declared.begin;
+      });
+      if (auto deeper = culprit_of(names, tree, inside, scope, own)) return deeper;
+    }
+    return Culprit{factor.name, binding, needed};
+  }
+  return std::nullopt;
+}
+
 /// Advice on the factor that makes the dimension wrong by `ratio`, or on one to multiply or divide by.
-Advice factor_mend(const ExpressionReading& reading, const std::vector<ProductName>& factors, const Scope& scope,
-                   const Dimension& expected, const Dimension& ratio) {
+Advice factor_mend(const ExpressionReading& reading, const SyntaxTree& tree, const std::vector<ProductName>& factors,
+                   const Scope& scope, const Dimension& expected, const Dimension& ratio) {
   const DimensionNames& names = reading.dimension_names();
   const SourceSet& sources = reading.surroundings.sources;
   const Declarations& own = reading.surroundings.declarations;
@@ -81,18 +124,15 @@ Advice factor_mend(const ExpressionReading& reading, const std::vector<ProductNa
                               factor.name, what, line))
         .see(binding->declared, what);
   }
-  for (const auto& factor : factors) {
-    const auto* binding = scope.find(factor.name);
-    if (!binding) continue;
-    const Dimension needed = factor.divides ? binding->value.dimension * ratio : binding->value.dimension / ratio;
-    if (const auto name = names.name(needed); name && !needed.plain()) {
-      const unsigned line = sources.place(binding->declared).line;
-      return Advice(fmt::format("{}{}if `{}` (line {}) is meant as {}, give it in {}", count, count.empty() ? "" : ": ",
-                                factor.name, line, with_article(*name), customary_unit(own, needed)))
-          .see(binding->declared, binding->value.dimension.plain()
-                                      ? names.words(binding->value.dimension)
-                                      : with_article(names.words(binding->value.dimension)));
-    }
+  if (const auto culprit = culprit_of(names, tree, factors, scope, ratio)) {
+    const Dimension& is = culprit->binding->value.dimension;
+    const Span& declared = culprit->binding->declared;
+    return Advice(fmt::format("{}{}if `{}` (line {}) is meant as {}, give it in {}", count, count.empty() ? "" : ": ",
+                              culprit->name, sources.place(declared).line, with_article(*names.name(culprit->needed)),
+                              customary_unit(own, culprit->needed)))
+        .see(declared, is.plain() ? names.words(is) : with_article(names.words(is)))
+        .fact("meant", names.words(culprit->needed))
+        .fact("declared", declared);
   }
   const auto inverse = names.name(Dimension{} / ratio);
   if (const auto name = names.name(ratio); name && !(inverse && base(Dimension{} / ratio)))
@@ -308,7 +348,7 @@ Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, 
   if (is_literal) return fmt::format("write {}, in {}", with_article(reading.dimension_names().words(expected)), unit);
   std::vector<ProductName> factors;
   collect_names(tree, expr, false, factors);
-  return factor_mend(reading, factors, scope, expected, found / expected);
+  return factor_mend(reading, tree, factors, scope, expected, found / expected);
 }
 
 void report_dimension(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,

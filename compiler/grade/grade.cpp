@@ -15,6 +15,7 @@
 #include "compiler/grade/steep_places.hpp"
 #include "compiler/grade/step_ahead.hpp"
 #include "compiler/grade/steps.hpp"
+#include "compiler/grade/switching.hpp"
 #include "compiler/measure/hands.hpp"
 #include "compiler/prove/later_force.hpp"
 #include "compiler/prove/prove.hpp"
@@ -238,6 +239,10 @@ class Grader {
     find_curl();
     find_motion_power();
     find_sources({bank_, hand_, slopes_, {hands_, states_, at_}, steps_, least_watt()}, exploration_, grade_.energy);
+    const double switched = switching_watt(bank_, hand_);
+    if (switched <= least_watt()) return;
+    grade_.energy.button_watt = switched;
+    grade_.energy.reasons.push_back("the button switches its force: a hand that presses on one way alone gains energy");
   }
 
   /// Finds the power of the curl. For a program that remembers, the place does not determine the force, so the energy
@@ -442,7 +447,7 @@ std::string_view standing_word(Standing standing) {
   return "unknown";
 }
 
-double Energy::watt() const { return std::max({curl_watt, motion_watt, source_watt}); }
+double Energy::watt() const { return std::max({curl_watt, motion_watt, source_watt, button_watt}); }
 
 std::optional<Standing> Grade::assumed_standing() const {
   if (standing != Standing::unknown || device_damping <= 0 || later_newton > 0) return std::nullopt;

@@ -51,6 +51,7 @@ struct Energy {
   double motion_watt = 0;    ///< largest power of the part of the force that motion adds
   double source_watt = 0;    ///< net power of exploring, from memory and from sources that move by themselves, where
                              ///< and when it is largest; for the latter at least half of that in both directions
+  double button_watt = 0;    ///< power gained by a hand that strokes, and holds the button on the ways back alone
   std::vector<std::string> reasons;  ///< why it gives energy, in words; empty if it gives none
 
   bool active() const { return !reasons.empty(); }

@@ -158,6 +158,7 @@ bool Parser::ends_lostness() const {
 }
 
 void Parser::declaration() {
+  open_blocks_.clear();
   // The rest of a declaration that ended too early is not reported again.
   reported_ = lost_ = lost_ && !ends_lostness();
   if (here().kind == TokenKind::right_brace) {

@@ -254,11 +254,14 @@ PerceptStatement Parser::percept_statement() {
   if (at(TokenKind::plus_minus)) {
     advance();
     percept.tolerance = expression();
+    while (at(TokenKind::plus_minus)) once("a tolerance", [&] { advance(), expression(); });
   }
   if (at(TokenKind::comma) && is_word(at_ + 1, "by") && kind(at_ + 2) == TokenKind::name) {
     advance();
     advance();
     percept.by = take_word();
+    while (at(TokenKind::comma) && is_word(at_ + 1, "by") && kind(at_ + 2) == TokenKind::name)
+      once("the map of a percept", [&] { advance(), advance(), advance(); });
   }
   if (!ends_statement(at_)) second_percept();
   percept.span = since(begin);
@@ -296,6 +299,69 @@ bool Parser::ends_block_by_mistake(bool in_section) const {
     return true;
   return in_section && here().kind == TokenKind::name && kind(at_ + 1) == TokenKind::left_brace &&
          holds(sections, spelling(here()));
+}
+
+/// Whether the declaration whose blocks are open ends further down, with all its braces: what begins here is then
+/// inside it, and no `}` is missing.
+bool Parser::is_inside_closed_declaration() const {
+  return !open_blocks_.empty() && !brace_missing_ && kind(open_blocks_.front()) == TokenKind::left_brace &&
+         token(open_blocks_.front()).value > at_;
+}
+
+/// Reports a declaration inside another one. A function is read all the same, so that its name is known.
+void Parser::misplaced_declaration() {
+  const bool exported = is_word(at_, "export");
+  const std::size_t begin = at_, keyword = at_ + (exported ? 1 : 0);
+  const std::string word(spelling(token(keyword)));
+  const Span heading = {tree_.source, token(begin).begin, token(keyword + 1).end};
+  const std::size_t closes = token(open_blocks_.front()).value;
+  const bool is_function = word == "function";
+  // Its own mistakes are reported first: one whose end is unknown cannot be moved.
+  if (is_function) {
+    at_ = keyword;
+    function(exported);
+    if (!ends_statement(at_)) end_statement();
+  }
+  const SecondarySpan end = {span_of(token(closes)), "the declaration around it ends here"};
+  complain_at(Code::unexpected_token, heading, fmt::format("a {} cannot be declared inside another declaration", word),
+              "a statement", fmt::format("`{}`", word), fmt::format("put the {} below this `}}`", word),
+              is_function ? move_behind_declaration(begin) : std::vector<Fix>{}, {end});
+  if (!is_function) throw Abandon{};
+  if (here().kind == TokenKind::semicolon) advance();
+}
+
+/// Whether some tokens use a name that the open declaration gives to a value, which nothing outside it knows.
+bool Parser::names_of_block_in(std::size_t begin, std::size_t end) const {
+  const std::size_t closes = token(open_blocks_.front()).value;
+  const auto gives = [&](std::size_t index) {
+    return is_word(index, "param") || is_word(index, "let") || is_word(index, "height") || is_word(index, "state") ||
+           is_word(index, "memory");
+  };
+  for (std::size_t given = open_blocks_.front(); given < closes; ++given) {
+    if (!gives(given) || kind(given + 1) != TokenKind::name) continue;
+    for (std::size_t index = begin; index < end; ++index)
+      if (kind(index) == TokenKind::name && spelling(token(index)) == spelling(token(given + 1))) return true;
+  }
+  return false;
+}
+
+/// Moves the tokens from `begin` on behind the `}` of the open declaration. Nothing if they need names of it.
+std::vector<Fix> Parser::move_behind_declaration(std::size_t begin) const {
+  if (names_of_block_in(begin, at_)) return {};
+  const Span brace = span_of(token(token(open_blocks_.front()).value));
+  Span moved = since(begin);
+  const std::string text(text_.substr(moved.begin, moved.end - moved.begin));
+  const std::size_t newline = std::min(text_.find('\n', moved.end), text_.size());
+  const bool crlf = newline < text_.size() && newline > 0 && text_[newline - 1] == '\r';
+  const bool ends_line = text_.find_first_not_of(" \t\r", moved.end) == newline;
+  if (token(begin).starts_line && ends_line && newline < text_.size()) {  // the whole line goes
+    while (text_[moved.begin - 1] == ' ' || text_[moved.begin - 1] == '\t') --moved.begin;
+    moved.end = static_cast<std::uint32_t>(newline + 1);
+  }
+  Fix fix = replace(moved, "", "move it below", false);
+  const std::string_view line_end = crlf ? "\r\n" : "\n";
+  fix.edits.push_back({{brace.source, brace.end, brace.end}, fmt::format("{0}{0}{1}", line_end, text)});
+  return {fix};
 }
 
 void Parser::missing_brace(std::size_t open) {

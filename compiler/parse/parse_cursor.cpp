@@ -76,6 +76,11 @@ Word Parser::declared_name(std::string_view declares) {
     fail(fmt::format("expected the name of the {}{}", declares, after_previous()), "a name", std::move(help),
          unquote(false));
   }
+  // `param param k`
+  if (is_doubled() && followed_by(TokenKind::name)) {
+    complain(fmt::format("`{}` is written twice", spelling(here())), "a name", "leave one out", fixes_here());
+    advance();
+  }
   const Word name = take_word();
   if (name.text.find('.') != std::string_view::npos) {
     complain_at(Code::unexpected_token, name.span, fmt::format("the name of a {} cannot have dots", declares),
@@ -119,6 +124,12 @@ void Parser::missing(std::string_view spelling, std::string help, std::vector<Fi
   if (here().kind == TokenKind::unreadable && !ends_statement(at_)) throw Abandon{};
   complain(fmt::format("expected {}{}", spelling, after_previous()), std::string(spelling), std::move(help),
            std::move(fixes));
+}
+
+void Parser::complain_again(std::string_view what, std::size_t begin) {
+  const Span again = since(begin), with_blanks = {again.source, token(begin - 1).end, again.end};
+  complain_at(Code::unexpected_token, again, fmt::format("{} is given twice", what), "the end of the line",
+              shown(token(begin)), "give it once", {replace(with_blanks, "", "leave out the second", false)});
 }
 
 /// A token as messages quote it; long texts are cut short.
@@ -228,6 +239,7 @@ std::string Parser::mend_here() const {
   const Token& previous = token(at_ == 0 ? 0 : at_ - 1);
   const Token& after = token(at_ + 1);
   const bool touching = previous.end == next.begin;
+  if (is_doubled()) return fmt::format("`{}` is written twice; leave one out", spelling(next));
   if (const std::string argument = mend_argument(); !argument.empty()) return argument;
   if (const std::string origin = mend_origin(); !origin.empty()) return origin;
   if (const std::string other = mend_other_order(); !other.empty()) return other;

@@ -370,18 +370,59 @@ std::string Parser::unclosed_parenthesis() const {
   return fmt::format("close the `(` in line {}, column {}", opened.line, opened.column);
 }
 
+/// Whether a value begins at the token, in this statement.
+bool Parser::begins_operand(std::size_t index) const {
+  if (ends_statement(index)) return false;
+  switch (kind(index)) {
+    case TokenKind::name: return !(token(index).starts_line && begins_statement(index));
+    case TokenKind::number:
+    case TokenKind::left_parenthesis:
+    case TokenKind::word_if: return true;
+    default: return false;
+  }
+}
+
+/// Whether the `then` or the `else` of the `if` that is being read comes further on. Others belong to an `if` inside.
+bool Parser::has_word_for_this_if(TokenKind word) const {
+  std::size_t conditions = 0, values = 0;  // of `if` inside: that have no `then` yet, and no `else`
+  for (std::size_t index = at_; !ends_statement(index) && kind(index) != TokenKind::end; ++index) {
+    if (token(index).starts_line && begins_statement(index)) return false;
+    switch (kind(index)) {
+      case TokenKind::left_parenthesis:
+        if (token(index).value == 0) return false;
+        index = token(index).value;
+        break;
+      case TokenKind::right_parenthesis:
+      case TokenKind::comma: return false;
+      case TokenKind::word_if: ++conditions; break;
+      case TokenKind::word_then:
+        if (conditions == 0) return word == TokenKind::word_then;
+        --conditions, ++values;
+        break;
+      case TokenKind::word_else:
+        if (values == 0) return word == TokenKind::word_else;
+        --values;
+        break;
+      default: break;
+    }
+  }
+  return false;
+}
+
 ExprId Parser::conditional() {
   const std::size_t begin = at_;
   advance();
   const ExprId condition = operation(0);
   if (!at(TokenKind::word_then)) {
-    std::string help = mend_here();
-    const bool is_value = at(TokenKind::name) || at(TokenKind::number);
-    const bool lacks_then = is_value && kind(at_ - 1) == TokenKind::right_parenthesis;
-    if (lacks_then) help = fmt::format("write `then` before `{}`", spelling(here()));
+    // The last name before an `else` may be the value, read as a unit of the condition: `if x < 5 mm k else 0 N`.
+    const bool is_unit =
+        at(TokenKind::word_else) && kind(at_ - 1) == TokenKind::name && kind(at_ - 2) == TokenKind::name;
+    const std::size_t value = at_ - (is_unit ? 1 : 0);
+    const bool lacks_then = (is_unit || begins_operand(at_)) && !has_word_for_this_if(TokenKind::word_then);
+    std::string help = lacks_then ? fmt::format("write `then` before `{}`", spelling(token(value))) : mend_here();
     if (help.empty()) help = "a conditional is written `if … then … else …`";
     fail("expected `then`" + after_previous(), "`then`", std::move(help),
-         lacks_then ? std::vector{insert_before(span_of(here()), "then ")} : fixes_here());
+         lacks_then ? std::vector{insert_before(span_of(token(value)), "then ", {}, !is_unit)} : fixes_here());
   }
   advance();
   const ExprId yes = operation(0);
@@ -389,6 +430,10 @@ ExprId Parser::conditional() {
     const bool chained = is_word(at_, "elif") || is_word(at_, "elseif") || is_word(at_, "elsif");
     if (chained)
       fail("expected `else`" + after_previous(), "`else`", "write `else if`", {replace(span_of(here()), "else if")});
+    if (begins_operand(at_) && !has_word_for_this_if(TokenKind::word_else))
+      fail("expected `else`" + after_previous(), "`else`", fmt::format("write `else` before `{}`", spelling(here())),
+           {insert_before(span_of(here()), "else ", {}, false)});
+    if (begins_operand(at_)) fail("expected `else`" + after_previous(), "`else`", mend_here(), fixes_here());
     fail("expected `else`" + after_previous(), "`else`",
          "an `if` needs a value for the other case: `if … then … else …`");
   }

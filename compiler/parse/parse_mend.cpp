@@ -47,6 +47,19 @@ bool Parser::begins_argument(std::size_t index) const {
   return is_call && (index - 1 == open || kind(index - 1) == TokenKind::comma);
 }
 
+/// Whether the innermost open parenthesis is that of a call, in which values are parted by commas.
+bool Parser::is_in_call() const {
+  if (open_parentheses_.empty()) return false;
+  const std::size_t open = open_parentheses_.back();
+  return open > 0 && kind(open - 1) == TokenKind::name;
+}
+
+/// The same name twice, side by side: `period period`.
+bool Parser::is_doubled() const {
+  return at_ > 0 && kind(at_) == TokenKind::name && kind(at_ - 1) == TokenKind::name && !here().starts_line &&
+         spelling(here()) == spelling(token(at_ - 1));
+}
+
 /// `0.1 in`, where no range can follow.
 bool Parser::is_inch_here() const { return at(TokenKind::word_in) && at_ > 0 && kind(at_ - 1) == TokenKind::number; }
 
@@ -143,6 +156,9 @@ bool Parser::closes_in_line(std::size_t open) const {
 /// Fixes for the cases of `mend_here` that a program can mend.
 std::vector<Fix> Parser::fixes_here() const {
   if (at_ == 0) return {};
+  if (is_doubled())
+    return {replace(Span{tree_.source, token(at_ - 1).end, here().end}, "", "leave out the second",
+                    kind(at_ + 1) == TokenKind::left_parenthesis || kind(at_ + 1) == TokenKind::colon)};
   if (!mend_argument().empty()) return fix_argument();
   if (!mend_origin().empty()) return fix_origin();
   const Token& previous = token(at_ - 1);
@@ -156,8 +172,17 @@ std::vector<Fix> Parser::fixes_here() const {
     case TokenKind::name:
     case TokenKind::left_parenthesis:
       if (mend_here().empty()) return {};
-      // `2 sin(x)` and `2 (a + b)` can only be products; `k hand` may lack any operator. In `(1 + 2(`, the last `(` is
-      // rather a mistyped `)`.
+      if (begins_another_statement(next, after))
+        return {replace(Span{tree_.source, previous.end, next.begin}, "; ", "part them with `;`", false)};
+      // `2 sin(x)` and `2 (a + b)` can only be products, unless they are two arguments; `k hand` may lack any operator.
+      if (is_in_call()) {
+        std::vector<Fix> fixes = {insert_after(span_of(previous), " *", "multiply with `*`", false),
+                                  insert_after(span_of(previous), ",", "part the arguments with a comma", false)};
+        if (previous.kind == TokenKind::name && begins_argument(at_ - 1))
+          fixes.push_back(insert_after(span_of(previous), ":", "name the argument", false));
+        return fixes;
+      }
+      // In `(1 + 2(`, the last `(` is rather a mistyped `)`.
       return {insert_after(span_of(previous), " *", "multiply with `*`",
                            number_before && (call || next.kind == TokenKind::left_parenthesis) &&
                                closes_in_line(call ? at_ + 1 : at_))};

@@ -106,18 +106,26 @@ ForceStatement Parser::force() {
   advance();
   ForceStatement force{};
   if (at(TokenKind::name) && followed_by(TokenKind::equals)) force.name = declared_name("force");
+  // `force drag viscous(…)`, without its `=`: no value follows a value.
+  const std::size_t second = at_ + 1;
+  if (at(TokenKind::name) && !force.name && !is_doubled() && !ends_statement(second) &&
+      (kind(second) == TokenKind::name || kind(second) == TokenKind::number || kind(second) == TokenKind::word_if))
+    force.name = declared_name("force");
   const bool adds = at(TokenKind::plus) && followed_by(TokenKind::equals);
   if (adds) {
     complain("forces are added without `+=`", "`=`", "give each force a name: `force drag = …`, `force texture = …`",
              {replace(span_of(here()), "", "leave out the `+`", false)});
     advance();
   }
-  if (!take(TokenKind::equals)) missing("`=`", "write `force = …`", insert_equals());
+  if (!take(TokenKind::equals))
+    missing("`=`", force.name ? fmt::format("write `force {} = …`", force.name->text) : "write `force = …`",
+            insert_equals());
   in_force_ = true;
   force.value = expression();
   if (at(TokenKind::name) && is_word(at_, "limit")) {
     advance();
     force.limit = expression();
+    while (at(TokenKind::name) && is_word(at_, "limit")) once("the limit of a force", [&] { advance(), expression(); });
   }
   return force;
 }
@@ -144,6 +152,8 @@ ParamStatement Parser::param() {
     advance();
     advance();
     param.soft_range = range();
+    while (at(TokenKind::comma) && is_word(at_ + 1, "soft"))
+      once("the usual range", [&] { advance(), advance(), range(); });
   } else if (param.range && at(TokenKind::name) && is_word(at_, "soft")) {
     advance();
     param.soft_range = range();
@@ -151,6 +161,7 @@ ParamStatement Parser::param() {
   if (at(TokenKind::text)) {
     param.description = input_.texts[here().value];
     advance();
+    while (at(TokenKind::text)) once("the description of a parameter", [&] { advance(); });
   }
   return param;
 }
@@ -188,6 +199,8 @@ MemoryStatement Parser::memory() {
   if (!lacks_comma) advance();
   advance();
   memory.cell = expression();
+  while (at(TokenKind::comma) && is_word(at_ + 1, "cell"))
+    once("the width of the cells", [&] { advance(), advance(), expression(); });
   return memory;
 }
 
@@ -252,7 +265,9 @@ ActiveStatement Parser::active() {
 std::optional<Range> Parser::optional_range() {
   if (!at(TokenKind::word_in)) return std::nullopt;
   advance();
-  return range();
+  const Range first = range();
+  while (at(TokenKind::word_in)) once("a range", [&] { advance(), range(); });
+  return first;
 }
 
 Range Parser::range() {

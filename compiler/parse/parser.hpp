@@ -101,11 +101,17 @@ class Parser {
   PatchStatement patch();
   ActiveStatement active();
   std::optional<Range> optional_range();
+  template <class Read>
+  void once(std::string_view what, Read read);
   Range range();
   // parse_block.cpp again
   void open_block();
   [[gnu::cold]] void missing_brace(std::size_t open);
   bool ends_block_by_mistake(bool in_section) const;
+  bool is_inside_closed_declaration() const;
+  [[gnu::cold]] void misplaced_declaration();
+  bool names_of_block_in(std::size_t begin, std::size_t end) const;
+  std::vector<Fix> move_behind_declaration(std::size_t begin) const;
   template <class Body>
   Span block(bool in_section, Body body);
 
@@ -129,6 +135,8 @@ class Parser {
   ExprId call();
   Argument argument();
   ExprId parenthesised();
+  bool begins_operand(std::size_t index) const;
+  bool has_word_for_this_if(TokenKind word) const;
   ExprId conditional();
   bool suffix_factor();
   bool is_suffix_name(std::size_t index) const;
@@ -144,6 +152,8 @@ class Parser {
 
   // parse_mend.cpp: fixes
   bool begins_argument(std::size_t index) const;
+  bool is_in_call() const;
+  bool is_doubled() const;
   bool is_inch_here() const;
   bool is_like(std::size_t index) const;
   bool closes_in_line(std::size_t open) const;
@@ -198,6 +208,8 @@ class Parser {
     return true;
   }
   /// Reports that a token is missing here; the caller continues as if it were there.
+  /// Reports a part of a statement, from a token up to the current one, that may be there only once.
+  [[gnu::cold]] void complain_again(std::string_view what, std::size_t begin);
   [[gnu::cold]] void missing(std::string_view spelling, std::string help = {}, std::vector<Fix> fixes = {});
 
   Span span_of(const Token& token) const { return {tree_.source, token.begin, token.end}; }
@@ -255,7 +267,8 @@ class Parser {
   std::optional<ExprId> last_expression_;  ///< the last one in this statement
   bool reported_ = false;                  ///< an error in this statement has been reported
   bool brace_missing_ = false;             ///< a wrong brace in this declaration has been reported
-  std::size_t statements_ = 0;        // in settings
+  std::vector<std::size_t> open_blocks_;   ///< the tokens of the blocks that are being read, the innermost last
+  std::size_t statements_ = 0;             ///< in settings
   std::vector<std::string_view> remembered_;  ///< states and memories of the material that is being read
   bool lost_ = false;                         ///< outside all declarations, which has been reported
   bool in_setting_ = false;                   ///< words of evidence end a unit: `0.3 kg assumed`
@@ -294,20 +307,35 @@ void Parser::statement(Body body) {
   if (at_ == begin) advance();
 }
 
+/// Reads a part of a statement that is there again, as a second `limit`; the first one counts.
+template <class Read>
+void Parser::once(std::string_view what, Read read) {
+  const std::size_t begin = at_;
+  read();
+  complain_again(what, begin);
+}
+
 /// Reads `{`, statements, `}`. `body` reads one statement up to its end.
 template <class Body>
 Span Parser::block(bool in_section, Body body) {
   const std::size_t open = at_;
   open_block();
+  open_blocks_.push_back(open);
   for (;;) {
     while (here().kind == TokenKind::semicolon) advance();
     if (here().kind == TokenKind::right_brace) break;
+    if (begins_declaration(at_) && is_inside_closed_declaration()) {
+      statement([&] { misplaced_declaration(); });
+      continue;
+    }
     if (ends_block_by_mistake(in_section)) {
       missing_brace(open);
+      open_blocks_.pop_back();
       return since(open);
     }
     statement(body);
   }
+  open_blocks_.pop_back();
   advance();
   return since(open);
 }

@@ -68,6 +68,16 @@ bool goes_with_speed(const std::map<double, std::vector<double>>& either) {
   });
 }
 
+/// The same on both ways of beginning the strokes: what a memory still takes up after the first turn pushes against the
+/// first way, and is not the way's.
+std::vector<glm::dvec2> pushed_whichever_begins(const Bank& bank, std::vector<Stroke> strokes, const Outside& outside) {
+  std::vector<glm::dvec2> pushes = pushed_either_way(bank, strokes, outside);
+  for (Stroke& each : strokes) each.direction = -each.direction;
+  const std::vector<glm::dvec2> mirrored = pushed_either_way(bank, strokes, outside);
+  for (std::size_t i = 0; i < pushes.size(); ++i) pushes[i] = 0.5 * (pushes[i] + mirrored[i]);
+  return pushes;
+}
+
 DragByPlace drag_by_strokes(const Bank& bank, const std::vector<Stroke>& strokes,
                             const std::vector<glm::dvec2>& opposed, const Outside& outside) {
   DragByPlace found;
@@ -80,7 +90,7 @@ DragByPlace drag_by_strokes(const Bank& bank, const std::vector<Stroke>& strokes
       if (strokes[i].speed >= 0.5 * speed_of_hands) some.push_back(strokes[i]);
     }
     if (against.empty()) continue;
-    const std::vector<glm::dvec2> pushes = pushed_either_way(bank, some, outside);
+    const std::vector<glm::dvec2> pushes = pushed_whichever_begins(bank, some, outside);
     std::map<double, std::vector<double>> either;
     for (std::size_t i = 0; i < some.size(); ++i) either[some[i].speed].push_back(pushes[i][axis]);
     if (goes_with_speed(either)) tell_ways(found, axis, against, either.at(speed_of_hands));

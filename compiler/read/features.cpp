@@ -351,10 +351,13 @@ void refine_features(std::vector<Feature>& features, std::span<const glm::dvec2>
   }
   for (Feature& each : features) {
     const int turns = turns_of(each);
-    each.monotone = turns == 0;
     glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
     for (const glm::dvec2& force : each.profile) low = glm::min(low, force), high = glm::max(high, force);
     each.range = glm::length(high - low);
+    // In the very middle of a round feature the force is nothing: one that comes to an end further out has come back.
+    const bool ends =
+        each.radial && glm::length(each.profile.back()) < glm::length(each.profile.front()) - 0.5 * each.range;
+    each.monotone = turns == 0 && !ends;
   }
 }
 

@@ -78,6 +78,23 @@ std::vector<glm::dvec2> ObstacleFit::rest(std::span<const glm::dvec2> places,
   return left;
 }
 
+bool ObstacleFit::fills_its_circles(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) const {
+  constexpr double nearly_all = 0.75;     // of what the law asks for
+  constexpr double in_the_middle = 0.15;  // of the radius
+  constexpr std::size_t fewest = 4;       // places that tell
+  return std::ranges::all_of(found.walls, [&](const Wall& each) {
+    if (!each.round() || !each.fills) return true;
+    double asked = 0, felt = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (each.depth(places[i]) < (1 - in_the_middle) * each.offset) continue;
+      const glm::dvec2 out = -each.into(places[i]);
+      asked += glm::dot(each.at(places[i]), out), felt += glm::dot(forces[i] - even.at(places[i]), out), ++count;
+    }
+    return count < fewest || felt >= nearly_all * asked;
+  });
+}
+
 // The order of the unknowns: the even force, walls, steps, waves.
 std::size_t ObstacleFit::columns() const {
   std::size_t count = 6;

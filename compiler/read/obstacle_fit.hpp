@@ -26,6 +26,8 @@ class ObstacleFit {
   /// Moves everything to where it fits best nearby, by so many steps of Levenberg and Marquardt at most. What jumps is
   /// moved to where the jump fits best. Returns the mean square of what is left, N^2.
   double improve(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, int steps);
+  /// Whether each wall that fills its circle pushes most about its middle. On top of a hill nothing pushes.
+  bool fills_its_circles(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) const;
 
  private:
   std::size_t columns() const;

@@ -385,7 +385,7 @@ class ObstacleSearch {
       for (int turn = 0; turn < 2; ++turn) sharp.improve(places, forces, steps_at_places);
       if (mean_square(sharp.rest(places, forces)) < mean_square(fit.rest(places, forces))) fit = std::move(sharp);
     }
-    if (!explains(fit) || !is_sound(fit, whole_.places)) return std::nullopt;
+    if (!explains(fit) || !is_sound(fit, whole_.places) || !fit.fills_its_circles(whole_.places, forces_)) return {};
     return fit;
   }
 

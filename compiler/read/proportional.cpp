@@ -88,7 +88,7 @@ void scale(SlowChange& slow, double times) {
 
 ForceReading times_as_strong(ForceReading found, double times) {
   StaticForce& still = found.still;
-  still.largest *= times;
+  still.largest *= times, still.cut_at *= times;
   for (glm::dvec2* each : {&still.trend.mean, &still.trend.by_x, &still.trend.by_y}) *each *= times;
   for (Feature& each : still.features) {
     for (glm::dvec2& force : each.profile) force *= times;
@@ -100,6 +100,7 @@ ForceReading times_as_strong(ForceReading found, double times) {
   Relief& relief = still.relief;
   for (double* each : {&relief.amplitude,
                        &relief.maximum,
+                       &relief.beside_waves,
                        &relief.rms,
                        &relief.mean,
                        &found.stiffness,

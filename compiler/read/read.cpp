@@ -15,6 +15,7 @@
 #include "compiler/read/breakaway.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/room.hpp"
+#include "compiler/read/slow_sway.hpp"
 #include "compiler/read/still_forces.hpp"
 #include "compiler/read/strokes.hpp"
 #include "compiler/read/tolerances.hpp"
@@ -29,8 +30,8 @@ constexpr double beside_it = 1e-3;     // m: half the step for it
 constexpr double alike = 0.15;         // relative difference at which two stiffnesses count as one
 constexpr double surely_at_first = 3;  // standard errors
 constexpr double mostly = 0.5;         // of the places: a spring's
-constexpr double misfit_of_relief = 0.03, misfit_of_spring = 0.01, misfit_of_swing = 0.01,
-                 misfit_of_noise = 0.1;  // in a constant push beside them
+constexpr double misfit_of_relief = 0.03, misfit_of_spring = 0.01, misfit_of_swing = 0.01, misfit_of_noise = 0.1,
+                 misfit_of_parting = 0.08;  // in a constant push beside them
 
 /// The stiffness that draws the hand back, if it is alike at most places.
 double even_stiffness(const StaticForce& still, PatchSize patch) {
@@ -70,7 +71,8 @@ void tell_obstacles(const Bank& bank, ForceReading& found) {
   std::ranges::stable_sort(found.steps, std::greater(),
                            [](const StaticStep& each) { return glm::length(each.change); });
   std::vector<WallFace> walls;
-  for (const Wall& each : obstacles.walls) walls.push_back(wall_face(bank, each));
+  const double most = found.still.cut_at > 0 ? found.still.cut_at : HUGE_VAL;
+  for (const Wall& each : obstacles.walls) walls.push_back(wall_face(bank, each, most));
   std::ranges::stable_sort(walls, std::greater(), &WallFace::stiffness);
   if (!walls.empty()) {
     found.wall = walls.front();
@@ -285,9 +287,7 @@ double ForceReading::stepped() const {
   return sum;
 }
 
-double ForceReading::cut_spring() const {
-  return still.cut_off && !wall && stiffness >= least_stiffness ? still.largest : 0;
-}
+double ForceReading::cut_spring() const { return !wall && stiffness >= least_stiffness ? still.cut_at : 0; }
 
 double ForceReading::held_drag(double speed) const { return held ? held->opposing.at(speed) - opposing.at(speed) : 0; }
 
@@ -332,15 +332,20 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
     found.inertia = inertia(bank);
     const std::vector<std::vector<Force>> felt = felt_at_rest(bank);
     tell_swings(bank, felt, found.sway, found.vibration);
-    const SlowChange slow = slow_change(bank, felt, found.sway, found.vibration);
+    const auto parted =
+        found.vibration.amplitude < least_force ? parted_from_sway(bank, felt, found.sway) : std::nullopt;
+    if (parted) found.sway.amplitude = parted->amplitude, found.sway.frequency = parted->frequency;
+    const SlowChange slow =
+        parted ? slow_change(bank, parted->left, {}, {}) : slow_change(bank, felt, found.sway, found.vibration);
     at_first = only_at_first(bank, felt, slow, found);
+    if (parted) at_first.uncertain = std::max(at_first.uncertain, misfit_of_parting * parted->amplitude);
     found.other = other_force(bank, felt, slow, found.sway.amplitude + found.vibration.amplitude,
                               std::max(found.opposing.friction, found.breakaway));
     found.other.later = later_force(bank, still_seconds, remembers_time_only(bank.program().description()));
     const bool swings = std::max(found.sway.amplitude, found.vibration.amplitude) >= least_force;
     const std::vector<std::vector<Force>> unmoved;
     look_all_over(bank, swings ? unmoved : felt, found.other);
-    found.coming = coming_force(bank, swings ? unmoved : felt, found.other);
+    found.coming = coming_force(bank, parted ? parted->left : swings ? unmoved : felt, found.other);
     found.directions = directions_of_motion(bank, found.opposing, found.sway, found.vibration, found.other);
   };
   const auto part = [&](std::size_t begin, std::size_t end) {

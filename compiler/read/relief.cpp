@@ -46,6 +46,28 @@ class ReliefReader {
     return std::ranges::any_of(whole_.forces, [&](glm::dvec2 force) { return limit.reached_by(force); });
   }
 
+  const StillForces& whole() const { return whole_; }
+
+  /// Reads a law whose trends are cut off at some size (N), while all else beside them is felt; `felt` are the forces
+  /// at the same places. Nothing if more than trends is cut off.
+  std::optional<StaticForce> read_beside_cut(const std::vector<glm::dvec2>& felt, double cut_at) {
+    whole_felt_ = &felt;
+    StaticForce found = read();
+    double cut = 0, other = 0, cut_squares = 0, other_squares = 0;
+    for (std::size_t i = 0; i < relief_.size(); ++i) {
+      const bool is_cut = glm::length(whole_.forces[i] - felt[i]) > least_force;
+      (is_cut ? cut : other) += 1, (is_cut ? cut_squares : other_squares) += glm::dot(relief_[i], relief_[i]);
+    }
+    // A texture that is cut off is strongest there.
+    constexpr double much_stronger = 1.5;
+    const double little_force = 0.5 * least_force;
+    const double usual = other > 0 ? std::max(other_squares / other, little_force * little_force) : 0;
+    if (cut == 0 || (cut_squares / cut > much_stronger * usual && found.relief.amplitude >= least_force))
+      return std::nullopt;
+    found.cut_off = true, found.cut_at = cut_at;
+    return found;
+  }
+
   StaticForce read() {
     std::vector<double> sizes;
     for (const glm::dvec2& force : whole_.forces) sizes.push_back(glm::length(force));
@@ -106,8 +128,12 @@ class ReliefReader {
 
   /// Tells where the limit cuts trends off, and the forces that are left.
   void tell_cut() {
-    if (limit_.least() == HUGE_VAL) return;
     std::vector<double> sizes;
+    if (whole_felt_) {
+      for (const glm::dvec2& force : *whole_felt_) sizes.push_back(glm::length(force));
+      found_.largest = percentile(sizes, percentile_of_amplitude);
+    }
+    if (limit_.least() == HUGE_VAL) return;
     std::size_t cut = 0;
     for (std::size_t i = 0; i < relief_.size(); ++i) {
       // A trend that is fitted awry asks for more than the law does.
@@ -122,6 +148,7 @@ class ReliefReader {
     const double least = limit_.any_way > limit_.along_axis ? least_cut : least_cut_by_author;
     found_.cut_off =
         static_cast<double>(cut) > least * static_cast<double>(relief_.size()) && (cut < relief_.size() || slopes);
+    found_.cut_at = found_.cut_off ? found_.largest : 0;
   }
 
   /// Fits features anew beside the waves that were found. What the features took of the waves goes back to them.
@@ -277,10 +304,51 @@ class ReliefReader {
   const StillField& field_;
   StillForces whole_;
   ForceLimit limit_;
+  const std::vector<glm::dvec2>* whole_felt_ = nullptr;  // N, at the same places: of a law that is not felt whole
   StaticForce found_;
   FoundWaves waves_;
   std::vector<glm::dvec2> relief_;  // N, at the places of the whole
 };
+
+}  // namespace
+
+namespace {
+
+StillField field_of(const Unlimited& law) {
+  return [&law](std::span<const glm::dvec2> places) {
+    std::vector<glm::dvec2> forces = forces_at(law.bank, places);
+    for (glm::dvec2& force : forces) force *= law.scale;
+    return forces;
+  };
+}
+
+/// The force with the laws of its parts that the author limits: each is told as it is where it is not cut, and what is
+/// beside it as it is felt. Nothing if no law is cut. `felt` is the force itself.
+std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillForces& felt) {
+  constexpr std::size_t every = 23;         // of the places
+  constexpr double least_cut_part = 0.025;  // of those: the 99th percentile of a texture cuts a hundredth
+  std::vector<PartLimit> cut;
+  double cut_at = 0;
+  for (const PartLimit& part : part_limits(bank)) {
+    const auto law = without_part_limits(bank, {&part, 1});
+    if (!law) continue;
+    std::vector<glm::dvec2> places;
+    for (std::size_t i = 0; i < felt.places.size(); i += every) places.push_back(felt.places[i]);
+    const std::vector<glm::dvec2> forces = field_of(*law)(places);
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      differ += glm::length(forces[i] - felt.forces[i * every]) > 0.5 * least_force ? 1 : 0;
+    if (static_cast<double>(differ) <= least_cut_part * static_cast<double>(places.size())) continue;
+    cut.push_back(part), cut_at = std::max(cut_at, part.newton);
+  }
+  if (cut.empty()) return std::nullopt;
+  const auto law = without_part_limits(bank, cut);
+  if (!law) return std::nullopt;
+  const StillField whole = field_of(*law);
+  ReliefReader without(whole, bank.size());
+  if (without.reaches(limit_of(bank) * law->scale)) return std::nullopt;
+  return without.read_beside_cut(felt.forces, cut_at);
+}
 
 }  // namespace
 
@@ -289,16 +357,15 @@ StaticForce static_force(const Bank& bank) {
   if (depends_on_place(bank.program().description())) {
     ReliefReader reader(field, bank.size());
     const ForceLimit limit = limit_of(bank);
-    if (!reader.reaches(limit)) return reader.read();
+    if (!reader.reaches(limit)) {
+      auto beside = beside_limited_parts(bank, reader.whole());
+      return beside ? *std::move(beside) : reader.read();
+    }
     for (const int times : {1, 2}) {
       const auto unlimited = without_limit(bank, times);
       if (!unlimited) break;
       // What saturates is neither a bump nor the end of a wall. A texture alone is told as it is felt.
-      const StillField whole = [&](std::span<const glm::dvec2> places) {
-        std::vector<glm::dvec2> forces = forces_at(unlimited->bank, places);
-        for (glm::dvec2& force : forces) force *= unlimited->scale;
-        return forces;
-      };
+      const StillField whole = field_of(*unlimited);
       ReliefReader without(whole, bank.size(), limit);
       if (times == 1 && without.reaches(limit * unlimited->scale)) continue;
       StaticForce found = without.read();

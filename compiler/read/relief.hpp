@@ -54,6 +54,7 @@ struct Relief {
     double share = 0;   ///< 0 .. 1
   };
   std::vector<Part> parts;
+  double beside_waves = 0;  ///< N: the largest force that the waves leave, if that is in one small place
 
   /// The size within a band, N: the amplitude times the root of the band's share of the mean square.
   double within(const PeriodBand& band) const;
@@ -61,7 +62,7 @@ struct Relief {
   /// N: of the waves beside the strongest one, as of the amplitude.
   double beside_strongest() const;
   /// N: the largest force found, if that is much larger than the amplitude: of a feature that fills less than a
-  /// hundredth of the patch. 0 otherwise.
+  /// hundredth of the patch; or what such a one adds to waves. 0 otherwise.
   double small_feature() const;
   bool regular() const { return amplitude > 0 && regularity >= 0.5; }
   /// Whether it changes mostly in one direction, so that this direction has a meaning.
@@ -78,6 +79,7 @@ struct StaticForce {
   Obstacles obstacles;
   /// The device's limit, or the author's, cuts trends off. They are told as they are where it does not.
   bool cut_off = false;
+  double cut_at = 0;  ///< N: where a trend grows no more that is cut off; 0 if none is
   Relief relief;
 };
 

@@ -133,6 +133,7 @@ class ReliefFigures {
     }
     const bool hilly = std::ranges::any_of(from_.features, [](const Feature& each) { return !each.monotone; });
     tell_parts(hilly);
+    if (!hilly) tell_feature_beside_waves();
     tell_push();
     tell_sign_changes();
     tell_steepness();
@@ -140,6 +141,29 @@ class ReliefFigures {
   }
 
  private:
+  /// What the waves leave, if that is in one place of less than a hundredth of the patch.
+  void tell_feature_beside_waves() {
+    constexpr double plainly = 0.2;       // of the amplitude
+    constexpr double small_place = 0.12;  // of the patch's shorter side
+    constexpr std::size_t fewest = 4;     // of the places
+    const std::vector<glm::dvec2>& rest = from_.waves.rest;
+    if (from_.waves.waves.empty() || from_.waves.lattice || from_.waves.local || rest.empty()) return;
+    double most = 0;
+    for (const glm::dvec2& force : rest) most = std::max(most, glm::length(force));
+    if (most < std::max(2 * least_force, plainly * relief_.amplitude)) return;
+    std::vector<glm::dvec2> there;
+    glm::dvec2 middle{0};
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      if (glm::length(rest[i]) > 0.5 * most) there.push_back(from_.whole.places[i]), middle += there.back();
+    middle /= static_cast<double>(there.size());
+    const double far = small_place * std::min(from_.whole.size.x, from_.whole.size.y);
+    const bool together =
+        std::ranges::all_of(there, [&](glm::dvec2 place) { return glm::distance(place, middle) <= far; });
+    const auto most_places = (1 - percentile_of_amplitude) * static_cast<double>(rest.size());
+    if (together && there.size() >= fewest && static_cast<double>(there.size()) <= 2 * most_places)
+      relief_.beside_waves = most;
+  }
+
   /// The axis along which the relief pushes, if it pushes along one.
   void tell_push() {
     double xx = 0, xy = 0, yy = 0;
@@ -371,7 +395,7 @@ double Relief::beside_strongest() const {
   return amplitude * std::sqrt(std::min(1.0, share));
 }
 
-double Relief::small_feature() const { return maximum > much_larger * amplitude ? maximum : 0; }
+double Relief::small_feature() const { return maximum > much_larger * amplitude ? maximum : beside_waves; }
 
 Relief figures_of(const SplitRelief& split, const std::vector<glm::dvec2>& felt, double misfit) {
   return ReliefFigures(split).told(felt, misfit);

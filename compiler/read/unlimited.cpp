@@ -94,6 +94,85 @@ std::optional<AuthorLimit> author_limit(const PatchProgram& program) {
 
 }  // namespace
 
+namespace {
+
+/// The instructions that read what one makes, until its register is written anew; nothing if a state keeps it.
+std::optional<std::vector<std::size_t>> readers_of(const PatchProgram& program, std::size_t made) {
+  const RegisterNumber number = program.tick[made].destination;
+  std::vector<std::size_t> found;
+  for (std::size_t i = made + 1; i < program.tick.size(); ++i) {
+    if (reads(program.tick[i], number)) found.push_back(i);
+    if (writes(program.tick[i], number)) return found;
+  }
+  if (std::ranges::any_of(program.states, [&](const State& each) { return each.next == number; })) return std::nullopt;
+  if (std::ranges::any_of(program.outputs, [&](const Output& each) { return each.value == number; }))
+    return std::nullopt;
+  return found;
+}
+
+/// The limit whose factor, 1 at most, an instruction makes.
+std::optional<PartLimit> limit_made_at(const Bank& bank, std::size_t minimum) {
+  const PatchProgram& program = bank.program().description();
+  const TickCode& code = program.tick;
+  for (const auto& [one, share] : {std::pair(code[minimum].a, code[minimum].b), {code[minimum].b, code[minimum].a}}) {
+    if (writer_before(code, code.size(), one) || bank.registers()[one] != 1) continue;
+    const auto divide = made_by(code, minimum, share, Operation::divide);
+    if (!divide || !made_by(code, *divide, code[*divide].b, Operation::square_root)) continue;
+    const RegisterNumber ceiling = code[*divide].a;
+    if (writer_before(code, code.size(), ceiling)) continue;
+    const auto smaller = readers_of(program, minimum);
+    if (!smaller || smaller->empty()) continue;
+    PartLimit found{.newton = bank.registers()[ceiling], .factor = code[minimum].destination, .one = one};
+    for (const std::size_t each : *smaller) {
+      const auto held = readers_of(program, each);
+      if (!is(code[each], Operation::multiply) || !held || held->size() != 1) return std::nullopt;
+      const Instruction& limit = code[held->front()];
+      if (!is(limit, Operation::limit) || limit.b != ceiling || limit.a != code[each].destination) return std::nullopt;
+      found.multiply.push_back(each), found.limit.push_back(held->front());
+    }
+    return found;
+  }
+  return std::nullopt;
+}
+
+std::vector<float> parameters_of(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  std::vector<float> parameters;
+  for (std::size_t i = 0; i < program.parameters.size(); ++i)
+    parameters.push_back(bank.registers()[program.first_parameter() + i]);
+  return parameters;
+}
+
+}  // namespace
+
+std::vector<PartLimit> part_limits(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  std::vector<PartLimit> found;
+  if (program.vibrates()) return found;
+  const auto whole = author_limit(program);
+  for (std::size_t i = 0; i < program.tick.size(); ++i) {
+    if (!is(program.tick[i], Operation::minimum)) continue;
+    auto limit = limit_made_at(bank, i);
+    if (limit && (!whole || std::ranges::find(limit->multiply, whole->multiply[0]) == limit->multiply.end()))
+      found.push_back(*std::move(limit));
+  }
+  return found;
+}
+
+std::optional<Unlimited> without_part_limits(const Bank& bank, std::span<const PartLimit> parts) {
+  PatchProgram program = bank.program().description();
+  for (const PartLimit& part : parts)
+    for (std::size_t i = 0; i < part.multiply.size(); ++i) {
+      Instruction& smaller = program.tick[part.multiply[i]];
+      (smaller.a == part.factor ? smaller.a : smaller.b) = part.one;
+      Instruction& limit = program.tick[part.limit[i]];
+      limit = {static_cast<std::uint8_t>(Operation::multiply), limit.destination, limit.a, part.one, 0};
+    }
+  Result<Program> loaded = Program::load(std::move(program));
+  if (!loaded) return std::nullopt;
+  return without_limit(Bank(*loaded, parameters_of(bank), bank.size()));
+}
+
 glm::dvec2 ForceLimit::cut(glm::dvec2 force) const {
   const double size = glm::length(force);
   if (size > any_way) force *= any_way / size;
@@ -141,9 +220,7 @@ std::optional<Unlimited> without_limit(const Bank& bank, int times) {
   std::ranges::stable_sort(added, std::less(), [](const auto& each) { return each.first; });
   for (std::size_t i = added.size(); i-- > 0;)
     program.tick.insert(program.tick.begin() + static_cast<std::ptrdiff_t>(added[i].first), added[i].second);
-  std::vector<float> parameters;
-  for (std::size_t i = 0; i < program.parameters.size(); ++i)
-    parameters.push_back(bank.registers()[program.first_parameter() + i]);
+  const std::vector<float> parameters = parameters_of(bank);
   const double ticks = std::pow(program.device.rate, times);
   Result<Program> loaded = Program::load(std::move(program));
   if (!loaded) return std::nullopt;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "wale/program.hpp"
 
@@ -34,6 +36,21 @@ struct Unlimited {
 /// The forces of the bank become as much smaller as the device's ticks in a second, `times` over: a stronger force
 /// meets the limit still. Nothing if the program has no such form, which does not happen to a program of the compiler.
 std::optional<Unlimited> without_limit(const Bank& bank, int times = 1);
+
+/// A `limit` of a part of the force, beside other forces.
+struct PartLimit {
+  double newton = 0;                         ///< at this bank's parameters
+  std::vector<std::size_t> multiply, limit;  ///< instructions of a tick: where the part becomes smaller
+  RegisterNumber factor = 0;                 ///< by which both are multiplied
+  RegisterNumber one = 0;                    ///< has the number 1
+};
+
+/// The limits of parts of the force, in the order of the program; that of the whole force is not among them. The
+/// 99th percentile of a texture is one of them.
+std::vector<PartLimit> part_limits(const Bank& bank);
+
+/// The program without some limits of parts of its force, which becomes smaller as that of `without_limit`.
+std::optional<Unlimited> without_part_limits(const Bank& bank, std::span<const PartLimit> parts);
 
 /// Whether a force is at the device's limit `most` (N) along x or y, so that its law may ask for more.
 bool at_limit(glm::dvec2 force, double most);

@@ -230,7 +230,7 @@ std::array<double, 3> against_at(const Bank& bank, glm::dvec2 place, glm::dvec2 
 /// The damping of a face: what it adds to what drags the hand in front of it too.
 void tell_damping(const Bank& bank, WallFace& face) {
   // Not so deep that a limit takes a part.
-  const double most = limit_of(bank).least();
+  const double most = std::min(limit_of(bank).least(), face.most);
   const double depth = std::clamp(0.3 * (most - face.preload) / face.stiffness, 1e-5, 2e-3);
   const auto inside = against_at(bank, face.place + depth * face.inward, face.inward);
   const auto outside = against_at(bank, face.place - 2e-3 * face.inward, face.inward);
@@ -314,8 +314,8 @@ glm::dvec2 half_inside(const Bank& bank) {
 }
 
 /// A round wall, where a hand can go deepest into it along x or y.
-WallFace round_face(const Bank& bank, const Wall& wall) {
-  WallFace found{{}, {1, 0}, wall.stiffness, 0, 0, wall.preload, wall.offset, wall.centre + 0.0, wall.fills};
+WallFace round_face(const Bank& bank, const Wall& wall, double limit) {
+  WallFace found{{}, {1, 0}, wall.stiffness, 0, 0, wall.preload, wall.offset, wall.centre + 0.0, wall.fills, limit};
   const glm::dvec2 half = half_inside(bank);
   double most = -HUGE_VAL;
   for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
@@ -329,8 +329,8 @@ WallFace round_face(const Bank& bank, const Wall& wall) {
 
 }  // namespace
 
-WallFace wall_face(const Bank& bank, const Wall& wall) {
-  if (wall.round()) return round_face(bank, wall);
+WallFace wall_face(const Bank& bank, const Wall& wall, double most) {
+  if (wall.round()) return round_face(bank, wall, most);
   WallFace found{wall.offset * wall.inward + 0.0, wall.inward + 0.0, wall.stiffness, 0, 0, wall.preload};
   // The part of the face that is nearest to the middle may lie beyond the patch's edge: the damping is felt within.
   const glm::dvec2 half = half_inside(bank), along(-wall.inward.y, wall.inward.x);
@@ -343,6 +343,7 @@ WallFace wall_face(const Bank& bank, const Wall& wall) {
     if (far < best) best = far, place = other;
   }
   if (best < 1) found.place = place;
+  found.most = most;
   tell_damping(bank, found);
   found.place = wall.offset * wall.inward + 0.0;
   return found;
@@ -369,7 +370,7 @@ WallDepth deepest(const Bank& bank, const WallFace& face) {
   const PatchProgram& program = bank.program().description();
   if (!program.states.empty() || !program.grids.empty()) {
     // A hand that is put inside the wall has not come in through its face, and the program may not resist it.
-    reached.newton = std::min(face.stiffness * reached.depth, limit_of(bank).least());
+    reached.newton = std::min({face.stiffness * reached.depth, limit_of(bank).least(), face.most});
     return reached;
   }
   for (const Force& force : forces)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -13,15 +14,16 @@ namespace wale {
 
 /// A face that pushes on one side only, along a straight line or a circle.
 struct WallFace {
-  glm::dvec2 place{0};   ///< m from the patch's centre: where the force begins
-  glm::dvec2 inward{0};  ///< unit vector into the wall
-  double stiffness = 0;  ///< N/m: the outward force over depth
-  double damping = 0;    ///< N s/m: added against a hand that moves in, to what drags it outside
-  double release = 0;    ///< N s/m: taken away from a hand that moves out
-  double preload = 0;    ///< N: with which it pushes where it begins
-  double radius = 0;     ///< m: of a round face, of which `place` is one place; 0 if it is straight
-  glm::dvec2 centre{0};  ///< m: of a round face
-  bool fills = false;    ///< a round wall fills its circle; otherwise it lies around it
+  glm::dvec2 place{0};     ///< m from the patch's centre: where the force begins
+  glm::dvec2 inward{0};    ///< unit vector into the wall
+  double stiffness = 0;    ///< N/m: the outward force over depth
+  double damping = 0;      ///< N s/m: added against a hand that moves in, to what drags it outside
+  double release = 0;      ///< N s/m: taken away from a hand that moves out
+  double preload = 0;      ///< N: with which it pushes where it begins
+  double radius = 0;       ///< m: of a round face, of which `place` is one place; 0 if it is straight
+  glm::dvec2 centre{0};    ///< m: of a round face
+  bool fills = false;      ///< a round wall fills its circle; otherwise it lies around it
+  double most = HUGE_VAL;  ///< N: it pushes no harder, since its author limits it
 };
 
 /// How far into a wall a hand can go before it leaves the patch, m, and the largest force that pushes it back on the
@@ -47,7 +49,7 @@ std::optional<WallFace> wall_face(const Bank& bank);
 /// proportion to the depth from there on. A texture may lie over it.
 std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& features);
 
-/// A wall that was found, with its damping.
-WallFace wall_face(const Bank& bank, const Wall& wall);
+/// A wall that was found, with its damping; `most` (N) is what its author limits it to.
+WallFace wall_face(const Bank& bank, const Wall& wall, double most = HUGE_VAL);
 
 }  // namespace wale

@@ -86,7 +86,7 @@ std::optional<Span> driving_away(const CheckedMaterial& material, const DevicePr
   return std::nullopt;
 }
 
-bool has_no_curl(const CheckedMaterial& material, const DeviceProfile& device) {
+bool has_no_curl(const CheckedMaterial& material, const DeviceProfile& device, double limit) {
   if (!material.force) return false;
   PlaceEvaluator force(material, device, {(*material.force)[0], (*material.force)[1]});
   if (!force.possible()) return false;
@@ -100,11 +100,13 @@ bool has_no_curl(const CheckedMaterial& material, const DeviceProfile& device) {
     for (int j = 0; j < side; ++j) {
       const double x = force.reach_x() * (2.0 * i + 0.9 - side) / side,
                    y = force.reach_y() * (2.0 * j + 1.1 - side) / side;
+      const auto limited = [&](double at_x, double at_y, std::size_t axis) {
+        force.at(at_x, at_y);
+        const double size = std::hypot(force[0], force[1]);
+        return size > limit ? force[axis] * (limit / size) : force[axis];
+      };
       const auto slope = [&](double dx, double dy, std::size_t axis) {
-        force.at(x + dx, y + dy);
-        const double after = force[axis];
-        force.at(x - dx, y - dy);
-        return (after - force[axis]) / (2 * beside);
+        return (limited(x + dx, y + dy, axis) - limited(x - dx, y - dy, axis)) / (2 * beside);
       };
       const double xx = slope(beside, 0, 0), yx = slope(beside, 0, 1), xy = slope(0, beside, 0),
                    yy = slope(0, beside, 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "compiler/check/check.hpp"
@@ -13,7 +14,7 @@ namespace wale {
 std::optional<Span> driving_away(const CheckedMaterial& material, const DeviceProfile& device);
 
 /// Whether the force that the formulas give a hand at rest is known to have no curl, however far above the device's
-/// force it is. False where it has one or cannot be evaluated.
-bool has_no_curl(const CheckedMaterial& material, const DeviceProfile& device);
+/// force it is. False where it has one or cannot be evaluated. `limit` (N) is that of a `limit` behind the whole force.
+bool has_no_curl(const CheckedMaterial& material, const DeviceProfile& device, double limit = HUGE_VAL);
 
 }  // namespace wale

@@ -136,6 +136,23 @@ TEST(Levels, ThatNoHandOnTheDeviceMeetsAreNotProposed) {
   EXPECT_EQ(wale({"levels", "roughness", "--devices", devices, "--device", "slow"}).status, 0);
 }
 
+TEST(Levels, OfWhatIsFeltInAWallAreProposedBesideOne) {
+  for (const char* percept : {"crispness", "mushiness"}) {
+    const Outcome run = wale({"levels", percept});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(contains(run.out, "felt in the face of a wall only: ask for hardness too")) << run.out;
+  }
+  EXPECT_EQ(wale({"levels", "crispness", "--json"}).json()["beside"], "hardness");
+  EXPECT_TRUE(wale({"levels", "hardness", "--json"}).json()["beside"].is_null());
+}
+
+TEST(Levels, FartherApartAreFewerAndToldApartAllTheSame) {
+  const Outcome run = wale({"levels", "roughness", "--jnd", "3"});
+  EXPECT_TRUE(contains(run.out, "9 levels of roughness")) << run.out;
+  EXPECT_TRUE(contains(run.out, "told apart side by side: 27 levels")) << run.out;
+  EXPECT_TRUE(contains(run.out, "3 just noticeable differences apart or more: 9 levels")) << run.out;
+}
+
 TEST(Levels, ThatCannotBeProposedAreExplained) {
   EXPECT_EQ(wale({"levels", "vibration"}).status, 1);
   // Cholewiak, Tan and Ebert 2008: 2.9 forces are recognised alone; side by side many more are told apart.

@@ -51,8 +51,11 @@ TEST(Levels, OfASpringAreAGeometricSeries) {
   }
   EXPECT_EQ(four.most, 1 + static_cast<std::size_t>(std::floor(whole)));
   EXPECT_EQ(proposal("springiness", std::nullopt).levels.size(), 12u);
-  EXPECT_EQ(proposal("springiness", std::nullopt, 3).levels.size(),
-            1 + static_cast<std::size_t>(std::floor(whole / 3)));
+  const LevelProposal far = proposal("springiness", std::nullopt, 3);
+  EXPECT_EQ(far.levels.size(), 1 + static_cast<std::size_t>(std::floor(whole / 3)));
+  // How far apart levels are asked for changes how many fit, and not how many people tell apart.
+  EXPECT_EQ(far.fit, far.levels.size());
+  EXPECT_EQ(far.most, four.most);
 }
 
 TEST(Levels, AreSpacedByTheFloorWhereForcesAreSmall) {

@@ -64,5 +64,24 @@ TEST(SoughtEnergy, TheButtonsStiffnessNeedsItsDamping) {
   EXPECT_NEAR(held.required_damping, always.required_damping, 0.05 * always.required_damping);
 }
 
+TEST(SoughtEnergy, OfAForceThatTheButtonSwitchesIsThatOfAStrokeToAndFro) {
+  // The hand strokes 80 mm once a second: 2 N more on the way back are 0.16 W.
+  const Grade turned = graded("force = vector(if button then -1 N else 1 N, 0 N)");
+  EXPECT_EQ(turned.standing, Standing::active);
+  EXPECT_NEAR(turned.energy.button_watt, 0.16, 0.005);
+  EXPECT_EQ(graded("force = if button then 50 N/m * hand else -50 N/m * hand").standing, Standing::active);
+  // A wall that lets go gives on the way out what it never took: at most 10 N over 60 mm.
+  const Grade gate = graded("force = if button then vector(0 N, 0 N) else firm(300 N/m, face: 20 mm)");
+  EXPECT_EQ(gate.standing, Standing::active);
+  EXPECT_GT(gate.energy.button_watt, 0.2);
+  EXPECT_LT(gate.energy.button_watt, 0.6);
+}
+
+TEST(SoughtEnergy, IsNoneWhereTheButtonSwitchesWhatOnlyTakes) {
+  for (const char* force : {"if button then viscous(3 N s/m) else vector(0 N, 0 N)",
+                            "spring(100 N/m) + (if button then viscous(3 N s/m) else viscous(1 N s/m))"})
+    EXPECT_FALSE(graded(std::string("force = ") + force).energy.active()) << force;
+}
+
 }  // namespace
 }  // namespace wale::sought_energy_test

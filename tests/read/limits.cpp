@@ -111,5 +111,47 @@ TEST(Obstacles, AStepIsToldWhereverItIs) {
     }
 }
 
+/// A law with a limit of its own, beside other forces.
+ForceReading beside(const std::string& limited, const std::string& other) {
+  static const auto common = common_modules();
+  const Bank bank(standard::material(
+      "material m { physical {\nactive 9 W\nforce law = " + limited + "\nforce other = " + other + "\n} }", "m"));
+  return read(bank, common->declarations);
+}
+
+TEST(Limits, OfOneOfSeveralForcesLeaveItsLawAndTheOthers) {
+  std::mt19937 random(13);
+  for (int i = 0; i < 6; ++i) {
+    const double stiffness = between(random, 150, 600), limit = between(random, 1, 4), face = between(random, -20, 40);
+    const double size = between(random, 0.4, 1.5), period = between(random, 1, 5), damping = between(random, 1, 4);
+    const std::string wall = fmt::format("firm({} N/m, face: {} mm) limit {} N", stiffness, face, limit);
+    const std::string spring = fmt::format("spring({} N/m) limit {} N", stiffness, limit);
+    for (const bool drags : {false, true}) {
+      const std::string other = drags ? fmt::format("viscous({} N s/m)", damping)
+                                      : fmt::format("lateral(cos(2 pi * x / {} mm), amplitude: {} N)", period, size);
+      const ForceReading behind = beside(wall, other), drawn = beside(spring, other);
+      ASSERT_TRUE(behind.wall) << wall << other;
+      EXPECT_NEAR(behind.wall->stiffness, stiffness, exact * stiffness) << wall << other;
+      EXPECT_NEAR(behind.wall->place.x, 1e-3 * face, a_quarter_mm) << wall << other;
+      EXPECT_TRUE(behind.steps.empty() && behind.more_walls.empty()) << wall << other;
+      EXPECT_NEAR(drawn.stiffness, stiffness, exact * stiffness) << spring << other;
+      EXPECT_NEAR(drawn.cut_spring(), limit, exact * limit) << spring << other;
+      EXPECT_FALSE(drawn.wall) << spring << other;
+      for (const ForceReading* found : {&behind, &drawn}) {
+        EXPECT_NEAR(found->relief().amplitude, drags ? 0 : size, exact * size) << spring << wall << other;
+        EXPECT_NEAR(found->relief().period, drags ? 0 : 1e-3 * period, 2e-5 * period) << spring << wall << other;
+      }
+      EXPECT_NEAR(drawn.opposing.damping, drags ? damping : 0, exact * damping) << spring << other;
+    }
+  }
+}
+
+TEST(Limits, OfATextureBesideASpringLeaveItAsItIsFelt) {
+  // What is cut off is no law that goes on.
+  const ForceReading found = beside("vector(3 N * sin(2 pi * x / 6 mm), 0 N) limit 1.5 N", "spring(20 N/m)");
+  EXPECT_NEAR(found.relief().amplitude, 1.5, exact * 1.5);
+  EXPECT_NEAR(found.stiffness, 20, exact * 20);
+}
+
 }  // namespace
 }  // namespace wale::limits_test

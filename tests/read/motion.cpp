@@ -196,6 +196,27 @@ TEST(ReadingMotion, OneWayAndPartOfThePatchAreSaid) {
   EXPECT_LT(one[CueKind::one_way_x].value_or(0), -0.4);
 }
 
+TEST(ReadingMotion, AMemoryThatLagsIsNoDragOnOneWay) {
+  for (const double lag : {0.05, 0.1, 0.2, 0.4})
+    for (const char* state : {"hand", "x"}) {
+      const bool both = std::string(state) == "hand";
+      const std::string force = both ? "-80 N/m * (hand - p)" : "vector(-80 N/m * (x - p), 0 N)";
+      const OpposingForce found = found_in(fmt::format("active 9 W\nstate p : position = {0} in -200 mm .. 200 mm\n"
+                                                       "p' = ({0} - p) / {1} s\nforce = {2}",
+                                                       state, lag, force))
+                                      .opposing;
+      EXPECT_EQ(found.one_way(), glm::dvec2(0)) << state << " " << lag;
+    }
+}
+
+TEST(ReadingMotion, WhatFadesIsToldOnce) {
+  for (const char* force : {"vector(2 N * exp(-time / 1 s), 0 N)", "vector(0 N, 1.3 N * exp(-time / 0.7 s))"}) {
+    const Description found = described(std::string("active 9 W\nforce = ") + force);
+    EXPECT_GT(found.other.slowly, 1) << force;
+    EXPECT_EQ(found.unread, 0) << force;
+  }
+}
+
 TEST(ReadingTime, AWaveThatTravelsNeitherResistsNorPushes) {
   for (const char* phase : {"3 Hz * time", "phase(5 Hz)"})
     for (const char* period : {"20 mm", "3 mm"}) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <random>
 #include <string>
 
@@ -54,6 +55,25 @@ TEST(ReadingTime, WhatFadesOrWandersIsNoConstantPush) {
     const ForceReading found = read_of(text);
     EXPECT_EQ(found.constant, glm::dvec2(0)) << text;
     EXPECT_GT(found.other.slowly, 0.5) << text;
+  }
+}
+
+TEST(ReadingTime, ASlowSwayAndWhatComesBesideItAreParted) {
+  std::mt19937 random(12);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
+  for (int i = 0; i < 24; ++i) {
+    const double rate = between(0.35, 1.2), sways = between(0.5, 2), comes = between(0.5, 2), after = between(1, 3);
+    const std::string phase = fmt::format("{:.4f}", between(0, 6));
+    const char* const way = i % 2 == 0 ? "vector(0 N, {1} N * {0})" : "vector({1} N * {0}, 0 N)";
+    const std::string course = i % 4 < 2 ? fmt::format("(1 - exp(-time / {} s))", 0.5 * after)
+                                         : fmt::format("(if time > {} s then 1 else 0)", after);
+    const std::string text = fmt::format("vector({} N * sin(2 pi * {} Hz * time + {}), 0 N) + ", sways, rate, phase) +
+                             fmt::format(fmt::runtime(way), course, comes);
+    const ForceReading found = read_of(text);
+    EXPECT_NEAR(found.sway.amplitude, sways, 0.05 * sways) << text;
+    EXPECT_NEAR(found.sway.frequency, rate, 0.02 * rate) << text;
+    EXPECT_NEAR(found.other.slowly, comes, 0.08 * comes + 0.02 * sways) << text;
+    EXPECT_LT(glm::length(found.constant), 0.05 * sways + least_force) << text;
   }
 }
 
