@@ -7,6 +7,7 @@
 
 #include "calibration/feel/trusted_declarations.hpp"
 #include "compiler/describe/describe.hpp"
+#include "compiler/diagnostics/told.hpp"
 #include "compiler/format/format.hpp"
 #include "compiler/legibility/check_legibility.hpp"
 #include "compiler/modules/library_folders.hpp"

@@ -74,6 +74,17 @@ std::size_t with_documentation(std::string_view text, std::size_t at) {
   }
 }
 
+/// Adds the patches that a picture lays out.
+void add_areas(Span picture, const CheckedWorkspace& checked, Layout& layout) {
+  for (const CheckedPatch& each : checked.patches) {
+    if (each.statement.begin < picture.begin || each.statement.end > picture.end) continue;
+    LaidOutPatch area{.name = each.name, .made_of = each.made_of, .at = {each.at[0], each.at[1]}, .rim = each.rim};
+    if (auto outline = outline_of(each.outline)) area.outline = *std::move(outline);
+    area.is_of_picture = true;
+    layout.patches.push_back(std::move(area));
+  }
+}
+
 Layout layout_of(const WorkspaceDecl& declared, const CheckedModule& module, std::string_view text) {
   Layout layout{.name = std::string(declared.name.text),
                 .documentation = std::string(declared.documentation),
@@ -108,6 +119,7 @@ Layout layout_of(const WorkspaceDecl& declared, const CheckedModule& module, std
     }
     patch.before = before;
     layout.patches.push_back(std::move(patch));
+    if (!written && checked) add_areas(span_of(placed), *checked, layout);
     at = behind.empty() ? end : line;
   }
   if (limit > at) layout.trailing = comments_in(text.substr(at, limit - at - 1));
@@ -188,7 +200,8 @@ std::string layout_text(const Layout& layout) {
     lines.remove_prefix(std::min(end + 1, lines.size()));
   }
   text += "workspace " + layout.name + " {\n";
-  for (const LaidOutPatch& each : layout.patches) text += patch_text(each);
+  for (const LaidOutPatch& each : layout.patches)
+    if (!each.is_of_picture) text += patch_text(each);
   return text + indented(layout.trailing, "  ") + "}";
 }
 

@@ -19,7 +19,7 @@ wale::Result<const wale::WorkspacePatch*> patch_of(const WaleWorkspace* workspac
                                                    std::size_t index) {
   if (auto given = is_given("workspace", workspace); !given) return std::move(given).error();
   const auto& all = workspace->workspace.patches;
-  if (index >= all.size()) return about_argument(argument, "it has only " + std::to_string(all.size()));
+  if (index >= all.size()) return about_argument(argument, "it has only " + std::to_string(all.size()), "count from 0");
   return &all[index];
 }
 

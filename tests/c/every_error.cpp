@@ -53,7 +53,7 @@ void keep_given() {
   DO(WaleFuture, future)                                                                                             \
   DO(WaleProgram, program) DO(WaleDevices, devices) DO(WaleDevice, device) DO(WaleStage, stage) DO(WalePatch, patch) \
       DO(WaleEdit, edit) DO(WaleLoop, loop) DO(WaleRun, run) DO(WaleFelt, felt) DO(WaleShape, shape)                 \
-          DO(WaleSnapshot, snapshot) DO(WaleRecording, recording)
+          DO(WaleSnapshot, snapshot) DO(WaleRecording, recording) DO(WaleWorkspace, workspace)
 
 std::string folder;                       // for files
 std::vector<std::string> paths, texts;    // of files, and for names
@@ -117,7 +117,8 @@ DRAW_RESULT(WaleDeviceInfo)
 DRAW_RESULT(WaleProfile)
 DRAW_RESULT(WaleProgramDetails) DRAW_RESULT(WaleParameter) DRAW_RESULT(WalePercept) DRAW_RESULT(WaleRecordingDetails)
     DRAW_RESULT(WaleReplay) DRAW_RESULT(WaleRunFigures) DRAW_RESULT(WaleFeltFigures) DRAW_RESULT(WaleFeltLevel)
-        DRAW_RESULT(WaleGrid)
+        DRAW_RESULT(WaleGrid) DRAW_RESULT(WaleWorkspaceDetails) DRAW_RESULT(WaleWorkspacePatch)
+            DRAW_RESULT(WaleWorkspaceMark)
 
     /// Options: mostly all 0, with some fields set by `set`.
     template <class Struct, class Set>
@@ -180,6 +181,11 @@ void draw(const WaleLibraryOptions*& to) {
 }
 void draw(const WaleCompileOptions*& to) {
   draw_options(to, [](WaleCompileOptions& its) { draw_field(its.device, its.material, its.name); });
+}
+void draw(const WaleWorkspaceOptions*& to) {
+  draw_options(to, [](WaleWorkspaceOptions& its) {
+    draw_field(its.device, its.workspace, its.name, its.legibility, its.reserved);
+  });
 }
 void draw(const WaleProfile*& to) {
   draw_options(to, [](WaleProfile& its) {
@@ -290,6 +296,8 @@ void prepare() {
            "\xff",
            std::string("a\0b", 3),
            "corduroy",
+           // One patch: the array of patches has room for one.
+           "wale 1\nworkspace w { patch a = corduroy { mark roughness, low 0.2 } }\n",
            "corderoy",
            "fabric",
            "mesh",

@@ -51,14 +51,14 @@ TEST(Workspaces, HavePlacesSizesAndMaterials) {
   EXPECT_EQ(checked.module.workspaces.at(0).name, "desk");
   EXPECT_NEAR(checked.patch(0).at[0], -0.05, 1e-12);
   EXPECT_NEAR(checked.patch(0).at[1], 0.02, 1e-12);
-  EXPECT_NEAR((*checked.patch(0).material.patch)[0], 0.08, 1e-12);
-  EXPECT_NEAR((*checked.patch(0).material.patch)[1], 0.06, 1e-12);
+  EXPECT_NEAR((*checked.patch(0).size)[0], 0.08, 1e-12);
+  EXPECT_NEAR((*checked.patch(0).size)[1], 0.06, 1e-12);
   EXPECT_NEAR(*checked.patch(0).rim, 0.002, 1e-12);
-  EXPECT_EQ(checked.patch(0).material.name, "board");
+  EXPECT_EQ(checked.patch(0).name, "board");
   EXPECT_EQ(checked.patch(0).made_of, "oak");
   EXPECT_TRUE(std::holds_alternative<EllipseOutline>(checked.patch(1).outline));
-  EXPECT_EQ(checked.patch(1).material.percepts.at(0).level, 0.3);
-  EXPECT_FALSE(checked.patch(2).material.patch);
+  EXPECT_EQ(checked.patch(1).material->percepts.at(0).level, 0.3);
+  EXPECT_FALSE(checked.patch(2).size);
   EXPECT_EQ(checked.patch(2).at, (std::array{0.0, 0.0}));
 }
 
@@ -66,8 +66,8 @@ TEST(Workspaces, TakeMaterialsOfTheFileByTheirNamesAlsoAsNamesOfPatches) {
   const Checked checked(
       "wale 1\nmaterial board {\n  representative { called \"chopping board\" }\n  perceptual { roughness 0.4 }\n}\n"
       "workspace desk {\n  patch board = board\n  patch other = \"chopping board\"\n}\n");
-  EXPECT_EQ(checked.patch(0).material.percepts.at(0).level, 0.4);
-  EXPECT_EQ(checked.patch(1).material.percepts.at(0).level, 0.4);
+  EXPECT_EQ(checked.patch(0).material->percepts.at(0).level, 0.4);
+  EXPECT_EQ(checked.patch(1).material->percepts.at(0).level, 0.4);
 }
 
 TEST(Workspaces, MarksAreInTheSlidersUnits) {
@@ -87,8 +87,8 @@ TEST(Workspaces, MarksAreInTheSlidersUnits) {
 
 TEST(Workspaces, APolygonGivesTheSizeAroundTheCentre) {
   const Checked checked(desk("patch a = oak { shape polygon(-20 mm, -10 mm, 30 mm, -10 mm, 0 mm, 25 mm) }"));
-  EXPECT_NEAR((*checked.patch().material.patch)[0], 0.06, 1e-12);
-  EXPECT_NEAR((*checked.patch().material.patch)[1], 0.05, 1e-12);
+  EXPECT_NEAR((*checked.patch().size)[0], 0.06, 1e-12);
+  EXPECT_NEAR((*checked.patch().size)[1], 0.05, 1e-12);
   EXPECT_EQ(std::get<PolygonOutline>(checked.patch().outline).corners.size(), 3u);
 }
 

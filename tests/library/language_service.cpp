@@ -32,12 +32,12 @@ TEST(LanguageService, ColoursEachWordByWhatItIs) {
   std::vector<std::pair<std::string, WordKind>> found;
   for (const ColouredWord& each : coloured_words(text))
     found.emplace_back(text.substr(each.begin, each.end - each.begin), each.kind);
-  using enum WordKind;
+  using K = WordKind;
   const std::vector<std::pair<std::string, WordKind>> expected = {
-      {"wale", keyword},  {"1", number},       {"/// told", documentation}, {"material", keyword}, {"a", name},
-      {"{", symbol},      {"// why", comment}, {"physical", keyword},       {"{", symbol},         {"force", keyword},
-      {"=", symbol},      {"120", number},     {"N", unit},                 {"/", symbol},         {"m", unit},
-      {"*", symbol},      {"hand", name},      {"\"t\"", WordKind::text},   {"}", symbol},         {"}", symbol}};
+      {"wale", K::keyword},  {"1", K::number},       {"/// told", K::documentation}, {"material", K::keyword}, {"a", K::name},
+      {"{", K::symbol},      {"// why", K::comment}, {"physical", K::keyword},       {"{", K::symbol},         {"force", K::keyword},
+      {"=", K::symbol},      {"120", K::number},     {"N", K::unit},                 {"/", K::symbol},         {"m", K::unit},
+      {"*", K::symbol},      {"hand", K::name},      {"\"t\"", K::text},   {"}", K::symbol},         {"}", K::symbol}};
   EXPECT_EQ(found, expected);
 }
 
@@ -131,7 +131,9 @@ TEST(LanguageService, ALayoutIsReadAsItWasWritten) {
       EXPECT_NEAR(one.at.x, other.at.x, 1e-9);
       EXPECT_NEAR(one.at.y, other.at.y, 1e-9);
       EXPECT_EQ(one.size.has_value(), other.size.has_value()) << text;
-      if (one.size && other.size) EXPECT_NEAR(one.size->x, other.size->x, 1e-9);
+      if (one.size && other.size) {
+        EXPECT_NEAR(one.size->x, other.size->x, 1e-9);
+      }
       EXPECT_EQ(one.shape, other.shape);
       EXPECT_EQ(one.rim.has_value(), other.rim.has_value());
       EXPECT_EQ(one.before, other.before) << text;

@@ -309,5 +309,34 @@ TEST_F(DrivenWindow, ItsPageAndItsWorkspaceAreRight) {
   EXPECT_EQ(window->document().text(), read(folder_of_window + "kitchen.wale"));
 }
 
+TEST_F(DrivenWindow, ASliderOfABlendGivesItANameInTheFile) {
+  const QString file = write("blend.wale", R"(wale 1
+
+workspace w {
+  patch mixed = 0.5 oak + 0.5 denim { at 0 mm, 0 mm }
+}
+)");
+  ASSERT_TRUE(window->open(file));
+  wait_for_programs();
+  window->document().choose({placed("mixed").id});
+  ASSERT_TRUE(wait_until([&] { return !window->findChildren<SliderRow*>().empty(); }));
+  SliderRow* row = window->findChildren<SliderRow*>().front();
+  const float wanted = 0.5f * (row->parameter().soft_low + row->parameter().soft_high) + 0.1f * (row->parameter().soft_high - row->parameter().soft_low);
+  emit row->moved(wanted, true);
+  trigger("save");
+  const std::string text = read(file);
+  EXPECT_NE(text.find("material mixed_material = 0.5 oak + 0.5 denim"), std::string::npos) << text;
+  EXPECT_NE(text.find("patch mixed = mixed_material("), std::string::npos) << text;
+  EXPECT_FALSE(language().check(text).has_errors()) << text;
+}
+
+TEST_F(DrivenWindow, ControlSpaceInATextProposesAndDoesNotPush) {
+  text().setFocus();
+  QTest::keyClick(&text(), Qt::Key_Space, Qt::ControlModifier);
+  EXPECT_FALSE(window->feeling().is_on());
+  QTest::keyClick(&canvas(), Qt::Key_Space, Qt::ControlModifier);
+  EXPECT_TRUE(window->feeling().is_on());
+}
+
 }  // namespace
 }  // namespace sandpaper

@@ -36,7 +36,7 @@ std::array<QPointF, 8> Canvas::handles() const {
 std::optional<int> Canvas::handle_at(QPointF pixels) const {
   if (document_.chosen().size() != 1) return std::nullopt;
   const Placed* chosen = document_.contents().find(*document_.chosen().begin());
-  if (!chosen || chosen->locked || !chosen->is_laid_out()) return std::nullopt;
+  if (!chosen || chosen->locked || !chosen->is_changeable()) return std::nullopt;
   // A polygon and a mask have a size of their own.
   if (!chosen->patch.outline.is_rectangle() && chosen->patch.shape != "ellipse") return std::nullopt;
   const auto places = handles();
@@ -98,7 +98,7 @@ void Canvas::drag_to(QPointF pixels, Qt::KeyboardModifiers modifiers) {
     // The first chosen patch snaps; the others keep their distances to it.
     std::optional<glm::dvec2> way;
     for (const PlacedRef& each : before_drag_.placed)
-      if (document_.chosen().contains(each->id) && !each->locked && each->is_laid_out()) {
+      if (document_.chosen().contains(each->id) && !each->locked && each->is_changeable()) {
         way = freely ? by : snapped(each->patch.at + by) - each->patch.at;
         break;
       }

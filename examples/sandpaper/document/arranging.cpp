@@ -52,7 +52,7 @@ void align(Document& document, Alignment alignment, const SizeOf& size_of) {
 int fit(Document& document, double diameter, const SizeOf& size_of) {
   std::set<std::uint64_t> ids;
   for (const PlacedRef& each : document.contents().placed)
-    if (each->is_laid_out() && !each->locked && (document.chosen().empty() || document.chosen().contains(each->id)) &&
+    if (each->is_changeable() && !each->locked && (document.chosen().empty() || document.chosen().contains(each->id)) &&
         way_within(each->patch.at, 0.5 * size_of(*each), diameter / 2) != glm::dvec2(0))
       ids.insert(each->id);
   document.change_placed(Document::tr("Fit into reach"), ids, [&](Placed& placed) {
@@ -65,7 +65,7 @@ int shuffle(Document& document, std::uint32_t seed) {
   std::vector<std::uint64_t> ids;
   std::vector<glm::dvec2> places;
   for (const PlacedRef& each : document.contents().placed)
-    if (each->is_laid_out() && !each->locked && (document.chosen().size() < 2 || document.chosen().contains(each->id)))
+    if (each->is_changeable() && !each->locked && (document.chosen().size() < 2 || document.chosen().contains(each->id)))
       ids.push_back(each->id), places.push_back(each->patch.at);
   if (ids.size() < 2) return 0;
   // Sattolo's algorithm: one cycle, so that no patch keeps its place. The engine gives the same numbers everywhere.
@@ -81,7 +81,7 @@ int shuffle(Document& document, std::uint32_t seed) {
 void duplicate(Document& document) {
   std::vector<wale::LaidOutPatch> copies;
   for (const PlacedRef& each : document.contents().placed)
-    if (document.chosen().contains(each->id) && each->is_laid_out()) {
+    if (document.chosen().contains(each->id) && each->is_changeable()) {
       wale::LaidOutPatch copy = each->patch;
       copy.before.clear(), copy.inside.clear();  // comments are about the original
       copy.at += glm::dvec2(beside, -beside);

@@ -141,12 +141,14 @@ void Document::load(const std::string& text, const QString& workspace) {
   draft_.reset();
   Contents contents = read(text, workspace);
   if (has_errors(problems_)) draft_ = text;
+  saved_draft_ = draft_;
   take(std::move(contents));
 }
 
 void Document::restore(const QString& file, const std::string& text) {
   file_ = file;
   load(text, {});
+  saved_draft_.reset();
   undo_.resetClean();
   emit loaded();
   emit file_changed();
@@ -162,6 +164,7 @@ wale::Result<> Document::save(const QString& path) {
                        .place = {.name = path.toStdString()}};
   file_ = QFileInfo(path).absoluteFilePath();
   undo_.setClean();
+  saved_draft_ = draft_;
   if (contents_.file != file_.toStdString()) {
     Contents moved = contents_;
     moved.file = file_.toStdString();
@@ -234,12 +237,40 @@ void Document::change_placed(const QString& what, const std::set<std::uint64_t>&
   if (ids.empty()) return;
   Contents next = contents_;
   for (PlacedRef& each : next.placed)
-    if (ids.contains(each->id) && each->is_laid_out()) {
+    if (ids.contains(each->id) && each->is_changeable()) {
       Placed changed = *each;
       edit(changed);
       each = std::make_shared<const Placed>(std::move(changed));
     }
   change(what, std::move(next), merge);
+}
+
+void Document::set_argument(std::uint64_t id, const std::string& name, float si, const std::string& written, int merge) {
+  const Placed* placed = contents_.find(id);
+  if (!placed || !placed->is_changeable()) return;
+  const QString what = tr("Set %1").arg(QString::fromStdString(name));
+  if (const auto made_of = with_argument(placed->patch.made_of, name, written)) {
+    change_placed(what, {id}, [&](Placed& each) {
+      each.sliders[name] = si;
+      each.patch.made_of = *made_of;
+    }, merge);
+    return;
+  }
+  Contents next = contents_;
+  const std::string text = next.surroundings();
+  std::string own = placed->patch.name + "_material";
+  for (int i = 2; text.find("material " + own) != std::string::npos; ++i)
+    own = placed->patch.name + "_material_" + std::to_string(i);
+  next.head += "material " + own + " = " + placed->patch.made_of + "\n\n";
+  for (PlacedRef& each : next.placed)
+    if (each->id == id) {
+      Placed changed = *each;
+      changed.compiled_from = own;
+      changed.sliders[name] = si;
+      changed.patch.made_of = own + "(" + name + ": " + written + ")";
+      each = std::make_shared<const Placed>(std::move(changed));
+    }
+  change(what, std::move(next), 0);
 }
 
 std::vector<std::uint64_t> Document::add(const QString& what, std::vector<wale::LaidOutPatch> patches) {
@@ -258,7 +289,7 @@ std::vector<std::uint64_t> Document::add(const QString& what, std::vector<wale::
 
 void Document::remove(const std::set<std::uint64_t>& ids) {
   Contents next = contents_;
-  std::erase_if(next.placed, [&](const PlacedRef& each) { return ids.contains(each->id) && !each->locked; });
+  std::erase_if(next.placed, [&](const PlacedRef& each) { return ids.contains(each->id) && each->is_changeable() && !each->locked; });
   if (next.placed.size() == contents_.placed.size()) return;
   change(tr("Delete %n patch(es)", nullptr, static_cast<int>(contents_.placed.size() - next.placed.size())),
          std::move(next));
@@ -268,7 +299,7 @@ void Document::raise(const std::set<std::uint64_t>& ids, int by) {
   if (ids.empty()) return;
   Contents next = contents_;
   auto& all = next.placed;
-  const auto is_raised = [&](const PlacedRef& each) { return ids.contains(each->id); };
+  const auto is_raised = [&](const PlacedRef& each) { return ids.contains(each->id) && each->is_changeable(); };
   const int far = static_cast<int>(all.size());
   if (by >= far) std::ranges::stable_partition(all, [&](const PlacedRef& each) { return !is_raised(each); });
   else if (by <= -far) std::ranges::stable_partition(all, is_raised);

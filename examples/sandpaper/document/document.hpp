@@ -43,6 +43,8 @@ class Document : public QObject {
   /// Replaces the whole file by a text that someone has typed, as one step of undo. A text with errors becomes a draft:
   /// it is what is saved, while the contents stay those of the last text without errors.
   void set_text(const std::string& text, const QString& what);
+  /// Whether closing now would lose something.
+  bool is_modified() const { return draft_ ? draft_ != saved_draft_ : !undo_.isClean(); }
   /// Whether there is a draft. Then nothing else may change the contents.
   bool is_stale() const { return draft_.has_value(); }
   /// The workspaces that the file declares, and the one that is laid out.
@@ -67,6 +69,9 @@ class Document : public QObject {
   void change(const QString& what, Contents next, int merge = 0);
   void change_placed(const QString& what, const std::set<std::uint64_t>& ids,
                      const std::function<void(Placed&)>& edit, int merge = 0);
+  /// Gives a patch's material an argument, as a slider does: `denim(roughness: 0.3)`. A material that is no name or call,
+  /// as `0.5 oak + 0.5 denim`, gets a name in the file first. `si` is the value, `written` the same with its unit.
+  void set_argument(std::uint64_t id, const std::string& name, float si, const std::string& written, int merge);
   /// Puts patches of materials in front of all others and returns their ids.
   std::vector<std::uint64_t> add(const QString& what, std::vector<wale::LaidOutPatch> patches);
   void remove(const std::set<std::uint64_t>& ids);
@@ -93,7 +98,7 @@ class Document : public QObject {
   const wale::LanguageService& language_;
   QUndoStack undo_;
   Contents contents_;
-  std::optional<std::string> draft_;
+  std::optional<std::string> draft_, saved_draft_;
   QString file_;
   QStringList workspaces_;
   std::vector<wale::Problem> problems_;

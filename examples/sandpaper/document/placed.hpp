@@ -20,6 +20,8 @@ struct Placed {
 
   /// Whether it can be laid out; otherwise it is only kept as its author wrote it.
   bool is_laid_out() const { return patch.verbatim.empty(); }
+  /// Whether it can be changed here; an area of a picture is changed in the text.
+  bool is_changeable() const { return is_laid_out() && !patch.is_of_picture; }
 };
 
 using PlacedRef = std::shared_ptr<const Placed>;

@@ -195,6 +195,14 @@ void TextField::keyPressEvent(QKeyEvent* event) {
 }
 
 bool TextField::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    // These keys are the text's here, and no command of a menu: least of all the one that begins to push.
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (key->modifiers() == Qt::ControlModifier && (key->key() == Qt::Key_Space || key->key() == Qt::Key_Period)) {
+      event->accept();
+      return true;
+    }
+  }
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     const wale::Problem* problem = problem_at(cursorForPosition(viewport()->mapFromGlobal(help->globalPos())).position());

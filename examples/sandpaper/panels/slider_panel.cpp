@@ -112,11 +112,8 @@ void SliderPanel::moved(const SliderRow& row, float value, bool is_final) {
   feeling_.set(*shown_, row.name(), value);
   if (!is_final) return;
   const wale::Parameter& parameter = row.parameter();
-  document_.change_placed(tr("Set %1").arg(QString::fromStdString(row.name())), {*shown_}, [&](Placed& placed) {
-    placed.sliders[row.name()] = value;
-    if (const auto made_of = with_argument(placed.patch.made_of, row.name(), written(value, parameter.unit, parameter.unit_in_si)))
-      placed.patch.made_of = *made_of;
-  }, merge_of(row.name()));
+  document_.set_argument(*shown_, row.name(), value, written(value, parameter.unit, parameter.unit_in_si),
+                         merge_of(row.name()));
 }
 
 void SliderPanel::reset(const SliderRow& row) {

@@ -77,17 +77,20 @@ void MainWindow::make_edit_menu() {
   menu->addAction(redo);
   menu->addSeparator();
   add(menu, "duplicate", tr("&Duplicate"), tr("Ctrl+D"), [this] { duplicate(document_); });
+  // Keys that a text or a list needs itself: only the canvas has them.
+  const auto on_canvas = [this](QAction* action) {
+    action->setShortcutContext(Qt::WidgetShortcut);
+    canvas_->addAction(action);
+  };
   auto* remove = add(menu, "delete", tr("De&lete"), QKeySequence::Delete, [this] { document_.remove(document_.chosen()); });
-  remove->setShortcutContext(Qt::WidgetShortcut);  // in a text Delete is the text's
-  canvas_->addAction(remove);
+  on_canvas(remove);
   auto* all = add(menu, "choose_all", tr("Choose &all"), QKeySequence::SelectAll, [this] {
     std::set<std::uint64_t> ids;
     for (const PlacedRef& each : document_.contents().placed)
       if (each->is_laid_out()) ids.insert(each->id);
     document_.choose(ids);
   });
-  all->setShortcutContext(Qt::WidgetShortcut);
-  canvas_->addAction(all);
+  on_canvas(all);
   add(menu, "rename", tr("Re&name …"), tr("F2"), [this] {
     const Placed* chosen = document_.contents().find(*document_.chosen().begin());
     if (!chosen) return;
@@ -102,10 +105,10 @@ void MainWindow::make_edit_menu() {
   });
   menu->addSeparator();
   const int far = 1 << 30;
-  add(menu, "raise", tr("R&aise"), tr("PgUp"), [this] { document_.raise(document_.chosen(), 1); });
-  add(menu, "lower", tr("&Lower"), tr("PgDown"), [this] { document_.raise(document_.chosen(), -1); });
-  add(menu, "front", tr("To the &front"), tr("Ctrl+PgUp"), [this, far] { document_.raise(document_.chosen(), far); });
-  add(menu, "back", tr("To the &back"), tr("Ctrl+PgDown"), [this, far] { document_.raise(document_.chosen(), -far); });
+  on_canvas(add(menu, "raise", tr("R&aise"), tr("PgUp"), [this] { document_.raise(document_.chosen(), 1); }));
+  on_canvas(add(menu, "lower", tr("&Lower"), tr("PgDown"), [this] { document_.raise(document_.chosen(), -1); }));
+  on_canvas(add(menu, "front", tr("To the &front"), tr("Ctrl+PgUp"), [this, far] { document_.raise(document_.chosen(), far); }));
+  on_canvas(add(menu, "back", tr("To the &back"), tr("Ctrl+PgDown"), [this, far] { document_.raise(document_.chosen(), -far); }));
   add(menu, "lock", tr("Loc&k or unlock"), tr("Ctrl+L"), [this] {
     bool all = true;
     for (const auto id : document_.chosen())
@@ -123,7 +126,7 @@ void MainWindow::make_edit_menu() {
       {"align_y", tr("centres, &side by side"), Alignment::centre_y, "Ctrl+Shift+M"}};
   for (const auto& [name, text, alignment_of, key] : ways) {
     const Alignment wanted = alignment_of;
-    add(alignment, name, text, QKeySequence(key), [this, wanted, size_of] { align(document_, wanted, size_of); });
+    on_canvas(add(alignment, name, text, QKeySequence(key), [this, wanted, size_of] { align(document_, wanted, size_of); }));
   }
   add(menu, "fit", tr("Fit into the device's &reach"), tr("Ctrl+R"), [this, size_of] {
     const int moved = fit(document_, feeling_.profile().workspace_diameter, size_of);

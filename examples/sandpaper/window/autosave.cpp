@@ -35,7 +35,7 @@ Autosave::Autosave(Document& document, QObject* parent)
   connect(&document_, &Document::contents_changed, this, changed);
   connect(&document_, &Document::problems_changed, this, changed);
   connect(&document_, &Document::file_changed, this, [this] {
-    if (document_.undo_stack().isClean() && !document_.is_stale()) {
+    if (!document_.is_modified()) {
       timer_.stop();
       QFile::remove(path_);
     }
@@ -45,7 +45,7 @@ Autosave::Autosave(Document& document, QObject* parent)
 Autosave::~Autosave() { QFile::remove(path_); }
 
 void Autosave::save_now() {
-  if (document_.undo_stack().isClean() && !document_.is_stale()) {
+  if (!document_.is_modified()) {
     QFile::remove(path_);
     return;
   }

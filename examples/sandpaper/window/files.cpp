@@ -41,7 +41,7 @@ bool MainWindow::save_as() {
 }
 
 void MainWindow::when_saved(const QString& what, const std::function<void()>& then) {
-  if (document_.undo_stack().isClean() && !document_.is_stale()) return then();
+  if (!document_.is_modified()) return then();
   announcement_->offer(tr("%1 has changes that are not saved. Save it first (Ctrl+S), or %2 without them.").arg(document_.title(), what),
                        tr("Discard the changes and %1").arg(what), then);
 }

@@ -87,7 +87,11 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   });
   connect(sliders_, &SliderPanel::shown_changed, this, &MainWindow::update_description);
   connect(&plotting_, &QTimer::timeout, this, [this] {
-    if (feeling_.is_on()) plots_->add(canvas_->now());
+    if (!feeling_.is_on()) return;
+    const wale::Now& now = canvas_->now();
+    plots_->add(now);
+    if (now.guards.lost > 0 && lost_ == 0) announcement_->say(tr("The device is gone: there is no force until it is back."));
+    lost_ = now.guards.lost;
   });
   plotting_.start(16);
   qApp->installEventFilter(this);
@@ -186,7 +190,7 @@ void MainWindow::update_safety() {
 
 void MainWindow::update_title() {
   setWindowTitle(tr("%1[*] — Sandpaper").arg(document_.title()));
-  setWindowModified(!document_.undo_stack().isClean() || document_.is_stale());
+  setWindowModified(document_.is_modified());
   if (document_.is_stale())
     statusBar()->showMessage(tr("The text has errors: what is felt is the last version without"));
   else if (statusBar()->currentMessage().startsWith(tr("The text has errors")))
@@ -288,7 +292,7 @@ bool MainWindow::open(const QString& file) {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   editor_->commit();
-  if (!closes_anyway_ && (!document_.undo_stack().isClean() || document_.is_stale())) {
+  if (!closes_anyway_ && document_.is_modified()) {
     event->ignore();
     when_saved(tr("close"), [this] {
       closes_anyway_ = true;

@@ -104,6 +104,7 @@ class MainWindow : public QMainWindow {
   Canvas* participant_ = nullptr;
   QTimer plotting_, advising_;
   qint64 last_typed_ = 0;
+  long lost_ = 0;  // ticks of this run without a device
   bool closes_anyway_ = false;
   WorkThread advisor_;  // the last member: its work uses the others
 };

@@ -82,6 +82,8 @@ struct LaidOutPatch {
   /// A statement that is kept as it is written, such as `patches from picture(…) { … }` or a patch with an error; then
   /// of the others only `before` counts, and `name` may be empty.
   std::string verbatim;
+  /// It is an area of a picture, laid out by the statement that is kept before it: it is felt, and is not written itself.
+  bool is_of_picture = false;
 };
 
 /// A workspace as its file declares it: what a window changes and writes back.
