@@ -1,19 +1,20 @@
 #include "editor/text_editor.hpp"
 
 #include <QVBoxLayout>
+#include <algorithm>
 
 namespace sandpaper {
 namespace {
 
 constexpr int typing_pause = 400;     // ms without a key, after which the text is taken over
 constexpr int most_listed = 200;
+constexpr int most_height = 110;      // pixels of the list of problems
 constexpr int following_pause = 150;  // ms after a change on the canvas
 
 }  // namespace
 
 TextEditor::TextEditor(Document& document, const wale::LanguageService& language, QWidget* parent)
     : QWidget(parent), document_(document), field_(new TextField(language)), problems_(new QListWidget) {
-  problems_->setMaximumHeight(110);
   problems_->setWordWrap(true);
   problems_->setAccessibleName(tr("Problems in the text"));
   problems_->setObjectName("problems");
@@ -86,12 +87,14 @@ void TextEditor::show_problems() {
       break;
     }
     const bool is_error = wale::severity_of(each.error.code) == wale::Severity::error;
-    QString words = QString::fromStdString(wale::in_words(each.error));
+    QString words = QString::fromStdString(each.error.sentence);
+    if (!each.error.mend.empty()) words += "; " + QString::fromStdString(each.error.mend);
     if (each.error.place.number) words = tr("line %1: %2").arg(*each.error.place.number).arg(words);
     auto* item = new QListWidgetItem((is_error ? tr("error, ") : tr("warning, ")) + words, problems_);
     item->setForeground(is_error ? QColor(200, 30, 30) : palette().color(QPalette::Text));
   }
   problems_->setVisible(!problems.empty());
+  problems_->setMaximumHeight(std::min(problems_->sizeHintForRow(0) * problems_->count() + 6, most_height));
 }
 
 }  // namespace sandpaper
