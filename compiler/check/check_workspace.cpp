@@ -78,7 +78,8 @@ class WorkspaceChecker {
     patch.statement = node.span;
     patch.made_of_span = tree_.span(*node.material.derived_from);
     patch.made_of = surroundings_.sources.text(patch.made_of_span);
-    patch.name = name.text, patch.span = node.material.span;
+    patch.name = name.text, patch.name_span = name.span;
+    patch.span = node.material.span;
     patch.material = checked(node.material, patch.made_of);
     settings_.clear();
     outlined_.reset();
@@ -202,7 +203,8 @@ class WorkspaceChecker {
       patch.statement = area.statement;
       patch.made_of_span = tree_.span(area.material);
       patch.made_of = surroundings_.sources.text(patch.made_of_span);
-      patch.name = name, patch.span = material.span;
+      patch.name = name, patch.name_span = area.colour_span;
+      patch.span = material.span;
       patch.material = checked(material, patch.made_of);
       patch.size = std::array{area.outline.column * static_cast<double>(area.outline.columns),
                               area.outline.row * static_cast<double>(area.outline.rows)};

@@ -174,7 +174,8 @@ inline constexpr double usual_rim = 1e-3;
 /// A patch of a workspace.
 struct CheckedPatch {
   std::string name;
-  Span span;  ///< of its name and material
+  Span span;       ///< of its name and material
+  Span name_span;  ///< of its name, or of the colour in a picture
   /// Shared by all patches of the same words, and named as the first of them.
   std::shared_ptr<const CheckedMaterial> material;
   std::optional<std::array<double, 2>> size;  ///< m, width and height, if the workspace gives one

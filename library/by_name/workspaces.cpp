@@ -21,7 +21,7 @@ std::vector<std::string> names_of(const std::vector<NamedThing>& things) {
 }
 
 PatchInText in_text_of(const CheckedPatch& patch) {
-  PatchInText in_text{part_of(patch.statement), part_of(patch.span), part_of(patch.made_of_span), {}, {}};
+  PatchInText in_text{part_of(patch.statement), part_of(patch.name_span), part_of(patch.made_of_span), {}, {}};
   for (const auto& [key, span] : patch.settings) in_text.settings.emplace_back(key, part_of(span));
   if (const auto* mask = std::get_if<MaskOutline>(&patch.outline)) in_text.colour = mask->colour;
   return in_text;
