@@ -1,6 +1,7 @@
 #include "compiler/read/bend.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace wale {
@@ -8,11 +9,32 @@ namespace {
 
 constexpr double least_beyond = 0.012;  // of the places, on either side of a bend
 
+/// Sorts places that lie about evenly along the line, as those of a patch do, in time proportional to their number:
+/// into as many intervals as there are places, and each interval by itself.
+std::vector<PlaceOnLine> sorted(const std::vector<PlaceOnLine>& line) {
+  const auto [first, last] = std::ranges::minmax(line, {}, &PlaceOnLine::at);
+  const double scale = static_cast<double>(line.size()) / (last.at - first.at);
+  std::vector<PlaceOnLine> result = line;
+  if (!std::isfinite(scale)) return result;  // all are in one place
+  const auto interval = [&](const PlaceOnLine& each) {
+    return std::min(static_cast<std::size_t>((each.at - first.at) * scale), line.size() - 1);
+  };
+  std::vector<std::uint32_t> ends(line.size() + 1);
+  for (const PlaceOnLine& each : line) ++ends[interval(each) + 1];
+  for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
+  std::vector<std::uint32_t> next(ends.begin(), ends.end() - 1);
+  for (const PlaceOnLine& each : line) result[next[interval(each)]++] = each;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    if (ends[i + 1] - ends[i] > 1)
+      std::sort(result.begin() + ends[i], result.begin() + ends[i + 1],
+                [](const PlaceOnLine& a, const PlaceOnLine& b) { return a.at < b.at; });
+  return result;
+}
+
 }  // namespace
 
-Bend best_bend(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every) {
-  std::ranges::sort(line, {}, &PlaceOnLine::at);
-  return best_bend_of_sorted(std::move(line), kind, every);
+Bend best_bend(const std::vector<PlaceOnLine>& line, BendKind kind, std::size_t every) {
+  return line.empty() ? Bend{} : best_bend_of_sorted(sorted(line), kind, every);
 }
 
 Bend best_bend_of_sorted(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every) {

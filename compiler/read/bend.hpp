@@ -35,7 +35,7 @@ enum class BendKind { bends, jumps, bends_and_jumps };
 
 /// The best bend of all: least squares of a line, the depth behind the bend and a jump there, for each place of the
 /// bend, or each `every`-th.
-Bend best_bend(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every = 1);
+Bend best_bend(const std::vector<PlaceOnLine>& line, BendKind kind, std::size_t every = 1);
 /// Of places that are sorted along the line.
 Bend best_bend_of_sorted(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every = 1);
 

@@ -107,7 +107,7 @@ FaceFit fit_face(glm::dvec2 axis, std::span<const glm::dvec2> places, std::span<
     const glm::dvec2 in = fit.face.inward, across(-in.y, in.x);
     for (std::size_t i = 0; i < places.size(); ++i)
       line[i] = {glm::dot(places[i], in), glm::dot(forces[i], in) - aside * glm::dot(places[i], across)};
-    const Bend bend = best_bend(std::move(line), may_jump ? BendKind::bends_and_jumps : BendKind::bends);
+    const Bend bend = best_bend(line, may_jump ? BendKind::bends_and_jumps : BendKind::bends);
     if (!(bend.left < HUGE_VAL) || bend.slope == 0) return {};
     fit.face = {in, bend.at, -bend.slope, -bend.jump};
     // If it is less steep beyond the bend, the face is on the other side, and the steep side is the even one.

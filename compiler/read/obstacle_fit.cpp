@@ -28,7 +28,10 @@ double shift(double by) { return std::clamp(by, -most_shift, most_shift); }
 
 /// How far a step has risen at some distance beyond its line.
 double risen(double distance, double width) {
-  return width > 0 ? 0.5 * (1 + std::tanh(distance / width)) : distance > 0 ? 1 : 0;
+  // Beyond so many widths a hyperbolic tangent is one, to the last bit.
+  constexpr double far = 22;
+  if (!(width > 0) || std::abs(distance) > far * width) return distance > 0 ? 1 : 0;
+  return 0.5 * (1 + std::tanh(distance / width));
 }
 
 }  // namespace
@@ -197,7 +200,7 @@ void ObstacleFit::move_jumps(std::span<const glm::dvec2> places, std::span<const
                               std::size_t every) {
     std::vector<PlaceOnLine> line(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) line[i] = {glm::dot(places[i], way), glm::dot(without[i], of)};
-    return best_bend(std::move(line), kind, every);
+    return best_bend(line, kind, every);
   };
   for (StaticStep& each : found.steps) {
     if (each.width > 0 || each.change == glm::dvec2(0)) continue;

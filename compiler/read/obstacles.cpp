@@ -159,7 +159,7 @@ class NextObstacle {
       line[i] = {far, far > 0 ? glm::dot(rest_[i], off / far) : 0};
       squares += line[i].value * line[i].value;
     }
-    const Bend best = best_bend(std::move(line), BendKind::bends, every_bend);
+    const Bend best = best_bend(line, BendKind::bends, every_bend);
     const double explained = squares / static_cast<double>(places_.size()) - best.left;
     // Outwards ever less: a wall around. Inwards ever more: within it, and the even force is that outside.
     if (explained > best_.explained && best.at > 0)
