@@ -12,12 +12,13 @@ constexpr double least_beyond = 0.012;  // of the places, on either side of a be
 /// Sorts places that lie about evenly along the line, as those of a patch do, in time proportional to their number:
 /// into as many intervals as there are places, and each interval by itself.
 std::vector<PlaceOnLine> sorted(const std::vector<PlaceOnLine>& line) {
-  const auto [first, last] = std::ranges::minmax(line, {}, &PlaceOnLine::at);
-  const double scale = static_cast<double>(line.size()) / (last.at - first.at);
+  const auto ends_of_line = std::ranges::minmax(line, {}, &PlaceOnLine::at);
+  const double low = ends_of_line.min.at;
+  const double scale = static_cast<double>(line.size()) / (ends_of_line.max.at - low);
   std::vector<PlaceOnLine> result = line;
   if (!std::isfinite(scale)) return result;  // all are in one place
   const auto interval = [&](const PlaceOnLine& each) {
-    return std::min(static_cast<std::size_t>((each.at - first.at) * scale), line.size() - 1);
+    return std::min(static_cast<std::size_t>((each.at - low) * scale), line.size() - 1);
   };
   std::vector<std::uint32_t> ends(line.size() + 1);
   for (const PlaceOnLine& each : line) ++ends[interval(each) + 1];
