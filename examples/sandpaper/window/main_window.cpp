@@ -132,12 +132,13 @@ void MainWindow::make_panels() {
   auto* description = dock("description", tr("Feels like"), description_, Qt::RightDockWidgetArea);
   splitDockWidget(sliders, description, Qt::Vertical);
   auto* text = dock("text", tr("Text"), editor_, Qt::BottomDockWidgetArea);
-  auto* plots = dock("plots", tr("Run"), plots_, Qt::BottomDockWidgetArea);
-  tabifyDockWidget(text, plots);
+  // Beside the text: once the text is one of several tabs, the pages would be another.
   pages_ = new PagesPanel;
   auto* pages = dock("pages", tr("Learn"), pages_, Qt::BottomDockWidgetArea);
   splitDockWidget(text, pages, Qt::Horizontal);
   pages->hide();
+  auto* plots = dock("plots", tr("Run"), plots_, Qt::BottomDockWidgetArea);
+  tabifyDockWidget(text, plots);
   text->raise();
   resizeDocks({findChild<QDockWidget*>("dock_palette"), sliders}, {230, 330}, Qt::Horizontal);
   resizeDocks({text}, {210}, Qt::Vertical);
