@@ -3,7 +3,8 @@
 set(pages README.md runtime/README.md runtime/C_INTERFACE.md runtime/record/RECORDING.md
           runtime/workspace/WORKSPACE_FILE.md schema/LANGUAGE.md schema/PATCH_PROGRAM.md schema/SECURITY.md
           library/README.md library/std/README.md library/python/README.md calibration/README.md compiler/README.md
-          compiler/cpp/README.md compiler/image/README.md examples/README.md examples/sandpaper/README.md)
+          compiler/cpp/README.md compiler/image/README.md examples/README.md examples/sandpaper/README.md
+          examples/learn/README.md examples/learn/RECIPES.md examples/learn/FORCES.md)
 if(NOT WALE_COMPILER)
   list(FILTER pages INCLUDE REGEX "^(runtime|schema/[PS])")
 endif()

@@ -29,6 +29,7 @@ struct PreviewOptions {
   std::string along;              ///< "x", "y" or an angle in degrees; empty: where the surface changes
   std::optional<Hand> at;         ///< of which only the place counts; by default the patch's centre
   std::optional<double> seconds;  ///< of the trace
+  bool small = false;             ///< the surface and its force alone
 };
 
 /// The direction and the place of the section, or why they make no sense.
@@ -86,7 +87,7 @@ int preview(const PreviewOptions& options) {
   const auto section = section_of(options, bank.size());
   if (!section) return refuse(section.error());
   const auto drawing =
-      draw_preview(bank, preview_text(bank, *declarations), *declarations, {*section, options.seconds});
+      draw_preview(bank, preview_text(bank, *declarations), *declarations, {*section, options.seconds, options.small});
   if (!drawing) return refuse(drawing.error());
   const PatchProgram& described = program.description();
   if (const std::size_t coarseness = coarseness_of(described); coarseness > 1)
@@ -148,7 +149,8 @@ Run declare_preview(CLI::App& verb) {
   offer_duration(verb, "--seconds", options->seconds, {.most = 60, .example = 3},
                  "how long the hand rubs before the picture is taken, and strokes for the spectrum (default: 1 s to 5 "
                  "s, and 2 s)");
-  for (const char* of_material : {"--at", "--seconds"}) workspace->excludes(of_material);
+  verb.add_flag("--small", options->small, "the surface and its force alone, to be shown beside a text");
+  for (const char* of_material : {"--at", "--seconds", "--small"}) workspace->excludes(of_material);
   verb.footer("for example: wale preview corduroy -o corduroy.png --along 30 --at \"10 mm, 5 mm\"");
   return [options] { return options->workspace.empty() ? preview(*options) : preview_workspace(*options); };
 }

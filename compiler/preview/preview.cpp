@@ -32,6 +32,10 @@ constexpr PageBox lower_plot = {764, 534, page_width - margin, 776};
 constexpr PageBox upper_of_two = {764, 226, page_width - margin, 438};
 constexpr PageBox lower_of_two = {764, 564, page_width - margin, 776};
 constexpr PageBox tall_plot = {764, 226, page_width - margin, 776};
+// A small page has the picture and one plot, and nothing else.
+constexpr int small_width = 760, small_height = 300;
+constexpr PageBox small_picture = {16, 16, 246, 246};
+constexpr PageBox small_plot = {340, 50, small_width - 24, 230};
 // Below the words at the foot of the page.
 constexpr PageBox spectrum_plot = {margin + 70, 1050, margin + 650, 1250};
 constexpr PageBox spectrogram_plot = {margin + 770, 1050, page_width - margin, 1250};
@@ -46,7 +50,7 @@ std::string position_name(const Exhibit& exhibit) {
 }
 
 /// A bar of a round length at the lower left of the picture.
-void draw_scale_bar(Canvas& canvas, double across, const Notation& notation) {
+void draw_scale_bar(Canvas& canvas, const PageBox& picture, double across, const Notation& notation) {
   const double shown = across * notation.per_si;
   const double length = round_number(shown / 3.5);
   const double left = picture.left, right = left + length / shown * picture.width(), at = picture.bottom + 19;
@@ -56,12 +60,13 @@ void draw_scale_bar(Canvas& canvas, double across, const Notation& notation) {
   canvas.write({right + 13, at + 5.5}, fmt::format("{} {}", shown_number(length), notation.unit), style::heading);
 }
 
-void write_caption(Canvas& canvas, const std::string& text) {
+void write_caption(Canvas& canvas, const PageBox& picture, const std::string& text) {
+  if (picture.width() < 400) return;  // beside the scale bar there is no place for it
   canvas.write({picture.right, picture.bottom + 24.5}, text, style::label, Align::right);
 }
 
 /// Marks the line on the relief along which the curves beside it were taken, and its ends outside the picture.
-void mark_section(Canvas& canvas, const Exhibit& exhibit) {
+void mark_section(Canvas& canvas, const PageBox& picture, const Exhibit& exhibit) {
   const PagePoint middle((picture.left + picture.right) / 2, (picture.top + picture.bottom) / 2);
   const double per_metre = picture.width() / exhibit.side;
   const PagePoint way(exhibit.way.x, -exhibit.way.y);
@@ -170,7 +175,7 @@ Plot felt_plot(const Rehearsal& rehearsal) {
 }
 
 /// The side, in pixels, of the squares in which the picture is drawn: of the surface, or of the force.
-int square_of(const Bank& bank, bool of_surface) {
+int square_of(const Bank& bank, const PageBox& picture, bool of_surface) {
   const PatchProgram& program = bank.program().description();
   const long cost = of_surface ? cost_of(program.picture.code) : cost_of(program.enter) + cost_of(program.tick);
   return pixels_of_a_sample(static_cast<double>(cost),
@@ -194,14 +199,14 @@ bool marks_on_field(const Bank& bank, const Exhibit& exhibit) {
 /// Whether the force is shown against velocity: the program only resists motion.
 bool is_of_velocity(const Exhibit& exhibit) { return !exhibit.pushes_at_rest && exhibit.resists_motion; }
 
-void draw_surface(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal,
-                  const ImageLibrary& images) {
+void draw_surface(Canvas& canvas, const PageBox& picture, const Bank& bank, const Exhibit& exhibit,
+                  const Rehearsal& rehearsal, const ImageLibrary& images) {
   const bool in_time = remembers(bank.program().description());
-  draw_relief(canvas, picture, bank, &rehearsal.memory, exhibit, images, square_of(bank, true));
-  if (exhibit.has_relief) mark_section(canvas, exhibit);
+  draw_relief(canvas, picture, bank, &rehearsal.memory, exhibit, images, square_of(bank, picture, true));
+  if (exhibit.has_relief) mark_section(canvas, picture, exhibit);
   draw_marks(canvas, picture, exhibit, rehearsal);
   const Notation length = length_notation(exhibit.side);
-  draw_scale_bar(canvas, exhibit.side, length);
+  draw_scale_bar(canvas, picture, exhibit.side, length);
   std::string caption;
   if (exhibit.has_relief && exhibit.felt)
     caption = fmt::format("relief by level {:.2f}", *exhibit.felt);
@@ -212,21 +217,22 @@ void draw_surface(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, cons
     caption =
         fmt::format("period {}{}{}", shown_quantity(*exhibit.period, length), caption.empty() ? "" : " · ", caption);
   }
-  write_caption(canvas, caption);
+  write_caption(canvas, picture, caption);
 }
 
-void draw_field_and_scale(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, bool of_velocity) {
-  const double strongest = draw_field(canvas, picture, bank, exhibit, of_velocity, square_of(bank, false));
+void draw_field_and_scale(Canvas& canvas, const PageBox& picture, const Bank& bank, const Exhibit& exhibit,
+                          bool of_velocity) {
+  const double strongest = draw_field(canvas, picture, bank, exhibit, of_velocity, square_of(bank, picture, false));
   if (of_velocity) {
-    draw_scale_bar(canvas, 2 * exhibit.speed, speed_notation(exhibit.speed));
+    draw_scale_bar(canvas, picture, 2 * exhibit.speed, speed_notation(exhibit.speed));
   } else {
-    draw_scale_bar(canvas, exhibit.side, length_notation(exhibit.side));
+    draw_scale_bar(canvas, picture, exhibit.side, length_notation(exhibit.side));
   }
   if (strongest > 0) {
-    write_caption(canvas, fmt::format("force over {}, means; a full arrow is {}", of_velocity ? "velocity" : "position",
+    write_caption(canvas, picture, fmt::format("force over {}, means; a full arrow is {}", of_velocity ? "velocity" : "position",
                                       shown_quantity(strongest, force_notation(strongest))));
   } else {
-    write_caption(canvas, "no force anywhere");
+    write_caption(canvas, picture, "no force anywhere");
   }
 }
 
@@ -281,15 +287,15 @@ std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhib
 }
 
 /// The left half of the page: the surface, or the field of a force without one.
-void draw_picture(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal,
-                  const ImageLibrary& images) {
+void draw_picture(Canvas& canvas, const PageBox& picture, const Bank& bank, const Exhibit& exhibit,
+                  const Rehearsal& rehearsal, const ImageLibrary& images) {
   if (marks_on_field(bank, exhibit)) {
-    draw_field_and_scale(canvas, bank, exhibit, false);
+    draw_field_and_scale(canvas, picture, bank, exhibit, false);
     draw_marks(canvas, picture, exhibit, rehearsal);
   } else if (shows_surface(bank, exhibit))
-    draw_surface(canvas, bank, exhibit, rehearsal, images);
+    draw_surface(canvas, picture, bank, exhibit, rehearsal, images);
   else
-    draw_field_and_scale(canvas, bank, exhibit, is_of_velocity(exhibit));
+    draw_field_and_scale(canvas, picture, bank, exhibit, is_of_velocity(exhibit));
 }
 
 void draw_shaking_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal) {
@@ -323,6 +329,25 @@ void draw_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const 
   draw_plot(canvas, lower_plot, force_plot(bank, exhibit));
 }
 
+/// The one plot of a small page: how it pushes.
+Plot most_telling_plot(const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal) {
+  const PatchProgram& program = bank.program().description();
+  if (program.vibrates())
+    return program.device.has_position() ? shaking_plot(bank, exhibit)
+                                         : height_plot(bank, rehearsal.memory, exhibit);
+  Plot plot;
+  if (remembers(program)) plot = felt_plot(rehearsal);
+  else if (!exhibit.has_relief && is_of_velocity(exhibit)) plot = speed_plot(bank, exhibit);
+  else plot = force_plot(bank, exhibit);
+  // The words have the width of half a page, and one curve needs no key.
+  if (is_of_velocity(exhibit) && !exhibit.has_relief) plot.title = plot.title.substr(0, plot.title.find(','));
+  for (Curve& curve : plot.curves)
+    for (const std::string_view long_word : {"on a hand ", "moving "})
+      if (curve.name.starts_with(long_word)) curve.name.erase(0, long_word.size());
+  if (plot.curves.size() == 1) plot.curves.front().name.clear();
+  return plot;
+}
+
 }  // namespace
 
 Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations,
@@ -333,12 +358,20 @@ Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const De
   const Rehearsal rehearsal = rehearse(bank, hand, choice.seconds);
   Exhibit exhibit = exhibit_of(bank, &rehearsal.memory, choice.section);
   exhibit.felt = text.felt;
+  if (choice.small) {
+    auto page = new_canvas(small_width, small_height, style::paper);
+    if (!page) return page.error();
+    draw_picture(**page, small_picture, bank, exhibit, rehearsal, **images);
+    (*page)->outline(small_picture, {1, style::rule});
+    draw_plot(**page, small_plot, most_telling_plot(bank, exhibit, rehearsal));
+    return Preview{*std::move(page), square_of(bank, small_picture, shows_surface(bank, exhibit))};
+  }
   const std::optional<FeltSpectrum> spectrum = felt_spectrum(bank, exhibit, hand, choice.seconds.value_or(2));
   auto page = new_canvas(page_width, spectrum ? page_height_with_spectrum : page_height, style::paper);
   if (!page) return page.error();
   Canvas& canvas = **page;
   write_words(canvas, bank, text, exhibit);
-  draw_picture(canvas, bank, exhibit, rehearsal, **images);
+  draw_picture(canvas, picture, bank, exhibit, rehearsal, **images);
   draw_plots(canvas, bank, exhibit, rehearsal);
   canvas.outline(picture, {1, style::rule});
   if (spectrum) {
@@ -346,7 +379,7 @@ Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const De
     draw_spectrum(canvas, spectrum_plot, *spectrum);
     draw_spectrogram(canvas, spectrogram_plot, *spectrum);
   }
-  return Preview{*std::move(page), square_of(bank, shows_surface(bank, exhibit))};
+  return Preview{*std::move(page), square_of(bank, picture, shows_surface(bank, exhibit))};
 }
 
 }  // namespace wale

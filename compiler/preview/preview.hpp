@@ -39,6 +39,7 @@ struct Preview {
 struct PreviewChoice {
   SectionChoice section;
   std::optional<double> seconds;  ///< of the hand's rubbing and of the spectrum; by default one to five, and two
+  bool small = false;             ///< the surface and its force alone, without words
 };
 
 /// The words that the program itself gives: title and names of its representative layer, the level of each percept, the
@@ -54,7 +55,8 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations);
 /// force against velocity. A program with colours, marks or memory always shows its surface. With marks or memory, a
 /// simulated hand has rubbed it for a short time before; with memory, the page also shows the hand and its force over
 /// that time. Forces are the commanded ones, in N or mN. A relief is drawn the steeper the stronger it is
-/// felt. The same bank, text and choice give the same pixels.
+/// felt. The same bank, text and choice give the same pixels. A small picture, for a page that says the rest, has the
+/// surface or the field and the plot of the force beside it, in 760 x 300 pixels.
 ///
 /// Error: `Code::missing_library`.
 Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations,

@@ -1,6 +1,7 @@
 // Sandpaper: a window in which materials are laid out, felt and changed.
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QDir>
 #include <QFileInfo>
 #include <QTimer>
 #include <cstdio>
@@ -13,6 +14,9 @@ int main(int argc, char** argv) {
   QApplication::setApplicationName("sandpaper");
   QApplication::setOrganizationName("wale");
   QApplication::setApplicationDisplayName("Sandpaper");
+  // Where the pages are installed; in a clone, the folder of the project, in which `./wale` builds.
+  const QString here = QApplication::applicationDirPath();
+  QDir::setSearchPaths("pages", {here + "/" WALE_PAGES, here + "/.."});
   QCommandLineParser parser;
   parser.setApplicationDescription("Lays materials out, lets a hand feel them and changes them.");
   parser.addHelpOption();

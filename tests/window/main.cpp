@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QDir>
 #include <QStandardPaths>
 #include <QTemporaryDir>
 
@@ -11,6 +12,7 @@ int main(int argc, char** argv) {
     qputenv(name, home.path().toUtf8());
   if (qEnvironmentVariableIsEmpty("WALE_TEST_SCREEN")) qputenv("QT_QPA_PLATFORM", "offscreen");
   QApplication application(argc, argv);
+  QDir::setSearchPaths("pages", {WALE_SOURCE_DIR});
   QApplication::setOrganizationName("wale");
   QApplication::setApplicationName("sandpaper");
   testing::InitGoogleTest(&argc, argv);

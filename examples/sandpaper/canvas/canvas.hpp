@@ -68,6 +68,7 @@ class Canvas : public QWidget {
   void touched_changed();
   void hovered(glm::dvec2 metres);
   void material_dropped(const QString& spelling, glm::dvec2 metres);
+  void recipe_dropped(const QString& recipe, glm::dvec2 metres);
   void picture_dropped(const QString& file, glm::dvec2 metres);
   void file_dropped(const QString& file);
 

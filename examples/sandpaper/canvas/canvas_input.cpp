@@ -19,6 +19,7 @@ constexpr double handle_reach = 6;     // pixels
 constexpr double least_side = 0.002;   // m, of a patch that is drawn smaller
 constexpr int merge_nudges = 1;
 constexpr const char* of_materials = "application/x-wale-material";
+constexpr const char* of_recipes = "application/x-wale-recipe";
 
 }  // namespace
 
@@ -203,13 +204,16 @@ void Canvas::keyPressEvent(QKeyEvent* event) {
 }
 
 void Canvas::dragEnterEvent(QDragEnterEvent* event) {
-  if (!fixed_ && (event->mimeData()->hasFormat(of_materials) || event->mimeData()->hasUrls())) event->acceptProposedAction();
+  if (!fixed_ && (event->mimeData()->hasFormat(of_materials) || event->mimeData()->hasFormat(of_recipes) ||
+                  event->mimeData()->hasUrls())) event->acceptProposedAction();
 }
 
 void Canvas::dropEvent(QDropEvent* event) {
   const glm::dvec2 at = snapped(to_metres(event->position()));
   if (event->mimeData()->hasFormat(of_materials)) {
     emit material_dropped(QString::fromUtf8(event->mimeData()->data(of_materials)), at);
+  } else if (event->mimeData()->hasFormat(of_recipes)) {
+    emit recipe_dropped(QString::fromUtf8(event->mimeData()->data(of_recipes)), at);
   } else {
     for (const QUrl& each : event->mimeData()->urls()) {
       const QString file = each.toLocalFile();

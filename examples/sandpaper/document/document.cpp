@@ -175,15 +175,18 @@ wale::Result<> Document::save(const QString& path) {
 }
 
 std::string Document::text() const {
-  if (draft_) return *draft_;
+  return draft_ ? *draft_ : text_of(contents_);
+}
+
+std::string Document::text_of(const Contents& contents) const {
   // Only the workspace is written in the standard style: the rest stays as its author wrote it.
   static const std::string header = "wale 1\n\n";
-  std::string workspace = wale::layout_text(contents_.layout());
+  std::string workspace = wale::layout_text(contents.layout());
   if (auto formatted = language_.format(header + workspace); formatted && formatted->starts_with(header)) {
     workspace = formatted->substr(header.size());
     while (workspace.ends_with("\n")) workspace.pop_back();
   }
-  std::string text = contents_.head + workspace + contents_.tail;
+  std::string text = contents.head + workspace + contents.tail;
   if (!text.ends_with("\n")) text += "\n";
   return text;
 }

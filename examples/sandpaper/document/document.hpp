@@ -40,6 +40,8 @@ class Document : public QObject {
 
   /// The whole file as it would be saved: the workspace in the standard style, the rest as it was written.
   std::string text() const;
+  /// The same of other contents.
+  std::string text_of(const Contents& contents) const;
   /// Replaces the whole file by a text that someone has typed, as one step of undo. A text with errors becomes a draft:
   /// it is what is saved, while the contents stay those of the last text without errors.
   void set_text(const std::string& text, const QString& what);

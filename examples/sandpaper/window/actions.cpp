@@ -272,6 +272,11 @@ void MainWindow::make_present_menu() {
 
 void MainWindow::make_help_menu() {
   QMenu* menu = menuBar()->addMenu(tr("&Help"));
+  add(menu, "learn", tr("A &quarter of an hour"), tr("Shift+F1"), [this] { show_page("examples/learn/README.md"); });
+  add(menu, "recipes", tr("&Recipes"), tr("Ctrl+F1"), [this] { show_page("examples/learn/RECIPES.md"); });
+  add(menu, "forces", tr("Which &word makes which force"), {}, [this] { show_page("examples/learn/FORCES.md"); });
+  add(menu, "language", tr("The &language"), {}, [this] { show_page("schema/LANGUAGE.md"); });
+  menu->addSeparator();
   add(menu, "keys", tr("&Keys"), tr("F1"), [this] {
     announcement_->say(tr("Space or Esc takes all force away. On the canvas: arrows move by 1 mm (with Shift 10, with Ctrl 0.1), "
                           "N and P choose the next and the previous patch, the wheel zooms, the middle button pans, Alt moves "

@@ -5,8 +5,10 @@
 #include <QInputDialog>
 #include <QSaveFile>
 #include <QSettings>
+#include <algorithm>
 #include <wale/patch_program.hpp>
 
+#include "document/recipe.hpp"
 #include "window/main_window.hpp"
 
 namespace sandpaper {
@@ -87,6 +89,23 @@ void MainWindow::place_material(const QString& spelling, glm::dvec2 at) {
   patch.name = spelling.section('.', -1).toStdString();
   const auto ids = document_.add(tr("Place %1").arg(spelling), {std::move(patch)});
   document_.choose({ids.begin(), ids.end()});
+  canvas_->setFocus();
+}
+
+void MainWindow::place_recipe(const QString& recipe, glm::dvec2 at) {
+  editor_->commit();
+  if (document_.is_stale()) return announcement_->say(tr("The text has errors: mend them first, then this can be placed"));
+  const WithRecipe placed = with_recipe(language_, document_.contents(), recipe.toStdString(), at);
+  const std::string text = document_.text_of(placed.contents);
+  const std::string name = document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString();
+  for (const wale::Problem& each : language_.check(text, {.name = name}).problems)
+    if (wale::severity_of(each.error.code) == wale::Severity::error)
+      return announcement_->say(tr("This cannot be placed here: %1").arg(QString::fromStdString(wale::in_words(each.error))));
+  document_.set_text(text, tr("Place a recipe"));
+  std::set<std::uint64_t> ids;
+  for (const PlacedRef& each : document_.contents().placed)
+    if (std::ranges::count(placed.patches, each->patch.name) > 0) ids.insert(each->id);
+  document_.choose(ids);
   canvas_->setFocus();
 }
 

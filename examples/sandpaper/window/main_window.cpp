@@ -78,6 +78,7 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
     place_->setText(tr("%1, %2 mm").arg(1000 * at.x, 0, 'f', 1).arg(1000 * at.y, 0, 'f', 1));
   });
   connect(canvas_, &Canvas::material_dropped, this, &MainWindow::place_material);
+  connect(canvas_, &Canvas::recipe_dropped, this, &MainWindow::place_recipe);
   connect(canvas_, &Canvas::picture_dropped, this, &MainWindow::place_picture);
   connect(canvas_, &Canvas::file_dropped, this, [this](const QString& file) {
     when_saved(tr("open another file"), [this, file] { open(file); });
@@ -85,6 +86,10 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   connect(palette_, &PalettePanel::wanted, this, [this](const QString& spelling) {
     place_material(spelling, canvas_->to_metres(QPointF(canvas_->width() / 2.0, canvas_->height() / 2.0)));
   });
+  connect(pages_, &PagesPanel::recipe_wanted, this, [this](const QString& recipe) {
+    place_recipe(recipe, canvas_->to_metres(QPointF(canvas_->width() / 2.0, canvas_->height() / 2.0)));
+  });
+  connect(pages_, &PagesPanel::refused, announcement_, &Announcement::say);
   connect(sliders_, &SliderPanel::shown_changed, this, &MainWindow::update_description);
   connect(&plotting_, &QTimer::timeout, this, [this] {
     if (!feeling_.is_on()) return;
@@ -127,6 +132,11 @@ void MainWindow::make_panels() {
   auto* description = dock("description", tr("Feels like"), description_, Qt::RightDockWidgetArea);
   splitDockWidget(sliders, description, Qt::Vertical);
   auto* text = dock("text", tr("Text"), editor_, Qt::BottomDockWidgetArea);
+  // Beside the text: once the text is one of several tabs, the pages would be another.
+  pages_ = new PagesPanel;
+  auto* pages = dock("pages", tr("Learn"), pages_, Qt::BottomDockWidgetArea);
+  splitDockWidget(text, pages, Qt::Horizontal);
+  pages->hide();
   auto* plots = dock("plots", tr("Run"), plots_, Qt::BottomDockWidgetArea);
   tabifyDockWidget(text, plots);
   text->raise();
@@ -249,6 +259,19 @@ void MainWindow::offer_left_behind() {
                          announcement_->say(tr("Restored what was not saved, from %1. It is not saved yet.")
                                                 .arg(left.time.toString(Qt::ISODate)));
                        });
+}
+
+void MainWindow::show_page(const QString& page) {
+  if (!pages_->open(page)) return;
+  auto* dock = findChild<QDockWidget*>("dock_pages");
+  if (!dock->isVisible()) {
+    dock->show();
+    auto* text = findChild<QDockWidget*>("dock_text");
+    resizeDocks({text, dock}, {1, 1}, Qt::Horizontal);
+    resizeDocks({dock}, {height() / 2}, Qt::Vertical);  // high enough to read
+  }
+  dock->raise();
+  findChild<QWidget*>("page")->setFocus();
 }
 
 void MainWindow::seek_advice() {

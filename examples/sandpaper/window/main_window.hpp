@@ -12,6 +12,7 @@
 #include "editor/text_editor.hpp"
 #include "feeling/feeling.hpp"
 #include "panels/description_panel.hpp"
+#include "panels/pages_panel.hpp"
 #include "panels/palette_panel.hpp"
 #include "panels/plot_panel.hpp"
 #include "panels/slider_panel.hpp"
@@ -66,6 +67,7 @@ class MainWindow : public QMainWindow {
   void touched_changed();
   void announce(const wale::Error& error);
   void offer_left_behind();
+  void show_page(const QString& page);
   void seek_advice();
   void step_frame(int by);
 
@@ -78,6 +80,7 @@ class MainWindow : public QMainWindow {
   void export_picture();
   void export_program();
   void place_material(const QString& spelling, glm::dvec2 at);
+  void place_recipe(const QString& recipe, glm::dvec2 at);
   void place_picture(const QString& file, glm::dvec2 at);
   void feel_if_trusted();
 
@@ -97,6 +100,7 @@ class MainWindow : public QMainWindow {
   DescriptionPanel* description_ = nullptr;
   TextEditor* editor_ = nullptr;
   PlotPanel* plots_ = nullptr;
+  PagesPanel* pages_ = nullptr;
   QPushButton* force_button_ = nullptr;
   QComboBox* device_ = nullptr;
   QDoubleSpinBox* limit_ = nullptr;
