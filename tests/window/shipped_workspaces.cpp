@@ -1,6 +1,8 @@
 // The workspaces that come with the window: the haptic desktop, the demonstrations of the thesis, a keypad and a kitchen.
 #include <filesystem>
+#include <wale/program.hpp>
 
+#include "canvas/surface_image.hpp"
 #include "driven_window.hpp"
 
 namespace sandpaper {
@@ -64,6 +66,20 @@ TEST_P(ShippedWorkspace, OpensAndIsFeltFrameByFrame) {
     EXPECT_GT(felt(), least_told) << frames[i];
   }
   EXPECT_EQ(window->document().text(), text);  // stepping through changes nothing
+}
+
+/// The light comes from the upper left, so that side of a hill is bright and that of a hollow dark.
+TEST(SurfaceImage, AHillIsBrightTowardsTheLight) {
+  for (const int sign : {1, -1}) {
+    const wale::LanguageService language;
+    const auto compiled = language.compile("wale 1\nmaterial hill { physical {\n patch 20 mm, 20 mm\n force = vector(0 N, 0 N)\n"
+                                           " show relief(" + std::string(sign > 0 ? "" : "-") +
+                                           "exp(-dot(hand, hand) / (6 mm)^2))\n} }\n");
+    ASSERT_TRUE(compiled.program);
+    const wale::Bank bank(*compiled.program);
+    const QImage image = surface_image(bank, nullptr, {0.02f, 0.02f}, {40, 40}, Look::relief, Qt::lightGray);
+    EXPECT_GT(sign * (qGray(image.pixel(13, 13)) - qGray(image.pixel(26, 26))), 40) << sign;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedWorkspace,
