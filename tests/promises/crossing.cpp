@@ -98,6 +98,69 @@ TEST(Crossing, EachOfTwoGratingsReadsAsItselfToTwoMillimetresFromTheBorder) {
   EXPECT_GT(least_step, 2 * least_noticed());
 }
 
+/// The force that a level of roughness stands for, N, by the fit to table 6: the 194 program units of level 1 with the
+/// exponent 0.7596 (Minsky 1995, section 5.3.1, figure 19).
+double force_of(double roughness) { return 194 * 10.0 / 512 * std::pow(roughness, 1 / 0.7596); }
+
+/// The 99th percentile of the forces between two places.
+double percentile(const std::vector<glm::dvec2>& forces, double from, double to) {
+  std::vector<double> all;
+  for (const glm::dvec2& each : forces)
+    if (each.x >= from && each.x <= to) all.push_back(std::abs(each.y));
+  std::ranges::sort(all);
+  return all.at(static_cast<std::size_t>(0.99 * static_cast<double>(all.size() - 1)));
+}
+
+TEST(Crossing, EachSideHasTheForceOfItsLevelAndTheStepIsTheirDifference) {
+  for (const double speed : {0.05, 0.1, 0.2})
+    for (const double way : {1.0, -1.0}) {
+      const auto forces = crossed(both, -0.028 * way, 0.028 * way, speed);
+      const double left = percentile(forces, -0.026, -to_border), right = percentile(forces, to_border, 0.026);
+      EXPECT_NEAR(left / force_of(0.7), 1, 0.03) << speed << " " << way;
+      EXPECT_NEAR(right / force_of(0.3), 1, 0.03) << speed << " " << way;
+      EXPECT_GT(left - right, 2 * least_noticed());
+    }
+}
+
+/// A height of 1 mm that falls to 0 over the rim alone, at 2 N. To go in takes 2 mJ at any rim, and the push is that of the
+/// cubic's slope, 6 u (1 - u) / rim of it at u rims from the edge.
+TEST(Crossing, ARimOfAnyWidthTakesTheSameWorkAndPushesByItsSlope) {
+  for (const double rim : {0.5, 1.0, 2.0, 4.0})
+    for (const char* shape : {"", "; shape ellipse", "; shape mask"}) {
+      const std::string outline =
+          std::string(shape) == "; shape mask" ? "shape polygon(-20 mm, -20 mm, 20 mm, -20 mm, 20 mm, 20 mm, -20 mm, 20 mm)"
+                                               : "size 40 mm, 40 mm" + std::string(shape);
+      const Library library;
+      const auto compiled = library.workspace(
+          "wale 1\nmaterial slab {\n  physical {\n    height top = 1 mm * patch_fade()\n"
+          "    force = -2 N * grad(top)\n  }\n}\nworkspace desk {\n  patch one = slab { " +
+          outline + "; rim " + std::to_string(rim) + " mm }\n}\n");
+      ASSERT_TRUE(compiled) << explained(compiled.error());
+      const WorkspacePatch& patch = compiled->workspace.patches.at(0);
+      Bank bank(patch.program, patch.program.default_parameters(), *patch.options.size);
+      const Shape laid = patch.options.shape.stretched({bank.size().width, bank.size().height});
+      double work = 0;
+      constexpr int steps = 40000;
+      for (int i = 0; i < steps; ++i) {
+        const double x = -0.021 + 0.021 * (i + 0.5) / steps;
+        Hand hand{.position = glm::vec2(x, 0)};
+        double force = 0;
+        if (x > -0.02) {
+          if (!laid.is_rectangle()) {
+            const EdgeDistance edge = laid.edge(glm::vec2(x, 0));
+            hand.edge = std::max(edge.metres, std::numeric_limits<float>::min());
+            hand.edge_slope = edge.slope;
+          }
+          force = tick(bank, hand).x;
+        }
+        const double u = std::clamp((x + 0.02) / (1e-3 * rim), 0.0, 1.0);
+        ASSERT_NEAR(force, -2e-3 * 6 * u * (1 - u) / (1e-3 * rim), 0.01 + 0.01 / rim) << rim << " " << shape << " " << x;
+        work -= force * 0.021 / steps;
+      }
+      EXPECT_NEAR(work, 2e-3, 1e-5) << rim << " " << shape;
+    }
+}
+
 TEST(Crossing, NoClosedWayOverTheBorderOrAMasksEdgeGainsEnergy) {
   const Library library;
   const auto compiled = library.workspace(text_of(

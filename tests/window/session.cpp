@@ -270,6 +270,19 @@ movie demo { frames workshop, kitchen }
   EXPECT_NE(read(file).find("patch board = ridges {"), std::string::npos);
 }
 
+TEST_F(DrivenWindow, AWorkspaceThatAMovieKeysAndGroupsNameIsFelt) {
+  const std::string named = std::string(kitchen) + R"(
+movie demo { frames kitchen }
+keys sorting { of kitchen; area 40 mm, 40 mm }
+groups sorted { of kitchen; group board, "hard"; group cloth }
+)";
+  ASSERT_TRUE(window->open(write("named.wale", named)));
+  wait_for_programs();
+  ASSERT_TRUE(window->feeling().program(placed("board").id));
+  trigger("feel");
+  EXPECT_NEAR(rub(-40, 20, 15), 1.0, 0.1);
+}
+
 TEST_F(DrivenWindow, NeighboursThatFeelAlikeAreToldAndMended) {
   ASSERT_TRUE(window->open(write("alike.wale", R"(wale 1
 

@@ -44,7 +44,7 @@ float usual_size(std::vector<float> values) {
   return std::max(*place, 1e-12f);
 }
 
-/// How the heights change towards the light, from pixel to pixel.
+/// How the heights rise towards the light, from pixel to pixel. What rises towards it faces away from it and is dark.
 std::vector<float> slopes(const std::vector<float>& heights, QSize pixels) {
   const int width = pixels.width(), height = pixels.height();
   const auto at = [&](int column, int row) {
@@ -83,10 +83,10 @@ QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::ve
   const auto [low, high] = std::ranges::minmax_element(heights);
   const float lowest = *low, range = *high - *low;
   std::vector<glm::vec2> forces;
-  std::vector<float> lit;
+  std::vector<float> rise;
   if (look == Look::force_field) forces_along(bank, places, forces);
-  else if (look == Look::relief) lit = range > 0 ? slopes(heights, image.size()) : forces_along(bank, places, forces);
-  const float strongest = lit.empty() ? 1 : usual_size(lit);
+  else if (look == Look::relief) rise = range > 0 ? slopes(heights, image.size()) : forces_along(bank, places, forces);
+  const float strongest = rise.empty() ? 1 : usual_size(rise);
   float hardest = 1e-12f;
   for (const glm::vec2 each : forces) hardest = std::max(hardest, finite(std::hypot(each.x, each.y)));
   const glm::vec3 own(plain.redF(), plain.greenF(), plain.blueF());
@@ -94,7 +94,7 @@ QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::ve
     QRgb& pixel = reinterpret_cast<QRgb*>(image.scanLine(static_cast<int>(i) / image.width()))[i % image.width()];
     switch (look) {
       case Look::relief:
-        pixel = rgb(colours.empty() ? own : colours[i], 0.85f + 0.3f * std::clamp(lit[i] / strongest, -1.f, 1.f));
+        pixel = rgb(colours.empty() ? own : colours[i], 0.85f - 0.3f * std::clamp(rise[i] / strongest, -1.f, 1.f));
         break;
       case Look::blind: pixel = qRgb(200, 200, 200); break;
       case Look::depth: pixel = rgb(glm::vec3(1), range > 0 ? (heights[i] - lowest) / range : 0.5f); break;

@@ -111,6 +111,17 @@ std::string written(double si, const std::string& unit, double unit_in_si) {
   return unit.empty() ? number : number + " " + unit;
 }
 
+std::string Contents::surroundings() const {
+  if (name.empty()) return head + "\n" + tail;
+  std::string own = "workspace " + name + " {\n", plain;
+  if ((head + "\n" + tail).find("\ngroups ") != std::string::npos) {
+    plain = "material " + name + "_without_materials { physical { force = vector(0 N, 0 N) } }\n";
+    for (const PlacedRef& each : placed)
+      if (each->is_changeable()) own += "patch " + each->patch.name + " = " + name + "_without_materials\n";
+  }
+  return head + "\n" + plain + own + "}\n" + tail;
+}
+
 const Placed* Contents::find(std::uint64_t id) const {
   const auto found = std::ranges::find(placed, id, [](const PlacedRef& each) { return each->id; });
   return found == placed.end() ? nullptr : found->get();
