@@ -48,6 +48,7 @@ function(write_library_control component name package)
 endfunction()
 write_library_control(runtime libwale-runtime libwale-runtime1)
 write_library_control(compiler libwale libwale1)
+write_library_control(calibration libwale-calibration libwale-calibration1)
 set(control ${CMAKE_CURRENT_BINARY_DIR}/control)
 
 # A package of its own, and not a part of the library's: packages of two versions of a library can be installed together.
@@ -67,7 +68,12 @@ if(WALE_COMPILER)
 percepts. Materials with pictures also need the decoder of the package wale."
     DEPENDS "libwale-runtime1 ${this}" RECOMMENDS wale)
   set(CPACK_DEBIAN_COMPILER_PACKAGE_CONTROL_EXTRA ${control}/compiler/shlibs ${control}/compiler/triggers)
-  string(APPEND all_development ", libwale1 ${this}")
+  debian_package(calibration libwale-calibration1 libs "logs of sessions with people who feel materials"
+    "This package has the library that writes and reads the log of a session: who
+felt what, and what they answered."
+    DEPENDS "libwale-runtime1 ${this}")
+  set(CPACK_DEBIAN_CALIBRATION_PACKAGE_CONTROL_EXTRA ${control}/calibration/shlibs ${control}/calibration/triggers)
+  string(APPEND all_development ", libwale1 ${this}, libwale-calibration1 ${this}")
   debian_package(command wale utils "language for how things feel"
     "This package has the command line, which checks, describes, compares, draws
 and feels materials, and the shipped library of materials."

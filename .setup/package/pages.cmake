@@ -2,9 +2,10 @@
 # file that is installed elsewhere leads to that place; one to a file that is not installed becomes plain text.
 set(pages README.md runtime/README.md runtime/C_INTERFACE.md runtime/record/RECORDING.md
           runtime/workspace/WORKSPACE_FILE.md schema/LANGUAGE.md schema/PATCH_PROGRAM.md schema/SECURITY.md
-          library/README.md library/std/README.md library/python/README.md calibration/README.md compiler/README.md
-          compiler/cpp/README.md compiler/image/README.md examples/README.md examples/sandpaper/README.md
-          examples/learn/README.md examples/learn/RECIPES.md examples/learn/FORCES.md)
+          library/README.md library/std/README.md library/python/README.md calibration/README.md
+          calibration/session/SESSION_LOG.md compiler/README.md compiler/cpp/README.md compiler/image/README.md
+          examples/README.md examples/sandpaper/README.md examples/learn/README.md examples/learn/RECIPES.md
+          examples/learn/FORCES.md)
 if(NOT WALE_COMPILER)
   list(FILTER pages INCLUDE REGEX "^(runtime|schema/[PS])")
 endif()
@@ -15,7 +16,7 @@ function(installed_place file place)
   set(found "")
   if(file IN_LIST pages OR file MATCHES "^examples(/.*)?$")
     set(found ${CMAKE_INSTALL_DOCDIR}/${file})
-  elseif(file MATCHES "^(schema|runtime|library)/include/(.*)$")
+  elseif(file MATCHES "^(schema|runtime|library|calibration)/include/(.*)$")
     set(found ${CMAKE_INSTALL_INCLUDEDIR}/${CMAKE_MATCH_2})
   elseif(NOT WALE_COMPILER)
     set(found "")

@@ -335,7 +335,7 @@ class Solver {
                         "out as {}",
                         *frequency, device_->profile.rate, device_->profile.name,
                         what_comes_out(*frequency, device_->profile.rate)),
-               Advice(readable("make it {:.4g} Hz or less", most))
+               Advice(readable("make it less than {:.4g} Hz, and far less if it should not swell and fade", most))
                    .fact("frequency", *frequency, "Hz")
                    .fact("most", most, "Hz"));
   }

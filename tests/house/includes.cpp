@@ -37,7 +37,7 @@ Files sources() {
 
 /// The path of the file that an include of `name` means; empty when the file is not of the project.
 std::string found(const std::string& name, const Files& files) {
-  for (const char* root : {"", "schema/include/", "runtime/include/", "library/include/", "examples/sandpaper/"})
+  for (const char* root : {"", "schema/include/", "runtime/include/", "library/include/", "calibration/include/", "examples/sandpaper/"})
     if (files.contains(root + name)) return root + name;
   return {};
 }
@@ -91,10 +91,11 @@ const std::vector<Rule>& rules() {
         {"runtime/include/", {"schema/include/"}},
         {"runtime/", {"schema/"}},
         {"compiler/", of_compiler},
+        {"calibration/include/", {"schema/include/", "runtime/include/"}},
         {"calibration/", {"schema/", "compiler/", "runtime/"}},
         {"library/include/", {"schema/include/", "runtime/include/"}},
         {"library/", {"schema/", "compiler/", "runtime/", "calibration/feel/trusted_declarations.hpp"}},
-        {"examples/", {"schema/include/", "runtime/include/", "library/include/"}},
+        {"examples/", {"schema/include/", "runtime/include/", "library/include/", "calibration/include/"}},
     };
   }();
   return all;
