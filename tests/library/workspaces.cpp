@@ -94,7 +94,7 @@ TEST(LibraryWorkspaces, AreTheSameFromAFile) {
   EXPECT_TRUE(of_file->in_text.empty());
   EXPECT_EQ(library.open_workspace(built, {.device = "falcon"}).error().code, Code::other_device);
   EXPECT_EQ(library.open_workspace(folder / "none.wws").error().code, Code::unreadable_file);
-  EXPECT_EQ(library.open_workspace(folder.write("a.wws", "not one")).error().code, Code::missing_version);
+  EXPECT_EQ(library.open_workspace(folder.write("a.wws", "not one")).error().code, Code::damaged_file);
 }
 
 TEST(LibraryWorkspaces, ErrorsAndWarningsHaveTheirPlace) {
