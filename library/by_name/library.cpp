@@ -108,7 +108,8 @@ struct Library::Parts {
       if (auto name = is_name_text("device", options.device); !name) return name;
     if (!options.material.empty())
       if (auto name = is_name_text("material", options.material); !name) return name;
-    return is_name_text("name", options.name);
+    if (!options.name.empty()) return is_name_text("name", options.name);
+    return {};
   }
   Result<> is_sound(const WorkspaceOptions& options) const {
     if (auto sound = is_sound(CompileOptions{.device = options.device, .name = options.name}); !sound) return sound;

@@ -83,10 +83,10 @@ struct LanguageService::Parts {
   /// The first error of the service or of options that cannot be names.
   std::optional<Error> wrong(const CompileOptions& options) const {
     if (missing) return missing;
-    for (const auto& [argument, text] : {std::pair{"device", &options.device}, std::pair{"material", &options.material}})
+    for (const auto& [argument, text] : {std::pair{"device", &options.device}, std::pair{"material", &options.material},
+                                         std::pair{"name", &options.name}})
       if (!text->empty())
         if (auto name = is_name_text(argument, *text); !name) return std::move(name.error());
-    if (auto name = is_name_text("name", options.name); !name) return std::move(name.error());
     return std::nullopt;
   }
 

@@ -43,7 +43,7 @@ struct CompileOptions {
   /// One of the materials of a text that has several; empty: the one that was named, or else the first.
   std::string material = {};
   /// Of a text in memory: the name that errors and warnings show. Its imports and pictures are looked for beside a file
-  /// of that name, which need not exist. One line of UTF-8, as other names.
+  /// of that name, which need not exist. One line of UTF-8, or empty.
   std::string name = "text";
 };
 
