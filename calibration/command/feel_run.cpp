@@ -17,6 +17,7 @@
 #include "compiler/solve/level_scale.hpp"
 #include "schema/regular_file.hpp"
 #include "schema/spelling.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::command {
 namespace {
@@ -138,7 +139,7 @@ OrStatus<Workspace> workspace_to_feel(const OpenedFile& opened, const FeelOption
 /// The recording to make of the run, if the person asked for one.
 std::optional<RecordTo> recording_of(const FeelOptions& options, const RunManner& manner) {
   if (!has_ending(options.record, ".wrec")) return std::nullopt;
-  return RecordTo{options.record, fmt::format("{}, {}", manner.device, manner.hand)};
+  return RecordTo{options.record, visible_text(fmt::format("{}, {}", manner.device, manner.hand))};
 }
 
 /// A workspace file, and its first program in place of the material of other files.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compiler/image/decode_picture.hpp"
+#include "schema/home_process.hpp"
 
 namespace wale {
 namespace {
@@ -85,7 +86,8 @@ Result<Image> decoded(std::span<const std::byte> bytes, const std::string& name,
     return unreadable(fmt::format("the file has {} MB, and pictures of up to {} MB are read", bytes.size() >> 20,
                                   largest_asset >> 20),
                       "save it as PNG");
-  static DecodedPictures<Image> pictures;
+  static PerProcess<DecodedPictures<Image>> all;
+  DecodedPictures<Image>& pictures = *all;
   if (auto known = pictures.find(bytes, arguments)) return *std::move(known);
   auto image = decode(bytes, arguments);
   if (image)

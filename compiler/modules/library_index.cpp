@@ -10,6 +10,7 @@
 #include "compiler/parse/overloaded.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/embedded_files.hpp"
+#include "schema/home_process.hpp"
 
 namespace wale {
 namespace {
@@ -163,11 +164,15 @@ std::vector<std::string> LibraryIndex::spellings() const {
 }
 
 std::shared_ptr<const LibraryIndex> library_index(Resolver& resolver, const std::string& from) {
-  static std::mutex mutex;
-  static std::map<std::string, std::shared_ptr<const LibraryIndex>> known;
+  struct Known {
+    std::mutex mutex;
+    std::map<std::string, std::shared_ptr<const LibraryIndex>> indices;
+  };
+  static PerProcess<Known> all;
+  Known& known = *all;
   const std::string library = resolver.library(from);
-  const std::scoped_lock lock(mutex);
-  std::shared_ptr<const LibraryIndex>& index = known[library];
+  const std::scoped_lock lock(known.mutex);
+  std::shared_ptr<const LibraryIndex>& index = known.indices[library];
   if (!index || library.empty()) index = std::make_shared<const LibraryIndex>(read_all(resolver, from));
   return index;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -13,23 +12,56 @@
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/open_file.hpp"
+#include "library/by_name/missing_folder.hpp"
 #include "library/by_name/told.hpp"
 #include "library/by_name/worker.hpp"
 #include "library/by_name/workspaces.hpp"
 #include "schema/name_text.hpp"
 #include "schema/owners_devices_file.hpp"
-#include "schema/visible_text.hpp"
 
 namespace wale {
 
 namespace {
 
-/// Whether the text is a word of Wale or a number, so that it cannot end the statement into which it is put.
-bool is_level(const std::string& text) {
-  constexpr std::size_t longest = 64;
-  const std::string_view digits = std::string_view(text).substr(text.starts_with("-") ? 1 : 0);
-  return !digits.empty() && text.size() <= longest &&
-         std::ranges::all_of(digits, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; });
+constexpr std::size_t longest_level = 64;
+
+/// Whether the text is a number as Wale writes it: "0.6", "6e-1". It cannot end the statement into which it is put.
+bool is_number(std::string_view text) {
+  const auto digits = [&] {
+    const std::size_t count = std::min(text.find_first_not_of("0123456789"), text.size());
+    text.remove_prefix(count);
+    return count > 0;
+  };
+  if (text.starts_with("-")) text.remove_prefix(1);
+  if (!digits()) return false;
+  if (text.starts_with(".")) {
+    text.remove_prefix(1);
+    if (!digits()) return false;
+  }
+  if (text.starts_with("e") || text.starts_with("E")) {
+    text.remove_prefix(1);
+    if (text.starts_with("-") || text.starts_with("+")) text.remove_prefix(1);
+    if (!digits()) return false;
+  }
+  return text.empty();
+}
+
+/// Whether it is one of the words that other languages write for numbers that are none.
+bool is_no_number(std::string_view text) {
+  if (text.starts_with("-")) text.remove_prefix(1);
+  std::string word;
+  for (const unsigned char each : text) word += static_cast<char>(std::tolower(each));
+  return word == "nan" || word == "inf" || word == "infinity";
+}
+
+/// Whether the text can be the name of a level: a word of Wale.
+bool is_word(std::string_view text) {
+  return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+}
+
+bool is_level(std::string_view text) {
+  return text.size() <= longest_level && !is_no_number(text) && (is_number(text) || is_word(text));
 }
 
 /// The named levels of a percept.
@@ -53,41 +85,35 @@ Result<> is_as_asked(const PatchProgram& program, const CompileOptions& options)
   return {};
 }
 
-/// The error of the first of these that is no folder.
-std::optional<Error> first_that_is_missing(const std::vector<std::string>& folders) {
-  for (const std::string& each : folders) {
-    std::error_code why;
-    if (each.empty() || std::filesystem::is_directory(each, why)) continue;
-    return Error{.code = Code::unreadable_file,
-                 .sentence = "no such folder: `" + visible_text(each) + "`",
-                 .mend = "make it first, or leave it out",
-                 .place = {.name = "folders", .text = each}};
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 struct Library::Parts {
   std::shared_ptr<const CommonModules> common = common_modules();
   std::vector<std::string> roots;
-  std::optional<Error> missing_folder;  ///< about the first of the given folders that is none
+  std::optional<Error> missing;  ///< about the first of the given folders that is none
   Sandbox sandbox = Sandbox::required;
   Result<TrustedDeclarations> trusted;
   std::unique_ptr<Worker> worker = std::make_unique<Worker>();
 
   explicit Parts(const LibraryOptions& options)
       : roots(library_folders(options.folders, std::getenv("WALE_LIBRARY"))),
-        missing_folder(first_that_is_missing(options.folders)),
+        missing(missing_folder(options.folders)),
         sandbox(options.unsandboxed_pictures ? Sandbox::if_possible : Sandbox::required),
         trusted(trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")))) {}
 
   /// Errors: the library's own, and those of options that cannot be names.
   Result<> is_sound(const CompileOptions& options) const {
-    if (missing_folder) return *missing_folder;
+    if (missing) return *missing;
     if (!options.device.empty())
       if (auto name = is_name_text("device", options.device); !name) return name;
-    if (!options.material.empty()) return is_name_text("material", options.material);
+    if (!options.material.empty())
+      if (auto name = is_name_text("material", options.material); !name) return name;
+    if (!options.name.empty()) return is_name_text("name", options.name);
+    return {};
+  }
+  Result<> is_sound(const WorkspaceOptions& options) const {
+    if (auto sound = is_sound(CompileOptions{.device = options.device, .name = options.name}); !sound) return sound;
+    if (!options.workspace.empty()) return is_name_text("workspace", options.workspace);
     return {};
   }
 
@@ -139,7 +165,7 @@ struct Library::Parts {
 Library::Library(const LibraryOptions& options) : parts_(std::make_unique<Parts>(options)) {}
 
 Result<> Library::folders_exist() const {
-  if (parts_->missing_folder) return *parts_->missing_folder;
+  if (parts_->missing) return *parts_->missing;
   return {};
 }
 
@@ -209,17 +235,20 @@ Result<Compiled> Library::open(std::span<const std::byte> bytes, const CompileOp
 }
 
 Result<CompiledWorkspace> Library::workspace(std::string_view text, const WorkspaceOptions& options) const {
+  if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   return workspace_of_file({.name = options.name, .bytes = std::string(text)},
                            parts_->request({.device = options.device}), options);
 }
 
 Result<CompiledWorkspace> Library::open_workspace(const std::string& path, const WorkspaceOptions& options) const {
+  if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   auto named = read_workspace(path);
   if (!named) return std::move(named).error();
   return workspace_of_file(*std::move(named), parts_->request({.device = options.device}), options);
 }
 
 Result<Presentation> Library::presentation(std::string_view text, const std::string& name) const {
+  if (auto sound = parts_->is_sound(CompileOptions{.name = name}); !sound) return std::move(sound.error());
   return presentation_of({.name = name, .bytes = std::string(text)}, parts_->request({}));
 }
 

@@ -6,7 +6,7 @@
 
 namespace wale {
 
-Worker::~Worker() {
+Worker::Queue::~Queue() {
   std::deque<Piece> dropped;
   {
     const std::lock_guard lock(mutex_);
@@ -22,7 +22,7 @@ Worker::~Worker() {
   thread_.reset();
 }
 
-std::future<Result<Compiled>> Worker::begin(Work work) {
+std::future<Result<Compiled>> Worker::Queue::begin(Work work) {
   Piece piece{std::move(work), {}};
   auto result = piece.result.get_future();
   const std::lock_guard lock(mutex_);
@@ -40,7 +40,7 @@ std::future<Result<Compiled>> Worker::begin(Work work) {
   return result;
 }
 
-void Worker::serve() {
+void Worker::Queue::serve() {
   for (;;) {
     std::unique_lock lock(mutex_);
     news_.wait(lock, [&] { return ends_ || !waiting_.empty(); });

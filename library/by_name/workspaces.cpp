@@ -40,7 +40,13 @@ Result<OpenedFile> checked_text(NamedFile named, const FileRequest& request) {
   return opened;
 }
 
-/// The workspace that was asked for. Error: `unknown_workspace`.
+/// How a workspace file begins.
+constexpr std::string_view workspace_magic = "\x89WWS";
+/// Bytes; 4096 programs of 4 MB would be more than any stage needs.
+constexpr std::size_t largest_workspace_file = std::size_t{1} << 30;
+
+}  // namespace
+
 Result<const CheckedWorkspace*> asked_workspace(const OpenedFile& opened, const std::string& name) {
   const auto& all = opened.module->workspaces;
   if (name.empty() && !all.empty()) return &all.front();
@@ -55,25 +61,25 @@ Result<const CheckedWorkspace*> asked_workspace(const OpenedFile& opened, const 
   return unknown(Code::unknown_workspace, "workspace", name, known);
 }
 
-/// How a workspace file begins.
-constexpr std::string_view workspace_magic = "\x89WWS";
-/// Bytes; 4096 programs of 4 MB would be more than any stage needs.
-constexpr std::size_t largest_workspace_file = std::size_t{1} << 30;
-
-}  // namespace
-
 Result<NamedFile> read_workspace(const std::string& path) {
   if (path.ends_with(".wws")) {
     auto bytes = read_regular_file(path, largest_workspace_file);
     if (!bytes) {
       Error error = std::move(bytes).error();
       error.sentence = "this file cannot be read: " + error.sentence;
+      if (error.mend.empty()) error.mend = "name a workspace file, which `wale build --workspace` makes, or a Wale file";
       error.place.name = path;
       return error;
     }
     if (bytes->starts_with(workspace_magic)) return NamedFile{.name = path, .bytes = *std::move(bytes)};
+    Error error = Workspace::load(std::as_bytes(std::span(*bytes))).error();
+    error.place.name = path;
+    return error;
   }
-  return read_named_file(path);
+  auto named = read_named_file(path);
+  if (!named && named.error().code == Code::unreadable_file)
+    named.error().mend = "name a Wale file with a workspace, or a workspace file (.wws)";
+  return named;
 }
 
 Result<CompiledWorkspace> workspace_of_file(NamedFile named, const FileRequest& request,

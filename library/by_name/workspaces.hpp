@@ -5,6 +5,9 @@
 
 namespace wale {
 
+/// The workspace of that name, or the first if it is empty. Error: `unknown_workspace`.
+Result<const CheckedWorkspace*> asked_workspace(const OpenedFile& opened, const std::string& name);
+
 /// Reads a Wale file or a workspace file. Errors: `unreadable_file`, and `damaged_file` for other files.
 Result<NamedFile> read_workspace(const std::string& path);
 

@@ -11,6 +11,7 @@
 #include "runtime/c/program.hpp"
 #include "runtime/c/sized.hpp"
 #include "runtime/c/workspace.hpp"
+#include "schema/home_process.hpp"
 #include "wale/library.h"
 
 struct WaleLibrary {
@@ -20,6 +21,7 @@ struct WaleLibrary {
 
 struct WaleFuture {
   std::future<wale::Result<wale::Compiled>> future;
+  wale::HomeProcess home = {};
 };
 
 namespace wale::c {
@@ -54,7 +56,7 @@ Result<CompileOptions> read_compile_options(const WaleCompileOptions* options) {
   auto name = read_path("name", given->name);
   if (!name) return std::move(name).error();
   read.device = *std::move(device), read.material = *std::move(material);
-  if (!name->empty()) read.name = *std::move(name);
+  if (!name->empty()) read.name = *std::move(name);  // the call says whether it can be a name
   return read;
 }
 
@@ -93,7 +95,7 @@ Result<WorkspaceOptions> read_workspace_options(const WaleWorkspaceOptions* opti
   const auto legibility = read_flag("legibility", given->legibility);
   if (!legibility) return legibility.error();
   read.device = *std::move(device), read.workspace = *std::move(workspace), read.legibility = *legibility;
-  if (!name->empty()) read.name = *std::move(name);
+  if (!name->empty()) read.name = *std::move(name);  // the call says whether it can be a name
   return read;
 }
 
@@ -259,7 +261,8 @@ int32_t wale_future_poll(const WaleFuture* future) { return wale_future_wait(fut
 
 int32_t wale_future_wait(const WaleFuture* future, double seconds) {
   if (future == nullptr) return 0;
-  if (!future->future.valid()) return 1;  // it was ready when it was taken
+  // It was ready when it was taken. One of another process is ready to say so.
+  if (!future->future.valid() || !future->home.is_here()) return 1;
   constexpr double longest = 1e9;         // s; 30 years do for ever
   const std::chrono::duration<double> time(seconds > 0 ? std::min(seconds, longest) : 0);
   return future->future.wait_for(time) == std::future_status::ready;
@@ -269,6 +272,9 @@ WaleCode wale_future_take(WaleFuture* future, WaleProgram** program, WaleError**
   return call(error, [&]() -> wale::Result<> {
     if (auto clear = clear_result("program", program); !clear) return clear;
     if (auto given = is_given("future", future); !given) return given;
+    if (!future->home.is_here())
+      return about_argument("future", "it is the parent process's, and this is a child of its fork",
+                            "begin it again in the child", wale::Code::wrong_moment);
     if (!future->future.valid())
       return about_argument("future", "its program was taken already", "take it once, and keep it",
                             wale::Code::wrong_moment);

@@ -7,13 +7,14 @@
 #include "compiler/modules/find_materials.hpp"
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/meant_material.hpp"
+#include "library/by_name/missing_folder.hpp"
 
 namespace wale {
 namespace {
 
 class LibraryCatalogue final : public Catalogue {
  public:
-  explicit LibraryCatalogue(const LibraryOptions& options) {
+  explicit LibraryCatalogue(const LibraryOptions& options) : missing_(missing_folder(options.folders)) {
     const auto resolver = file_resolver(library_folders(options.folders, std::getenv("WALE_LIBRARY")));
     index_ = library_index(*resolver, "here");
   }
@@ -26,6 +27,11 @@ class LibraryCatalogue final : public Catalogue {
     for (const FoundMaterial& found : find_materials(*index_, texts, kind))
       if (found.material->origin != Origin::hidden) entries.push_back(entry(*found.material));
     return entries;
+  }
+
+  Result<> folders_exist() const override {
+    if (missing_) return *missing_;
+    return {};
   }
 
   std::vector<std::string> kinds() const override { return kinds_in(*index_); }
@@ -46,6 +52,7 @@ class LibraryCatalogue final : public Catalogue {
             .shipped = material.shipped()};
   }
 
+  std::optional<Error> missing_;  // about the first of the given folders that is none
   std::shared_ptr<const LibraryIndex> index_;
 };
 

@@ -13,9 +13,12 @@
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/open_file.hpp"
+#include "library/by_name/missing_folder.hpp"
 #include "library/by_name/told.hpp"
+#include "library/by_name/workspaces.hpp"
 #include "library/editing/layout.hpp"
 #include "library/editing/proposals.hpp"
+#include "schema/name_text.hpp"
 #include "schema/owners_devices_file.hpp"
 
 namespace wale {
@@ -58,11 +61,13 @@ bool CheckedText::has_errors() const {
 struct LanguageService::Parts {
   std::shared_ptr<const CommonModules> common = common_modules();
   std::vector<std::string> roots;
+  std::optional<Error> missing;  ///< about the first of the given folders that is none
   Sandbox sandbox = Sandbox::required;
   std::vector<ResolvedFile> devices;  ///< what the owner declares; nothing if that has an error
 
   explicit Parts(const LibraryOptions& options)
       : roots(library_folders(options.folders, std::getenv("WALE_LIBRARY"))),
+        missing(missing_folder(options.folders)),
         sandbox(options.unsandboxed_pictures ? Sandbox::if_possible : Sandbox::required) {
     auto trusted = trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")));
     if (trusted) devices = std::move(trusted->files);
@@ -75,6 +80,23 @@ struct LanguageService::Parts {
     return request;
   }
 
+  /// The first error of the service or of options that cannot be names.
+  std::optional<Error> wrong(const CompileOptions& options) const {
+    if (missing) return missing;
+    for (const auto& [argument, text] : {std::pair{"device", &options.device}, std::pair{"material", &options.material},
+                                         std::pair{"name", &options.name}})
+      if (!text->empty())
+        if (auto name = is_name_text(argument, *text); !name) return std::move(name.error());
+    return std::nullopt;
+  }
+
+  /// The error about a device that nothing declares.
+  std::optional<Error> unknown_device_in(const OpenedFile& opened, const CompileOptions& options) const {
+    const std::string& device = options.device;
+    if (device.empty() || !opened.module || opened.module->declarations().devices.contains(device)) return std::nullopt;
+    return unknown(Code::unknown_device, "device", device, opened.module->declarations().devices.spellings());
+  }
+
   Result<OpenedFile> opened(std::string_view text, const CompileOptions& options) const {
     return open_named({.name = options.name, .bytes = std::string(text)}, request(options));
   }
@@ -83,10 +105,19 @@ struct LanguageService::Parts {
 LanguageService::LanguageService(const LibraryOptions& options) : parts_(std::make_unique<Parts>(options)) {}
 LanguageService::~LanguageService() = default;
 
+Result<> LanguageService::folders_exist() const {
+  if (parts_->missing) return *parts_->missing;
+  return {};
+}
+
 CheckedText LanguageService::check(std::string_view text, const CompileOptions& options) const {
+  auto wrong = parts_->wrong(options);
+  if (wrong && wrong->code != Code::unreadable_file) return {.problems = {{.error = *std::move(wrong)}}};
   auto opened = parts_->opened(text, options);
   if (!opened) return {.problems = {{.error = std::move(opened.error())}}};
+  if (!wrong) wrong = parts_->unknown_device_in(*opened, options);
   CheckedText checked{.problems = problems_of(opened->diagnostics, opened->sources, opened->source)};
+  if (wrong) checked.problems.insert(checked.problems.begin(), Problem{.error = *std::move(wrong)});
   if (!opened->module) return checked;  // a patch program
   checked.materials = materials_of(*opened);
   if (const auto& modules = opened->module->modules.modules; !modules.empty())
@@ -95,6 +126,7 @@ CheckedText LanguageService::check(std::string_view text, const CompileOptions& 
 }
 
 CompiledText LanguageService::compile(std::string_view text, const CompileOptions& options) const {
+  if (auto wrong = parts_->wrong(options)) return {.problems = {{.error = *std::move(wrong)}}};
   auto opened = parts_->opened(text, options);
   if (!opened) return {.problems = {{.error = std::move(opened.error())}}};
   if (opened->program) return {.program = std::move(opened->program)};
@@ -107,17 +139,17 @@ CompiledText LanguageService::compile(std::string_view text, const CompileOption
 
 std::vector<Problem> LanguageService::legibility(std::string_view text, const WorkspaceOptions& options) const {
   const CompileOptions choice{.device = options.device, .name = options.name};
+  if (auto wrong = parts_->wrong(choice)) return {{.error = *std::move(wrong)}};
   auto opened = parts_->opened(text, choice);
   if (!opened) return {{.error = std::move(opened.error())}};
+  if (auto wrong = parts_->unknown_device_in(*opened, choice)) return {{.error = *std::move(wrong)}};
   if (!opened->module || opened->diagnostics.has_errors())
     return problems_of(opened->diagnostics, opened->sources, opened->source);
   const FileRequest request = parts_->request(choice);
   const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
-  const auto& workspaces = opened->module->workspaces;
-  const auto found = options.workspace.empty()
-                         ? workspaces.begin()
-                         : std::ranges::find(workspaces, options.workspace, &CheckedWorkspace::name);
-  if (found == workspaces.end()) return {};
+  const auto asked = asked_workspace(*opened, options.workspace);
+  if (!asked) return {{.error = asked.error()}};
+  const CheckedWorkspace* const found = *asked;
   Diagnostics diagnostics;
   const auto laid = compile_workspace(*found, *opened->module, request.device, opened->sources, opened->source,
                                       *resolver, diagnostics);

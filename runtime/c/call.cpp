@@ -70,7 +70,8 @@ Error about_argument(std::string argument, std::string sentence, std::string men
 Result<> is_given(const char* argument, const void* value) {
   if (value == nullptr)
     return about_argument(argument, "expected a value, found NULL",
-                          "look at the error of the call that should have given it");
+                          std::string("hand over a pointer; if an earlier call should have given `") + argument +
+                              "`, look at its error");
   return {};
 }
 

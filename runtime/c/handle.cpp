@@ -3,12 +3,14 @@
 #include <mutex>
 #include <unordered_set>
 
+#include "schema/home_process.hpp"
+
 namespace wale::c {
 namespace {
 
 /// Never destroyed: handles may be freed while the process ends.
 struct LiveHandles {
-  std::mutex mutex;
+  std::mutex& mutex = mutex_across_fork();
   std::unordered_set<const void*> all;
 };
 

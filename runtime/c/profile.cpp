@@ -4,17 +4,22 @@
 
 #include "runtime/c/sized.hpp"
 #include "runtime/device/shipped_devices.hpp"
+#include "runtime/stage/session.hpp"
+#include "schema/sentence.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale::c {
 namespace {
 
+constexpr double most_delay = 1;  ///< s; nothing can be felt as one with more
+
 /// Where a figure stands in both interfaces.
 struct Figure {
   const char* name;
   double WaleProfile::*in_c;
   double DeviceProfile::*in_cpp;
+  double most = HUGE_VAL;  ///< beyond any device, where the loop's own work or memory grows with the figure
 };
 
 constexpr Figure all_figures[] = {
@@ -28,7 +33,7 @@ constexpr Figure all_figures[] = {
     {"continuous_force", &WaleProfile::continuous_force, &DeviceProfile::continuous_newton},
     {"heating_seconds", &WaleProfile::heating_seconds, &DeviceProfile::heating_seconds},
     {"active_power", &WaleProfile::active_power, &DeviceProfile::active_watt},
-    {"velocity_window", &WaleProfile::velocity_window, &DeviceProfile::velocity_window},
+    {"velocity_window", &WaleProfile::velocity_window, &DeviceProfile::velocity_window, most_velocity_window},
     {"velocity_noise_counts", &WaleProfile::velocity_noise_counts, &DeviceProfile::velocity_noise_counts},
     {"patch_width", &WaleProfile::patch_width, &DeviceProfile::patch_width},
     {"patch_height", &WaleProfile::patch_height, &DeviceProfile::patch_height},
@@ -36,8 +41,8 @@ constexpr Figure all_figures[] = {
     {"mass", &WaleProfile::mass, &DeviceProfile::mass},
     {"damping", &WaleProfile::damping, &DeviceProfile::damping},
     {"friction", &WaleProfile::friction, &DeviceProfile::friction},
-    {"delay_x", &WaleProfile::delay_x, &DeviceProfile::delay_x},
-    {"delay_y", &WaleProfile::delay_y, &DeviceProfile::delay_y},
+    {"delay_x", &WaleProfile::delay_x, &DeviceProfile::delay_x, most_delay},
+    {"delay_y", &WaleProfile::delay_y, &DeviceProfile::delay_y, most_delay},
     {"bandwidth_x", &WaleProfile::bandwidth_x, &DeviceProfile::bandwidth_x},
     {"bandwidth_y", &WaleProfile::bandwidth_y, &DeviceProfile::bandwidth_y},
 };
@@ -67,7 +72,7 @@ Result<DeviceProfile> read_profile(const WaleProfile* profile) {
   if (auto given = is_given("profile", profile); !given) return std::move(given).error();
   const auto given = read_sized("profile", profile);
   if (!given) return given.error();
-  auto name = read_text("name", given->name);
+  auto name = read_name("name", given->name);
   if (!name) return std::move(name).error();
   DeviceProfile read{.name = *std::move(name)};
   for (const Figure& each : all_figures) {
@@ -75,6 +80,9 @@ Result<DeviceProfile> read_profile(const WaleProfile* profile) {
     if (!(figure >= 0 && figure < HUGE_VAL))
       return about_argument(each.name, "expected a finite figure that is not negative",
                             "0 is one that is not declared");
+    if (figure > each.most)
+      return about_argument(each.name, sentence("expected at most ", each.most, ", found ", figure),
+                            "give it in the unit that wale/device.h states");
     read.*each.in_cpp = figure;
   }
   if (!(read.rate >= DeviceProfile::least_rate && read.rate <= DeviceProfile::most_rate))

@@ -1,5 +1,7 @@
 #include "wale/recording.h"
 
+#include <cstdint>
+
 #include "runtime/c/program.hpp"
 #include "runtime/c/run.hpp"
 #include "runtime/c/sized.hpp"
@@ -12,11 +14,15 @@ struct WaleRecording {
 using namespace wale::c;
 
 WaleCode wale_recording_open(WaleText path, WaleRecording** recording, WaleError** error) {
+  return wale_recording_open_part(path, SIZE_MAX, recording, error);
+}
+
+WaleCode wale_recording_open_part(WaleText path, size_t most_ticks, WaleRecording** recording, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (auto clear = clear_result("recording", recording); !clear) return clear;
     const auto file = read_path("path", path);
     if (!file) return file.error();
-    auto opened = wale::Recording::open(*file);
+    auto opened = wale::Recording::open(*file, most_ticks);
     if (!opened) return std::move(opened).error();
     hand_out(std::make_unique<WaleRecording>(WaleRecording{*std::move(opened)}), recording);
     return {};

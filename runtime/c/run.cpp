@@ -105,6 +105,10 @@ WaleCode wale_felt_measure(const WaleRun* run, const WalePatch* patch, const Wal
     for (const double each : {given->settling, given->stuck_seconds, given->stuck_counts})
       if (!(each >= 0 && each < HUGE_VAL))
         return about_argument("options", "expected finite numbers that are not negative", "0 is the default of each");
+    if (given->least_crossings < 0)
+      return about_argument("least_crossings", "expected a number that is not negative, found " +
+                                                   std::to_string(given->least_crossings),
+                            "0 is the default, 50");
     const auto bank = patch->patch.bank();
     if (!bank) return bank.error();
     wale::MeasureOptions measured{

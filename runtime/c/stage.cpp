@@ -36,6 +36,7 @@ Result<StageOptions> read_stage_options(const WaleStageOptions* options) {
   auto file = read_path("record", given->record);
   if (!file) return std::move(file).error();
   auto hand = read_text("record_hand", given->record_hand);
+  if (hand && !hand->empty()) hand = read_name("record_hand", given->record_hand);
   if (!hand) return std::move(hand).error();
   if (!file->empty()) read.record = {.file = *std::move(file), .hand = *std::move(hand)};
   return read;

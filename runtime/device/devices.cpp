@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "runtime/device/device_at_home.hpp"
 #include "runtime/device/match_device.hpp"
 #include "runtime/device/open_device.hpp"
 #include "schema/name_text.hpp"
@@ -203,7 +204,7 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
     if (error.place.name == "--transport") error.place.name = "transport";
     return error;
   }
-  return std::unique_ptr<Device>(*std::move(opened));
+  return std::make_unique<DeviceAtHome>(*std::move(opened));
 }
 
 }  // namespace wale

@@ -136,21 +136,24 @@ Batch::~Batch() = default;
 Batch::Batch(Batch&&) noexcept = default;
 Batch& Batch::operator=(Batch&&) noexcept = default;
 
-std::size_t Batch::size() const { return parts_->instances; }
+std::size_t Batch::size() const { return parts_ ? parts_->instances : 0; }
 
 void Batch::enter(std::span<const Hand> hands) {
+  if (!parts_) return;
   parts_->for_each_block([&](BlockStates& states, std::size_t first, std::size_t count) {
     parts_->runner.enter(hands.subspan(first, count), states);
   });
 }
 
 void Batch::tick(std::span<const Hand> hands, std::span<Force> forces) {
+  if (!parts_) return;
   parts_->for_each_block([&](BlockStates& states, std::size_t first, std::size_t count) {
     parts_->runner.tick(hands.subspan(first, count), forces.subspan(first, count), states);
   });
 }
 
 float Batch::state(std::size_t index, std::size_t instance) const {
+  if (!parts_) return 0;
   return parts_->blocks[instance / lanes].now(index)[instance % lanes];
 }
 

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "schema/home_process.hpp"
 #include "schema/patch_program_format.hpp"
 
 namespace wale {
@@ -17,8 +18,8 @@ struct Registry {
 
 Registry& registry() {
   // Never destroyed: programs in static variables may outlive other static variables.
-  static Registry* const all = new Registry;
-  return *all;
+  static auto* const all = new PerProcess<Registry>;
+  return **all;
 }
 
 }  // namespace

@@ -25,8 +25,6 @@ bool all_zero(std::span<const std::byte> bytes) {
 /// Bytes of the largest file that is read: six hours at 1 kHz.
 constexpr std::size_t largest_recording = std::size_t{1} << 31;
 
-/// Larger than in any run, and small enough that sums of two do not overflow.
-constexpr std::int32_t most_counts = 1 << 29;
 constexpr std::int64_t most_periods = std::int64_t{1} << 53;
 
 /// Reads a recording up to its end or to the first damage.
@@ -45,8 +43,8 @@ class RecordingReader {
     if (!problem_ || most_ticks_ <= contents_.ticks) return {};
     problem_->mend = contents_.ticks == 0
                          ? "no tick of it can be read; record again"
-                         : sentence("the ", contents_.ticks, " ticks before it are intact: read them with --ticks ",
-                                    contents_.ticks);
+                         : sentence("the ", contents_.ticks, " ticks before it are intact: open it for no more than ",
+                                    contents_.ticks, " ticks (`most_ticks`; of `wale replay` --ticks)");
     return *problem_;
   }
 
@@ -189,7 +187,7 @@ class RecordingReader {
     if (number > 0 && (entry.elapsed == 0 || entry.period <= before.period))
       return "does not come after the tick before it";
     for (const std::int32_t counts : entry.counts)
-      if (counts < -most_counts || counts > most_counts) return "has counts outside the range of any encoder";
+      if (counts < -RecordedTick::most_counts || counts > RecordedTick::most_counts) return "has counts outside the range of any encoder";
     if (entry.revision < before.revision) return "goes back to an older revision of the stage";
     if (entry.revision > most_revision_) return "has a revision of the stage that was not recorded";
     return {};

@@ -5,6 +5,11 @@
 #include "runtime/stage/stage_state.hpp"
 
 namespace wale {
+namespace {
+
+Error edit_was_moved() { return wrong_moment("edit", "the edit was moved from", "use the edit that it was moved to"); }
+
+}  // namespace
 
 struct StageEdit::Parts {
   /// A change of a patch; an empty one removes it.
@@ -22,7 +27,7 @@ struct StageEdit::Parts {
 
   void discard() {
     const auto state = stage.lock();
-    if (state) {
+    if (state && state->home.is_here()) {
       const std::lock_guard lock(state->mutex);
       for (const auto& [name, placement] : added) state->table.release(name);
     }
@@ -46,8 +51,10 @@ StageEdit& StageEdit::operator=(StageEdit&&) noexcept = default;
 StageEdit::~StageEdit() = default;
 
 Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options) {
-  const auto state = parts_->stage.lock();
-  if (!state) return stage_is_gone();
+  if (!parts_) return edit_was_moved();
+  const auto found = here(parts_->stage.lock(), stage_is_gone);
+  if (!found) return found.error();
+  const auto& state = *found;
   Result<Placement> placement = state->placement(program, options);
   if (!placement) return std::move(placement).error();
   const std::lock_guard lock(state->mutex);
@@ -57,36 +64,40 @@ Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options
 }
 
 void StageEdit::set(const Patch& patch, std::string_view parameter, double value) {
-  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::set(std::string(parameter), value));
+  if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::set(std::string(parameter), value));
 }
 
 void StageEdit::move(const Patch& patch, glm::vec2 to) {
-  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::move(to));
+  if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::move(to));
 }
 
 void StageEdit::resize(const Patch& patch, PatchSize size) {
-  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::resize(size));
+  if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::resize(size));
 }
 
 void StageEdit::replace(const Patch& patch, const Program& program) {
-  if (const auto state = parts_->stage.lock())
+  if (const auto state = parts_ ? parts_->stage.lock() : nullptr)
     parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::replace(program, *state));
 }
 
 void StageEdit::enable(const Patch& patch, bool enabled) {
-  parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::enable(enabled));
+  if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::enable(enabled));
 }
 
 void StageEdit::bring(const Patch& patch, const BringOptions& to) {
-  if (const auto state = parts_->stage.lock())
+  if (const auto state = parts_ ? parts_->stage.lock() : nullptr)
     parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::bring(to.layer, state->table));
 }
 
-void StageEdit::remove(const Patch& patch) { parts_->step(patch.stage_, {patch.number_, patch.generation_}, nullptr); }
+void StageEdit::remove(const Patch& patch) {
+  if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, nullptr);
+}
 
 Result<> StageEdit::commit() {
-  const auto state = parts_->stage.lock();
-  if (!state) return stage_is_gone();
+  if (!parts_) return edit_was_moved();
+  const auto found = here(parts_->stage.lock(), stage_is_gone);
+  if (!found) return found.error();
+  const auto& state = *found;
   const auto refuse = [&](Error error) -> Result<> {
     parts_->discard();
     return error;

@@ -2,6 +2,7 @@
 #include <climits>
 
 #include "runtime/stage/session.hpp"
+#include "schema/home_process.hpp"
 #include "wale/loop.hpp"
 
 namespace wale {
@@ -34,11 +35,19 @@ struct Loop::Parts {
 
 Loop::Loop(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Loop::Loop(Loop&&) noexcept = default;
-Loop& Loop::operator=(Loop&&) noexcept = default;
-Loop::~Loop() = default;
+Loop& Loop::operator=(Loop&& other) noexcept {
+  Loop ended(std::move(other));
+  std::swap(parts_, ended.parts_);
+  return *this;
+}
+Loop::~Loop() {
+  if (parts_ && !parts_->stage->home.is_here()) abandon(std::move(parts_));
+}
 
 Result<Loop> Loop::begin(Stage& stage) {
-  const std::shared_ptr<StageState> state = stage.state_;
+  const auto there = here(stage.state_, stage_was_moved);
+  if (!there) return there.error();
+  const std::shared_ptr<StageState>& state = *there;
   auto parts = std::make_unique<Parts>(state->profile);
   auto session = Session::begin(state, {.seconds = HUGE_VAL, .kept_seconds = 1 / state->profile.rate},
                                 Session::Clock::own, true, parts->device);
@@ -50,6 +59,7 @@ Result<Loop> Loop::begin(Stage& stage) {
 }
 
 Force Loop::step(const Reading& reading, long periods) noexcept {
+  if (!parts_ || !parts_->stage->home.is_here()) return Force(0);
   Parts& parts = *parts_;
   const bool first = parts.period < 0;
   // Counting stops after more than a million years, so that no number of periods turns time back.
@@ -63,6 +73,8 @@ Force Loop::step(const Reading& reading, long periods) noexcept {
   return parts.device.commanded;
 }
 
-void Loop::exerted(Force force) noexcept { parts_->session->player().exerted(force); }
+void Loop::exerted(Force force) noexcept {
+  if (parts_ && parts_->stage->home.is_here()) parts_->session->player().exerted(force);
+}
 
 }  // namespace wale

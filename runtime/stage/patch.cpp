@@ -13,70 +13,70 @@ Error no_stage() {
 }  // namespace
 
 Result<> Patch::set(std::string_view parameter, double value) {
-  const auto stage = stage_.lock();
-  if (!stage) return no_stage();
-  return stage->change({number_, generation_}, changes::set(std::string(parameter), value));
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  return (*stage)->change({number_, generation_}, changes::set(std::string(parameter), value));
 }
 
 Result<> Patch::move(glm::vec2 to) {
-  const auto stage = stage_.lock();
-  if (!stage) return no_stage();
-  return stage->change({number_, generation_}, changes::move(to));
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  return (*stage)->change({number_, generation_}, changes::move(to));
 }
 
 Result<> Patch::resize(PatchSize size) {
-  const auto stage = stage_.lock();
-  if (!stage) return no_stage();
-  return stage->change({number_, generation_}, changes::resize(size));
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  return (*stage)->change({number_, generation_}, changes::resize(size));
 }
 
 Result<> Patch::replace(const Program& program) {
-  const auto stage = stage_.lock();
-  if (!stage) return no_stage();
-  return stage->change({number_, generation_}, changes::replace(program, *stage));
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  return (*stage)->change({number_, generation_}, changes::replace(program, **stage));
 }
 
 Result<> Patch::enable(bool enabled) {
-  const auto stage = stage_.lock();
-  if (!stage) return no_stage();
-  return stage->change({number_, generation_}, changes::enable(enabled));
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  return (*stage)->change({number_, generation_}, changes::enable(enabled));
 }
 
 Result<> Patch::bring(const BringOptions& to) {
-  const auto stage = stage_.lock();
-  if (!stage) return no_stage();
-  return stage->change({number_, generation_}, changes::bring(to.layer, stage->table));
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  return (*stage)->change({number_, generation_}, changes::bring(to.layer, (*stage)->table));
 }
 
 Result<> Patch::remove() {
-  const auto stage = stage_.lock();
-  if (!stage) return no_stage();
-  const std::lock_guard lock(stage->mutex);
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  const std::lock_guard lock((*stage)->mutex);
   const PatchName name{number_, generation_};
-  if (auto there = stage->has(name); !there) return there;
+  if (auto there = (*stage)->has(name); !there) return there;
   std::vector<PatchTable::Wish> wishes;
   wishes.emplace_back(name, std::nullopt);
-  stage->want(std::move(wishes));
+  (*stage)->want(std::move(wishes));
   return {};
 }
 
 bool Patch::exists() const {
-  const auto stage = stage_.lock();
+  const auto stage = here(stage_.lock(), no_stage);
   if (!stage) return false;
-  const std::lock_guard lock(stage->mutex);
-  return stage->has({number_, generation_}).has_value();
+  const std::lock_guard lock((*stage)->mutex);
+  return (*stage)->has({number_, generation_}).has_value();
 }
 
 Result<Bank> Patch::bank() const {
-  const auto stage = stage_.lock();
-  if (!stage) return no_stage();
-  return stage->bank({number_, generation_});
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  return (*stage)->bank({number_, generation_});
 }
 
 Result<Snapshot> Patch::snapshot() const {
-  const auto stage = stage_.lock();
-  if (!stage) return no_stage();
-  return stage->snapshot({number_, generation_});
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  return (*stage)->snapshot({number_, generation_});
 }
 
 }  // namespace wale

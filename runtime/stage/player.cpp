@@ -1,6 +1,7 @@
 #include "runtime/stage/player.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -24,7 +25,25 @@ std::uint32_t guard_bits(const GuardCounts& before, const GuardCounts& after) no
          bit(before.lost, after.lost, GuardBit::lost) | bit(before.restored, after.restored, GuardBit::restored);
 }
 
+bool all_finite(Force force) noexcept { return std::isfinite(force.x) && std::isfinite(force.y); }
+
 }  // namespace
+
+Reading Player::sound(Reading reading) noexcept {
+  const auto is_place = [](int counts) { return counts >= -RecordedTick::most_counts && counts <= RecordedTick::most_counts; };
+  if (!is_place(reading.counts.x) || !is_place(reading.counts.y)) {
+    reading.contact = Contact::lost;
+    reading.counts = counts_;
+  }
+  if (reading.contact != Contact::good && reading.contact != Contact::stale) reading.contact = Contact::lost;
+  if (!all_finite(reading.interaction)) reading.interaction = Force(std::numeric_limits<float>::quiet_NaN());
+  counts_ = reading.counts;
+  return reading;
+}
+
+void Player::exerted(Force force) noexcept {
+  if (all_finite(force)) guards_.commanded(force);
+}
 
 Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats, double most_newton,
                bool real_time, TickSink* sink, Outlets* outlets)
@@ -79,7 +98,7 @@ void Player::serve(const Beat& beat) noexcept {
   const GuardCounts before = guards();
   costs_.begin();
   device_.elapse(beat.elapsed);
-  const Reading reading = device_.sample();
+  const Reading reading = sound(device_.sample());
   costs_.end(TickCosts::sample);
   const glm::dvec2 position = glm::dvec2(reading.counts) * position_step_;
   Hand hand = this->hand(reading, beat);
@@ -108,7 +127,8 @@ void Player::serve(const Beat& beat) noexcept {
   const auto cut = reason_to_cut(reading, beat);
   const Force commanded = cut ? guards_.cut(*cut, position, beat.elapsed) : guards_(wanted, position, beat.elapsed);
   costs_.end(TickCosts::guard);
-  const Force force = device_.command(commanded);
+  Force force = device_.command(commanded);
+  if (!all_finite(force)) force = commanded;  // it does not know what it exerts
   guards_.commanded(force);
   costs_.end(TickCosts::command);
   if (outlets_ != nullptr) note_contacts(found, reading, hand, force);

@@ -61,7 +61,7 @@ class Player {
   void serve(const Beat& beat) noexcept;
 
   /// The force that the actuator exerts since the last beat, where it is known only now. Real-time as `serve`.
-  void exerted(Force force) noexcept { guards_.commanded(force); }
+  void exerted(Force force) noexcept;
 
   /// Call these after the last beat.
   Lateness lateness() const { return lateness_.summary(); }
@@ -72,6 +72,8 @@ class Player {
   void finish();
 
  private:
+  /// The reading, with nothing that no device can mean; see `Device::sample`.
+  Reading sound(Reading reading) noexcept;
   /// The hand at this beat, without its position on the patch.
   Hand hand(const Reading& reading, const Beat& beat) noexcept;
   /// Why there must be no force now, if there must be none.
@@ -110,6 +112,7 @@ class Player {
   const Memory* inside_ = nullptr;  // the memory of that patch
   FeltPatch felt_;
   bool button_ = false;  // at the last beat
+  glm::ivec2 counts_{0};  // at the last beat
   long restored_ = 0;
   TimeHistogram lateness_;
   CostMeter costs_;

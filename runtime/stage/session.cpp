@@ -6,7 +6,9 @@
 #include <cmath>
 #include <system_error>
 
+#include "runtime/stage/devices_in_use.hpp"
 #include "runtime/stage/scheduling.hpp"
+#include "schema/name_text.hpp"
 
 namespace wale {
 namespace {
@@ -47,12 +49,10 @@ Result<> has_loop_figures(const DeviceProfile& profile) {
                    .place = {.name = name, .text = few_digits(value)}};
     }
   }
-  // The filter tries each length of its window at each tick.
-  constexpr double longest_window = 100;
-  if (!(profile.velocity_window <= longest_window))
+  if (!(profile.velocity_window <= most_velocity_window))
     return Error{.code = Code::unusable_device,
                  .sentence = "the device " + profile.name + " declares a velocity window of " +
-                             few_digits(profile.velocity_window) + " ticks, expected " + few_digits(longest_window) +
+                             few_digits(profile.velocity_window) + " ticks, expected " + few_digits(most_velocity_window) +
                              " at most",
                  .mend = "declare a shorter one",
                  .place = {.name = "velocity_window", .text = few_digits(profile.velocity_window)}};
@@ -119,6 +119,10 @@ Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stag
   if (stage->running) return refuse(another_run());
   if (!may_be_empty && stage->table.size() == 0)
     return refuse(wrong_moment("stage", "nothing is on the stage", "add a patch first"));
+  if (!take_device(device))
+    return refuse(wrong_moment("device", "another stage runs on this device",
+                               "wait for the end of its run or stop it, or give this stage a device of its own"));
+  session->has_device_ = true;
   if (auto begun = session->begin_recording(); !begun) return refuse(std::move(begun).error());
   stage->running = stage->served = true;
   stage->told_to_stop = false;
@@ -136,9 +140,13 @@ Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stag
 }
 
 Session::~Session() {
-  if (!stage_) return;
+  if (!stage_) {
+    if (has_device_) give_device_back(device_);
+    return;
+  }
   stop_threads();
   player_.reset();  // commands zero force
+  if (has_device_) give_device_back(device_);
   const std::lock_guard lock(stage_->mutex);
   if (stage_->recorder && clock_ == Clock::own) stage_->recorder->end();
   stage_->table.end();
@@ -162,6 +170,8 @@ void Session::stop_threads() noexcept {
 Result<> Session::begin_recording() {
   const std::optional<RecordTo>& to = stage_->options.record;
   if (!to) return {};
+  if (!to->hand.empty())
+    if (auto text = is_name_text("record_hand", to->hand); !text) return text;
   const RecordingHeader header{.device = stage_->profile,
                                .most_newton = stage_->options.max_force,
                                .virtual_time = clock_ == Clock::unreal,

@@ -10,6 +10,9 @@
 
 namespace wale {
 
+/// Ticks. The filter tries each length of its window at each tick.
+inline constexpr double most_velocity_window = 100;
+
 /// Whether the profile has all that a loop needs. Error: `unusable_device`.
 Result<> has_loop_figures(const DeviceProfile& profile);
 
@@ -52,6 +55,7 @@ class Session {
   RunOptions options_;
   Clock clock_;
   Device& device_;
+  bool has_device_ = false;  // no other run uses it
   long ticks_ = 0, kept_ = 0;
   Exchange<PlacedPatches> patches_;
   RunResult result_;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "runtime/stage/session.hpp"
+#include "schema/home_process.hpp"
 
 namespace wale {
 namespace {
@@ -45,6 +46,10 @@ Stage& Stage::operator=(Stage&& other) noexcept {
 
 Stage::~Stage() {
   if (!state_) return;
+  if (!state_->home.is_here()) {
+    abandon(std::move(state_));
+    return;
+  }
   {
     const std::lock_guard starting(state_->starting);
     end_started_run(*state_);
@@ -57,6 +62,7 @@ Stage::~Stage() {
 }
 
 Result<Patch> Stage::add(const Program& program, const PatchOptions& options) {
+  if (auto there = here(state_, stage_was_moved); !there) return std::move(there).error();
   Result<Placement> placement = state_->placement(program, options);
   if (!placement) return std::move(placement).error();
   const std::lock_guard lock(state_->mutex);
@@ -71,17 +77,21 @@ Result<Patch> Stage::add(const Program& program, const PatchOptions& options) {
 StageEdit Stage::edit() { return StageEdit(state_); }
 
 std::size_t Stage::size() const {
+  if (!here(state_, stage_was_moved)) return 0;
   const std::lock_guard lock(state_->mutex);
   return state_->table.size();
 }
 
 bool Stage::is_running() const {
+  if (!here(state_, stage_was_moved)) return false;
   const std::lock_guard lock(state_->mutex);
   return state_->running;
 }
 
 Result<RunResult> Stage::run(const RunOptions& options) {
-  const std::shared_ptr<StageState> state = state_;  // the stage may be destroyed in `progress`
+  const auto there = here(state_, stage_was_moved);
+  if (!there) return there.error();
+  const std::shared_ptr<StageState> state = *there;  // the stage may be destroyed in `progress`
   if (state->device == nullptr) return no_device();
   auto session = Session::begin(state, options, options.virtual_time ? Session::Clock::unreal : Session::Clock::real,
                                 false, *state->device);
@@ -90,7 +100,9 @@ Result<RunResult> Stage::run(const RunOptions& options) {
 }
 
 Result<> Stage::start() {
-  const std::shared_ptr<StageState> state = state_;
+  const auto there = here(state_, stage_was_moved);
+  if (!there) return there.error();
+  const std::shared_ptr<StageState> state = *there;
   const std::lock_guard starting(state->starting);
   if (state->device == nullptr) return no_device();
   if (state->thread.joinable()) return another_run();
@@ -118,14 +130,19 @@ Result<> Stage::start() {
 }
 
 Result<RunResult> Stage::stop() {
+  if (auto there = here(state_, stage_was_moved); !there) return std::move(there).error();
   const std::lock_guard starting(state_->starting);
   if (!end_started_run(*state_)) return wrong_moment("stage", "no run was started on this stage", "start one first");
   return *std::exchange(state_->outcome, std::nullopt);
 }
 
-Now Stage::now() const noexcept { return state_->now(); }
+Now Stage::now() const noexcept {
+  // What a thread of the parent was writing at the fork stays half written.
+  return state_ && state_->home.is_here() ? state_->now() : Now{};
+}
 
 void Stage::on_contact(std::function<void(const ContactEvent&)> receive) {
+  if (!here(state_, stage_was_moved)) return;
   std::unique_lock polling(state_->polling, std::defer_lock);
   if (state_->poller != std::this_thread::get_id()) polling.lock();
   state_->outlets.wants_contacts = receive != nullptr;
@@ -133,6 +150,7 @@ void Stage::on_contact(std::function<void(const ContactEvent&)> receive) {
 }
 
 std::size_t Stage::poll() {
+  if (!here(state_, stage_was_moved)) return 0;
   const std::shared_ptr<StageState> state = state_;  // a receiver may destroy the stage
   if (state->poller == std::this_thread::get_id()) return 0;
   const std::lock_guard polling(state->polling);

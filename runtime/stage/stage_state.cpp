@@ -25,6 +25,7 @@ std::string in_its_own_unit(const Parameter& parameter, double value) {
   return parameter.unit.empty() ? number : number + " " + parameter.unit;
 }
 
+constexpr const char* no_profile = "make the stage with a device, or with the profile of one";
 constexpr const char* place_in_m = "give m from the workspace's centre, as in 0.02";
 
 Error no_ticks() {
@@ -68,11 +69,22 @@ Error stage_is_gone() {
                       "keep the stage for as long as its patches, edits and loops are used");
 }
 
+Error stage_was_moved() {
+  return wrong_moment("stage", "the stage was moved from", "use the stage that it was moved to");
+}
+
 Error another_run() {
   return wrong_moment("stage", "another run is under way on this stage", "wait for its end, or stop it first");
 }
 
 Error patch_is_gone() { return wrong_moment("patch", "the patch is not on the stage any more", "add it again"); }
+
+Result<std::shared_ptr<StageState>> here(std::shared_ptr<StageState> stage, Error (*gone)()) {
+  if (!stage) return gone();
+  if (stage->home.is_here()) return stage;
+  return wrong_moment("stage", "the stage is the parent process's, and this is a child of its fork",
+                      "make a stage and a device of the child's own");
+}
 
 StageState::StageState(std::unique_ptr<Device> own, Device* others, const DeviceProfile& of, StageOptions how)
     : owned(std::move(own)), device(owned ? owned.get() : others), profile(of), options(std::move(how)) {}
@@ -88,13 +100,13 @@ Result<> StageState::fits(const PatchProgram& program) const {
   if (same_kind && program.device.name == profile.name) return is_built_for(program, profile);
   std::string sentence = program.material + " was built for " + program.device.name;
   if (same_kind)
-    sentence += ", and the device is " + profile.name;
+    sentence += profile.name.empty() ? ", and the stage has no device" : ", and the device is " + profile.name;
   else
     sentence += std::string(program.vibrates() ? ", which vibrates, and " : ", which pushes, and ") + profile.name +
                 (program.vibrates() ? " pushes" : " only vibrates");
   return Error{.code = Code::other_device,
                .sentence = std::move(sentence),
-               .mend = "build it for " + profile.name,
+               .mend = profile.name.empty() ? no_profile : "build it for " + profile.name,
                .place = {.name = "program", .text = program.device.name}};
 }
 

@@ -11,6 +11,7 @@
 #include "runtime/stage/bank_cache.hpp"
 #include "runtime/stage/outlets.hpp"
 #include "runtime/stage/patch_table.hpp"
+#include "schema/home_process.hpp"
 #include "wale/stage.hpp"
 
 namespace wale {
@@ -19,6 +20,7 @@ namespace wale {
 Error malformed(std::string name, std::string sentence, std::string mend);
 Error wrong_moment(std::string name, std::string sentence, std::string mend);
 Error stage_is_gone();
+Error stage_was_moved();
 Error another_run();
 Error patch_is_gone();
 
@@ -26,6 +28,7 @@ Error patch_is_gone();
 struct StageState : std::enable_shared_from_this<StageState> {
   StageState(std::unique_ptr<Device> own, Device* others, const DeviceProfile& of, StageOptions how);
 
+  const HomeProcess home;
   std::unique_ptr<Device> owned;
   Device* device;  // null where the program serves the ticks itself
   DeviceProfile profile;
@@ -72,6 +75,9 @@ struct StageState : std::enable_shared_from_this<StageState> {
   Result<Snapshot> snapshot(PatchName name);
   Now now() const noexcept;
 };
+
+/// A stage that a call may use. Errors: `gone` for null; `wrong_moment` in a child of `fork`, whose parent has made it.
+Result<std::shared_ptr<StageState>> here(std::shared_ptr<StageState> stage, Error (*gone)());
 
 /// The changes that `Patch` and `StageEdit` make.
 namespace changes {

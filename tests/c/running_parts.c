@@ -2,6 +2,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "tests/c/check.h"
@@ -105,6 +106,68 @@ static void from_other_threads(void) {
   pthread_join(runner, NULL);
   CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_move(patch, 0, 0, &error));
   wale_patch_free(patch);
+}
+
+static int of_child(WaleStage* stage, WalePatch* patch, WaleFuture* future, WaleLoop* loop) {
+  WaleProgram* program = NULL;
+  const WaleReading reading = {.size = sizeof reading};
+  if (wale_stage_start(stage, NULL) != WALE_CODE_wrong_moment || wale_stage_stop(stage, NULL, NULL) != WALE_CODE_wrong_moment)
+    return 1;
+  if (wale_patch_move(patch, 0, 0, NULL) != WALE_CODE_wrong_moment) return 2;
+  if (!wale_future_wait(future, INFINITY) || wale_future_take(future, &program, NULL) != WALE_CODE_wrong_moment) return 3;
+  if (wale_loop_step(loop, &reading, 1).x != 0) return 4;
+  wale_future_free(future), wale_loop_free(loop), wale_patch_free(patch), wale_stage_free(stage);
+  future = NULL;
+  if (wale_library_find_later(library, WALE_TEXT("oil"), NULL, &future, NULL)) return 5;
+  if (wale_future_take(future, &program, NULL)) return 6;
+  wale_program_free(program), wale_future_free(future), wale_library_free(library);
+  return 0;
+}
+
+static void forking(void) {
+  WaleStage *stage = new_stage(), *plain = NULL;
+  WalePatch* patch = NULL;
+  WaleFuture* future = NULL;
+  WaleLoop* loop = NULL;
+  WaleProgram* program = NULL;
+  WaleProfile profile = {.size = sizeof profile};
+  int status = -1;
+  CHECK_GOOD(wale_profile(WALE_TEXT("sandpaper"), &profile, &error));
+  CHECK_GOOD(wale_stage_create_for(&profile, NULL, &plain, &error));
+  CHECK_GOOD(wale_loop_begin(plain, &loop, &error));
+  CHECK_GOOD(wale_stage_add(stage, corduroy, NULL, &patch, &error));
+  CHECK_GOOD(wale_stage_start(stage, &error));
+  CHECK_GOOD(wale_library_find_later(library, WALE_TEXT("corduroy"), NULL, &future, &error));
+  const pid_t child = fork();
+  if (child == 0) _exit(of_child(stage, patch, future, loop));
+  CHECK(waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  CHECK(wale_stage_is_running(stage));
+  CHECK_GOOD(wale_future_take(future, &program, &error));
+  wale_program_free(program), wale_future_free(future), wale_loop_free(loop), wale_patch_free(patch);
+  wale_stage_free(stage), wale_stage_free(plain);
+}
+
+static void wrong_readings(void) {
+  WaleStage* stage = NULL;
+  WaleLoop* loop = NULL;
+  WaleProfile profile = {.size = sizeof profile};
+  WaleNow now = {.size = sizeof now};
+  CHECK_GOOD(wale_profile(WALE_TEXT("sandpaper"), &profile, &error));
+  WaleProfile wrong = profile;
+  wrong.name = WALE_TEXT("");
+  CHECK_MALFORMED(wale_stage_create_for(&wrong, NULL, &stage, &error));
+  wrong = profile, wrong.velocity_window = 1e9;
+  CHECK_MALFORMED(wale_stage_create_for(&wrong, NULL, &stage, &error));
+  wrong = profile, wrong.delay_x = 1e9;
+  CHECK_MALFORMED(wale_stage_create_for(&wrong, NULL, &stage, &error));
+  CHECK_GOOD(wale_stage_create_for(&profile, NULL, &stage, &error));
+  CHECK_GOOD(wale_loop_begin(stage, &loop, &error));
+  WaleReading reading = {.size = sizeof reading, .counts_x = INT32_MIN, .measures_interaction = 1, .interaction_x = INFINITY};
+  const WaleVector force = wale_loop_step(loop, &reading, 1);
+  wale_loop_exerted(loop, (WaleVector){NAN, INFINITY});
+  CHECK(force.x == 0 && force.y == 0);
+  CHECK(wale_stage_now(stage, &now) == 0 && now.position.x == 0 && now.guards.lost == 1);
+  wale_loop_free(loop), wale_stage_free(stage);
 }
 
 static void loops(void) {
@@ -302,6 +365,16 @@ static void recordings(void) {
   WaleReplay replay = {.size = sizeof replay};
   CHECK_GOOD(wale_recording_replay(recording, &replay, &error));
   CHECK(replay.ticks == details.ticks && replay.differing == 0 && replay.largest_force == 0);
+  /* Its beginning, as of a file that is cut short. */
+  WaleRecording* part = NULL;
+  CHECK_GOOD(wale_recording_open_part(WALE_TEXT(file), 100, &part, &error));
+  CHECK_GOOD(wale_recording_details(part, &details, &error));
+  CHECK(details.ticks == 100 && !details.complete);
+  wale_recording_free(part);
+  CHECK_GOOD(wale_recording_open_part(WALE_TEXT(file), SIZE_MAX, &part, &error));
+  CHECK_GOOD(wale_recording_details(part, &details, &error));
+  CHECK(details.ticks == (uint64_t)figures.ticks_run && details.complete);
+  wale_recording_free(part);
   wale_run_free(run);
   unlink(file);
   wale_recording_free(recording);
@@ -314,6 +387,6 @@ static void recordings(void) {
 }
 
 int running_parts(void) {
-  run_parts((Part[]){running, from_other_threads, loops, snapshots, batches, recordings, NULL});
+  run_parts((Part[]){running, from_other_threads, loops, forking, wrong_readings, snapshots, batches, recordings, NULL});
   return failures;
 }

@@ -130,6 +130,9 @@ static void stages(void) {
   WaleFelt* felt = NULL;
   WaleMeasureOptions measure = {.size = sizeof measure, .settling = 0.5, .least_crossings = 10};
   CHECK_GOOD(wale_felt_measure(run, patch, &measure, &felt, &error));
+  WaleMeasureOptions backwards = {.size = sizeof backwards, .least_crossings = -4};
+  WaleFelt* none = NULL;
+  CHECK_MALFORMED(wale_felt_measure(run, patch, &backwards, &none, &error));
   WaleFeltFigures read = {.size = sizeof read};
   CHECK_GOOD(wale_felt_figures(felt, &read, &error));
   CHECK(read.rubbing_p99 > 1.5 && read.rubbing_p99 < 2.5 && read.levels >= 1 && read.crossings > 10);

@@ -100,6 +100,17 @@ TEST(ByName, ErrorsAreAboutTheArgument) {
       {library.level("roughness", "\xff"), Code::malformed_value, "level", {}},
       {library.level("roughness", "-0.5"), Code::level_out_of_range, "level", {}},
       {library.level("roughness", "-"), Code::malformed_value, "level", {}},
+      {library.level("roughness", "0x.8p0"), Code::malformed_value, "level", {}},
+      {library.level("roughness", ".5"), Code::malformed_value, "level", {}},
+      {library.level("roughness", "5."), Code::malformed_value, "level", {}},
+      {library.level("roughness", "1e"), Code::malformed_value, "level", {}},
+      {library.level("roughness", "nan"), Code::malformed_value, "level", {}},
+      {library.level("roughness", "-Infinity"), Code::malformed_value, "level", {}},
+      {library.level("roughness", "-1e-14"), Code::level_out_of_range, "level", {}},
+      {library.compile("wale 1\n", {.name = "\xff"}), Code::invalid_encoding, "name", {}},
+      {library.compile("wale 1\n", {.name = "a\nb"}), Code::malformed_value, "name", {}},
+      {library.find("\xc2\xa0"), Code::malformed_value, "name", {}},           // a no-break space
+      {library.find("den\xe2\x80\xa8im"), Code::malformed_value, "name", {}},  // a separator of lines
       {library.level("roughness", "1.5"), Code::level_out_of_range, "level", {}},
       {library.level("roughness", "coarse", {.device = "falcom"}), Code::unknown_device, "device", {"falcon"}},
       {library.find("denim", {.device = "falcom"}), Code::unknown_device, "device", {"falcon"}},

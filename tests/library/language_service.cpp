@@ -179,5 +179,29 @@ TEST(Catalogue, SearchesAsFindDoes) {
   EXPECT_EQ(std::ranges::count(catalogue->kinds(), "fabric"), 1);
 }
 
+TEST(LanguageService, TellsOfFoldersDevicesAndWorkspacesThatAreNotThere) {
+  const std::string text = "wale 1\nworkspace w { patch a = oak { at 0 mm, 0 mm; size 40 mm, 40 mm } }\n";
+  const LanguageService missing({.folders = {"/nonexistent/x"}});
+  const auto first = [](const std::vector<Problem>& problems) {
+    return problems.empty() ? Error{} : problems.front().error;
+  };
+  EXPECT_EQ(missing.folders_exist().error().code, Code::unreadable_file);
+  EXPECT_EQ(first(missing.check(text).problems).code, Code::unreadable_file);
+  EXPECT_EQ(missing.check(text).layouts.size(), 1u) << "the text is still checked";
+  EXPECT_EQ(first(missing.compile(text).problems).code, Code::unreadable_file);
+  EXPECT_EQ(first(missing.legibility(text)).code, Code::unreadable_file);
+  EXPECT_EQ(library_catalogue({.folders = {"/nonexistent/x"}})->folders_exist().error().code, Code::unreadable_file);
+  EXPECT_TRUE(library_catalogue()->folders_exist());
+  EXPECT_TRUE(service().folders_exist());
+
+  EXPECT_TRUE(service().check(text, {.device = "falcon"}).problems.empty());
+  EXPECT_EQ(first(service().check(text, {.device = "falcom"}).problems).code, Code::unknown_device);
+  EXPECT_EQ(first(service().check(text, {.device = "falcom"}).problems).nearest.front(), "falcon");
+  EXPECT_EQ(first(service().legibility(text, {.device = "falcom"})).code, Code::unknown_device);
+  EXPECT_EQ(first(service().legibility(text, {.workspace = "v"})).code, Code::unknown_workspace);
+  EXPECT_EQ(first(service().legibility("wale 1\n")).code, Code::unknown_workspace);
+  EXPECT_EQ(first(service().check(text, {.name = "a\nb"}).problems).code, Code::malformed_value);
+}
+
 }  // namespace
 }  // namespace wale::language_service_test

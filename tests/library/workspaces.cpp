@@ -55,6 +55,27 @@ TEST(LibraryWorkspaces, HaveProgramsPlacesShapesMarksAndTheirText) {
   EXPECT_EQ(part(compiled->in_text[0].statement), "patch board = oak { at -40 mm, 0 mm; size 40 mm, 40 mm }");
 }
 
+TEST(LibraryWorkspaces, TellWhatIsWrongWithTheFoldersAndTheNames) {
+  const Library library({.folders = {"/nonexistent/x"}});
+  EXPECT_EQ(library.workspace(desk).error().code, Code::unreadable_file);
+  EXPECT_EQ(library.open_workspace("/nonexistent/a.wale").error().place.name, "folders");
+  EXPECT_EQ(library.presentation(desk).error().code, Code::unreadable_file);
+  EXPECT_EQ(Library().workspace(desk, {.name = "a\nb"}).error().code, Code::malformed_value);
+  EXPECT_EQ(Library().workspace(desk, {.device = "\xff"}).error().code, Code::invalid_encoding);
+}
+
+TEST(LibraryWorkspaces, OfFilesThatCannotBeReadSayWhatToName) {
+  const TemporaryFolder folder;
+  for (const char* name : {"no.wws", "no.wale"}) {
+    const Error error = Library().open_workspace(folder / name).error();
+    EXPECT_EQ(error.code, Code::unreadable_file);
+    EXPECT_NE(error.mend.find("workspace file"), std::string::npos) << error.mend;
+  }
+  const Error bad = Library().open_workspace(folder.write("bad.wws", std::string("\0WWS", 4))).error();
+  EXPECT_EQ(bad.code, Code::damaged_file);
+  EXPECT_TRUE(bad.place.name.ends_with("bad.wws"));
+}
+
 TEST(LibraryWorkspaces, AreTheSameFromAFile) {
   const Library library;
   const auto compiled = library.workspace(desk);
@@ -73,7 +94,7 @@ TEST(LibraryWorkspaces, AreTheSameFromAFile) {
   EXPECT_TRUE(of_file->in_text.empty());
   EXPECT_EQ(library.open_workspace(built, {.device = "falcon"}).error().code, Code::other_device);
   EXPECT_EQ(library.open_workspace(folder / "none.wws").error().code, Code::unreadable_file);
-  EXPECT_EQ(library.open_workspace(folder.write("a.wws", "not one")).error().code, Code::missing_version);
+  EXPECT_EQ(library.open_workspace(folder.write("a.wws", "not one")).error().code, Code::damaged_file);
 }
 
 TEST(LibraryWorkspaces, ErrorsAndWarningsHaveTheirPlace) {

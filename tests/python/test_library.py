@@ -117,3 +117,89 @@ def test_threads_may_ask_at_the_same_time(library: wale.Library) -> None:
         each.join()
     assert len(found) == 2 and found[0] == found[1]
     gc.collect()
+
+
+def test_levels_are_names_or_numbers(library: wale.Library) -> None:
+    for wrong in [math.nan, math.inf, "nan", "0x.8p0", ".5", "1e"]:
+        with pytest.raises(wale.Error) as raised:
+            library.level("roughness", wrong)
+        assert raised.value.code == wale.Code.malformed_value and raised.value.argument == "level"
+    with pytest.raises(wale.Error) as raised:
+        library.level("roughness", -1e-14)  # not 0
+    assert raised.value.code == wale.Code.level_out_of_range
+
+
+def test_names_of_texts(library: wale.Library) -> None:
+    for name, code in [("\udcff", wale.Code.invalid_encoding), ("a\nb", wale.Code.malformed_value)]:
+        with pytest.raises(wale.Error) as raised:
+            library.compile("wale 1\n", name=name)
+        assert raised.value.code == code and raised.value.argument == "name"
+
+
+def test_folders_are_a_list() -> None:
+    with pytest.raises(TypeError, match="write \\['/usr'\\]"):
+        wale.Library("/usr")
+
+
+def child(work) -> int:
+    """The status of a child of os.fork that does the work and ends as Python usually does."""
+    import os
+    import subprocess
+    import sys
+
+    program = f"import os, sys, wale\n{work}\nsys.stdout.flush()\n"
+    del os
+    return subprocess.run([sys.executable, "-c", program], timeout=100, check=False).returncode
+
+
+def test_a_child_of_fork_ends() -> None:
+    assert child("""
+library = wale.Library()
+library.find_later("oil").take()
+later = library.find_later("corduroy")
+stage = wale.Stage(wale.open_device("simulated:sandpaper"))
+patch = stage.add(library.find("oil"))
+stage.start()
+loops = wale.Stage(wale.profile("sandpaper"))
+loop = wale.Loop(loops)
+pid = os.fork()
+if pid == 0:
+    assert library.find_later("oil").take().material == "oil"
+    for wrong in [later.take, stage.stop, stage.start, lambda: patch.move((0, 0))]:
+        try:
+            wrong()
+            os._exit(3)
+        except wale.Error as error:
+            assert error.code == wale.Code.wrong_moment
+    assert loop.step((0, 0)) == (0, 0)
+    sys.exit(0)
+assert os.waitpid(pid, 0)[1] == 0
+assert later.take().material == "corduroy" and stage.is_running
+""") == 0
+
+
+def test_the_package_finds_the_library_of_its_prefix(tmp_path) -> None:
+    import os
+    import pathlib
+    import shutil
+    import subprocess
+    import sys
+
+    package = tmp_path / "lib/python3/dist-packages/wale"
+    shutil.copytree(pathlib.Path(wale.__file__).parent, package, ignore=shutil.ignore_patterns("__pycache__"))
+    library = os.environ["WALE_SHARED_LIBRARY"]
+    environment = {key: value for key, value in os.environ.items() if key != "WALE_SHARED_LIBRARY"}
+    environment["PYTHONPATH"] = str(package.parent)
+
+    def told() -> subprocess.CompletedProcess[str]:
+        return subprocess.run([sys.executable, "-c", "import wale; print(wale.__version__)"], env=environment,
+                              capture_output=True, text=True, check=False)
+
+    (tmp_path / "lib/libwale.so.1").write_bytes(b"no library")
+    refused = told()
+    assert refused.returncode != 0 and "WALE_SHARED_LIBRARY" in refused.stderr and str(tmp_path) in refused.stderr
+    (tmp_path / "lib/libwale.so.1").unlink()
+    (tmp_path / "lib/libwale.so.1").symlink_to(library)
+    for each in pathlib.Path(library).parent.glob("libwale-runtime.so.1"):
+        (tmp_path / "lib" / each.name).symlink_to(each)
+    assert told().stdout.strip() == wale.__version__

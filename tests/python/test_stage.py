@@ -285,3 +285,39 @@ def test_recordings(device: wale.Device, corduroy: wale.Program, tmp_path) -> No
         assert (replay.ticks, replay.differing, replay.largest_force) == (len(ticks), 0, 0)
     file.write_bytes(b"x")
     assert code_of(lambda: wale.Recording(file)) == wale.Code.damaged_file
+
+
+def test_places_are_two_numbers(stage: wale.Stage, corduroy: wale.Program) -> None:
+    patch = stage.add(corduroy)
+    for wrong in [lambda: patch.move((0, 0, 0)), lambda: patch.move(1), lambda: stage.add(corduroy, at=("a", 0))]:
+        with pytest.raises(ValueError, match="expected two numbers, x and y"):
+            wrong()
+
+
+def test_the_ticks_before_a_cut_can_be_read(device: wale.Device, corduroy: wale.Program, tmp_path) -> None:
+    file = tmp_path / "run.wrec"
+    with wale.Stage(device, record=file) as stage:
+        stage.add(corduroy)
+        stage.run(5, virtual_time=True)
+    whole = wale.Recording(file)
+    file.chmod(0o600)
+    file.write_bytes(file.read_bytes()[:-100_000])
+    with pytest.raises(wale.Error) as raised:
+        wale.Recording(file)
+    assert raised.value.code == wale.Code.damaged_file and "most_ticks" in raised.value.mend
+    part = wale.Recording(file, most_ticks=900)
+    assert len(part) == 900 < len(whole) and not part.complete
+    assert (part.ticks["counts_x"] == whole.ticks["counts_x"][:900]).all()
+
+
+def test_what_moves_the_handle_is_one_line(device: wale.Device) -> None:
+    assert code_of(lambda: wale.Stage(device, record="x.wrec", record_hand="a\nb")) == wale.Code.malformed_value
+    assert code_of(lambda: wale.Stage(device, record="x.wrec", record_hand="\udcff")) == wale.Code.invalid_encoding
+
+
+def test_profiles_beyond_any_device_are_refused() -> None:
+    from dataclasses import replace
+
+    profile = wale.profile("sandpaper")
+    for wrong in [{"velocity_window": 1e9}, {"delay_x": 1e9}, {"name": ""}]:
+        assert code_of(lambda: wale.Stage(replace(profile, **wrong))) == wale.Code.malformed_value

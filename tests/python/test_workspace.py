@@ -79,3 +79,18 @@ def test_warnings_and_errors_have_places(library: wale.Library) -> None:
             library.workspace(text, **options)
         assert raised.value.code == code
     assert len(library.workspace(desk, workspace="empty")) == 0
+
+
+def test_files_that_are_not_there(tmp_path) -> None:
+    with pytest.raises(wale.Error) as raised:
+        wale.load_workspace(tmp_path / "no.wws")
+    assert raised.value.code == wale.Code.unreadable_file and raised.value.argument.endswith("no.wws")
+    with wale.Library() as library:
+        for name, mend in [("no.wws", "workspace file"), ("no.wale", "workspace")]:
+            with pytest.raises(wale.Error) as raised:
+                library.open_workspace(tmp_path / name)
+            assert raised.value.code == wale.Code.unreadable_file and mend in raised.value.mend
+        (tmp_path / "bad.wws").write_bytes(b"\x00WWS\x01")
+        with pytest.raises(wale.Error) as raised:
+            library.open_workspace(tmp_path / "bad.wws")
+        assert raised.value.code == wale.Code.damaged_file

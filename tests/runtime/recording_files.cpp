@@ -153,7 +153,7 @@ TEST(RecordingFile, TicksBeforeADamageCanBeRead) {
   bytes[at + 40] ^= std::byte{1};
   EXPECT_EQ(refused(Recording::read(bytes, "a.wrec")),
             "tick 1234 (byte " + std::to_string(at) +
-                ") is damaged; the 1234 ticks before it are intact: read them with --ticks 1234");
+                ") is damaged; the 1234 ticks before it are intact: open it for no more than 1234 ticks (`most_ticks`; of `wale replay` --ticks)");
   const auto before = Recording::read(bytes, "a.wrec", 1234);
   ASSERT_TRUE(before) << refused(before);
   EXPECT_EQ(before->ticks(), 1234u);
@@ -187,7 +187,8 @@ TEST(RecordingFile, OfACutFileAllWholeTicksBeforeTheCutCanBeRead) {
     const std::string left = ticks == 0
                                  ? "no tick of it can be read; record again"
                                  : "the " + std::to_string(ticks) +
-                                       " ticks before it are intact: read them with --ticks " + std::to_string(ticks);
+                                       " ticks before it are intact: open it for no more than " + std::to_string(ticks) +
+                                       " ticks (`most_ticks`; of `wale replay` --ticks)";
     const bool at_a_chunk = (size - first_chunk) % chunk_size == 0;
     if (!at_a_chunk) {
       EXPECT_EQ(refused(read), "the file is cut short at byte " + std::to_string(size) + "; " + left);
@@ -235,7 +236,8 @@ TEST(RecordingFile, TicksBeforeADamagedChangeOfTheStageCanBeRead) {
   ASSERT_GT(ticks, 1000u);
   EXPECT_EQ(refused(Recording::read(bytes, "damaged")),
             "the event at byte " + std::to_string(places[change]) + " is damaged; the " + std::to_string(ticks) +
-                " ticks before it are intact: read them with --ticks " + std::to_string(ticks));
+                " ticks before it are intact: open it for no more than " + std::to_string(ticks) +
+                                       " ticks (`most_ticks`; of `wale replay` --ticks)");
   const auto before = Recording::read(bytes, "damaged", ticks);
   ASSERT_TRUE(before) << refused(before);
   expect_same(*before);

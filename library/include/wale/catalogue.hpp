@@ -26,6 +26,10 @@ class Catalogue {
  public:
   virtual ~Catalogue() = default;
 
+  /// Error: `unreadable_file` about the first of `LibraryOptions::folders` that is no folder; the materials of the others
+  /// are there.
+  virtual Result<> folders_exist() const = 0;
+
   /// The materials that contain every word of `words` at the beginning of one of theirs, as `wale find` gives them; all
   /// if there is no word. `kind` keeps those of that kind and its subkinds; if it is empty, all are kept.
   virtual std::vector<CatalogueEntry> search(std::string_view words, std::string_view kind = {}) const = 0;

@@ -139,14 +139,19 @@ class LanguageService {
   LanguageService(const LanguageService&) = delete;
   LanguageService& operator=(const LanguageService&) = delete;
 
-  /// Checks a text; of `options`, `name` and `device` count.
+  /// Error: `unreadable_file` about the first of `LibraryOptions::folders` that is no folder. `check`, `compile` and
+  /// `legibility` have it among their problems.
+  Result<> folders_exist() const;
+
+  /// Checks a text; of `options`, `name` and `device` count. Problems about an argument, such as `unknown_device`, come
+  /// first, and have its name as `error.place.name`.
   CheckedText check(std::string_view text, const CompileOptions& options = {}) const;
 
   /// Compiles one material of a text, by default the first.
   CompiledText compile(std::string_view text, const CompileOptions& options = {}) const;
 
   /// What a hand cannot tell on a workspace of the text, and what it does not reach, as `wale check` warns of it; and the
-  /// errors of its materials. Reads every program: up to a second each.
+  /// errors of its materials; `unknown_device`, `unknown_workspace`. Reads every program: up to a second each.
   std::vector<Problem> legibility(std::string_view text, const WorkspaceOptions& options = {}) const;
 
   /// Reads what a program feels like. Without a percept that the author asked for, the program's force is read too,

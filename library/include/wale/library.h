@@ -31,7 +31,7 @@ typedef struct WaleCompileOptions {
   size_t size;
   WaleText device;   /* that the program is for, by the name of its profile; empty: "sandpaper", of a patch program its own */
   WaleText material; /* one of the materials of a text that has several; empty: the one that was named, or else the first */
-  WaleText name;     /* of a text in memory: what errors and warnings call it; imports are looked for beside; empty: "text" */
+  WaleText name;     /* of a text in memory: what errors call it, one line of UTF-8; imports are looked for beside; empty: "text" */
 } WaleCompileOptions;
 
 /* All 0 is the default. */

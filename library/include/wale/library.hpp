@@ -27,8 +27,8 @@ struct SimulatedPerson {
 
 struct LibraryOptions {
   /// Folders that are searched for materials and imports besides the shipped library, as by `--library`; those of the
-  /// environment variable WALE_LIBRARY come after them. If one of them is no folder, `Library::folders_exist` and each
-  /// call that makes a program give `unreadable_file`.
+  /// environment variable WALE_LIBRARY come after them. If one of them is no folder, `folders_exist` and each call that
+  /// makes or checks a program or a workspace give `unreadable_file`.
   std::vector<std::string> folders = {};
   /// Whether a stranger's picture may be decoded where the system offers no sandbox for its decoder. Otherwise a
   /// material that needs it is an error there (W0807).
@@ -43,7 +43,7 @@ struct CompileOptions {
   /// One of the materials of a text that has several; empty: the one that was named, or else the first.
   std::string material = {};
   /// Of a text in memory: the name that errors and warnings show. Its imports and pictures are looked for beside a file
-  /// of that name, which need not exist.
+  /// of that name, which need not exist. One line of UTF-8, or empty.
   std::string name = "text";
 };
 
@@ -72,6 +72,9 @@ struct Compiled {
 /// three that may have been meant. All calls: `unknown_device` for a device that nothing declares; `invalid_encoding`
 /// for a name that is not UTF-8 or holds a zero byte; `malformed_value` for one that is empty, blank or of several
 /// lines.
+///
+/// In a child of `fork` the library may be used, and its destructor does not wait for work of the parent. The child's
+/// own work is done by a thread of its own; a future that the parent began is the parent's, and in the child never ready.
 class Library {
  public:
   explicit Library(const LibraryOptions& options = {});
@@ -91,7 +94,7 @@ class Library {
 
   /// A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6"). Errors:
   /// `unknown_name` for an unknown percept or level; `level_out_of_range` for a number outside 0 .. 1;
-  /// `malformed_value` for a level that is neither; and the errors of a percept that the device cannot render.
+  /// `malformed_value` for a level that is neither a name nor a number as Wale writes them (0.5, 5e-1); and the errors of a percept that the device cannot render.
   Result<Compiled> level(const std::string& percept, const std::string& level,
                          const CompileOptions& options = {}) const;
 

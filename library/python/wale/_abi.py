@@ -1,6 +1,9 @@
 """The shared library, and how its functions are called."""
 
 import os
+import sysconfig
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any, Self
 
 import cffi  # type: ignore[import]
@@ -13,9 +16,31 @@ ffi: Any = cffi.FFI()
 ffi.cdef(_declarations.declarations)
 
 
+def _installed() -> str:
+    """The library in the prefix in which this package is installed, PREFIX/lib/python…/…-packages/wale; else the system's."""
+    name, package = "libwale.so.1", Path(__file__).resolve().parent
+    if package.parents[1].name.startswith("python"):
+        prefix = package.parents[3]
+        for folder in ("lib", "lib64", f"lib/{sysconfig.get_config_var('MULTIARCH')}"):
+            if (found := prefix / folder / name).exists():
+                runtime = found.with_name("libwale-runtime.so.1")
+                if runtime.exists():  # which the library needs, and which may not be where the system looks
+                    _kept.append(ffi.dlopen(str(runtime), ffi.RTLD_NOW | ffi.RTLD_GLOBAL))
+                return str(found)
+    return name
+
+
+_kept: list[Any] = []
+
+
 def _opened() -> Any:
     """The library that WALE_SHARED_LIBRARY names, else the installed one."""
-    lib = ffi.dlopen(os.environ.get("WALE_SHARED_LIBRARY") or "libwale.so.1")
+    name = os.environ.get("WALE_SHARED_LIBRARY") or _installed()
+    try:
+        lib = ffi.dlopen(name)
+    except OSError as why:
+        raise ImportError(f"the shared library of Wale cannot be loaded: {why}; install libwale1, or set the environment "
+                          "variable WALE_SHARED_LIBRARY to the path of libwale.so.1") from why
     if lib.wale_interface() < _declarations.interface:
         raise ImportError(f"libwale has interface {lib.wale_interface()}; this package needs {_declarations.interface}")
     return lib
@@ -61,6 +86,15 @@ def sized(kind: str) -> Any:
 def read(text: Any) -> str:
     """A text that the library gave."""
     return bytes(ffi.buffer(text.data, text.length)).decode("utf-8", "surrogateescape") if text.data else ""
+
+
+def pair(values: Sequence[float], name: str) -> tuple[float, float]:
+    """Two numbers, x and y."""
+    try:
+        x, y = values
+        return (float(x), float(y))
+    except (TypeError, ValueError) as why:
+        raise ValueError(f"{name}: expected two numbers, x and y, found {values!r}") from why
 
 
 def or_none(figure: float) -> float | None:

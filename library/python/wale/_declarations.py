@@ -480,6 +480,7 @@ typedef struct WaleReplay {
   double largest_force;
 } WaleReplay;
 WaleCode wale_recording_open(WaleText path, WaleRecording** recording, WaleError** error);
+WaleCode wale_recording_open_part(WaleText path, size_t most_ticks, WaleRecording** recording, WaleError** error);
 void wale_recording_free(WaleRecording* recording);
 WaleCode wale_recording_details(const WaleRecording* recording, WaleRecordingDetails* details, WaleError** error);
 WaleCode wale_recording_ticks(const WaleRecording* recording, size_t first, size_t count, size_t each, WaleRecordedTick* ticks, WaleError** error);

@@ -49,6 +49,13 @@ class Error(Exception):
         super().__init__(words)
         vars(self).update(fields)
 
+    @staticmethod
+    def of_file(path: str, why: OSError) -> "Error":
+        """For a file that this package reads itself."""
+        sentence, mend = f"cannot be read: {why.strerror or why}", "name a file that this user may read"
+        return Error(f"{path}: {sentence}; {mend}", code=Code.unreadable_file, severity="error", sentence=sentence, mend=mend,
+                     expected="", found="", argument=path, text="", span=None, nearest=(), others=())
+
     @property
     def name(self) -> str:
         """ "unknown_name"; empty for a code that is newer than this package."""

@@ -37,6 +37,8 @@ class Library(Handle):
     """
 
     def __init__(self, folders: Iterable[str | os.PathLike[str]] = (), *, unsandboxed_pictures: bool = False) -> None:
+        if isinstance(folders, (str, bytes, os.PathLike)):
+            raise TypeError(f"folders: expected a list of folders, found one: write [{folders!r}]")
         arguments = Arguments()
         texts = [arguments.text(os.fspath(each)) for each in folders]
         array = ffi.new("WaleText[]", texts) if texts else ffi.NULL
@@ -131,4 +133,4 @@ class Library(Handle):
 
 
 def _level(level: str | float) -> str:
-    return level if isinstance(level, str) else format(float(level), ".12f").rstrip("0").rstrip(".") or "0"
+    return level if isinstance(level, str) else repr(float(level))

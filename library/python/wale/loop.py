@@ -1,6 +1,6 @@
 """A run whose ticks the program serves itself."""
 
-from wale._abi import Handle, ffi, lib, made, sized
+from wale._abi import Handle, ffi, lib, made, pair, sized
 from wale.codes import ReadingContact
 from wale.run import Vector, vector_of
 from wale.stage import Stage
@@ -21,12 +21,13 @@ class Loop(Handle):
         measures it. `periods` have passed since the last step.
         """
         of = self._reading
+        pair(counts, "counts")
         of.counts_x, of.counts_y = counts
         of.button, of.contact = int(button), int(contact)
         of.measures_interaction = int(interaction is not None)
-        of.interaction_x, of.interaction_y = interaction or (0.0, 0.0)
+        of.interaction_x, of.interaction_y = pair(interaction or (0.0, 0.0), "interaction")
         return vector_of(lib.wale_loop_step(self._pointer, of, periods))
 
     def exerted(self, force: Vector) -> None:
         """The force that the actuator really exerts since the last step, where the device tells it."""
-        lib.wale_loop_exerted(self._pointer, ffi.new("WaleVector*", force)[0])
+        lib.wale_loop_exerted(self._pointer, ffi.new("WaleVector*", pair(force, "force"))[0])

@@ -22,11 +22,15 @@ class Replay:
 
 
 class Recording(Handle):
-    """A file that a run made (`Stage(record=…)`). It never changes."""
+    """A file that a run made (`Stage(record=…)`). It never changes.
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
+    `most_ticks`: only its first ones are read, as those before a damage, which the error of the whole file counts.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], *, most_ticks: int | None = None) -> None:
         arguments, of = Arguments(), sized("WaleRecordingDetails")
-        super().__init__(made(lib.wale_recording_open, "WaleRecording", arguments.text(os.fspath(path))),
+        super().__init__(made(lib.wale_recording_open_part, "WaleRecording", arguments.text(os.fspath(path)),
+                              2**63 if most_ticks is None else most_ticks),
                          lib.wale_recording_free)
         call(lib.wale_recording_details, self._pointer, of)
         self.device: str = read(of.device)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from wale._abi import Handle, ffi, lib, made
+from wale._abi import Handle, ffi, lib, made, pair
 from wale.run import Vector, vector_of
 
 
@@ -47,4 +47,5 @@ class Shape(Handle):
 
     def edge(self, point: Vector) -> float:
         """The distance of a point to the edge, m: positive inside, negative outside."""
-        return float(lib.wale_shape_edge(self._pointer, {"x": point[0], "y": point[1]}))
+        x, y = pair(point, "point")
+        return float(lib.wale_shape_edge(self._pointer, {"x": x, "y": y}))

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wale._abi import Arguments, Handle, call, ffi, lib, made, sized
+from wale._abi import Arguments, Handle, call, ffi, lib, made, pair, sized
 from wale._arrays import size_in_full
 from wale.codes import ContactKind
 from wale.device import Device, Profile
@@ -38,7 +38,8 @@ class Contact:
 
 def _placed(at: Vector, size: Size | None, layer: float, shape: Shape | None) -> Any:
     width, height, rim = size_in_full(size) if size is not None else (0.0, 0.0, 0.0)
-    return Arguments().struct("WalePatchOptions", x=at[0], y=at[1], width=width, height=height, rim=rim, layer=layer,
+    x, y = pair(at, "at")
+    return Arguments().struct("WalePatchOptions", x=x, y=y, width=width, height=height, rim=rim, layer=layer,
                               shape=None if shape is None else shape._pointer)
 
 
@@ -68,7 +69,7 @@ class Patch(Handle):
 
     def move(self, to: Vector) -> None:
         """Moves its centre, m from the workspace's centre."""
-        call(lib.wale_patch_move, self._pointer, *to)
+        call(lib.wale_patch_move, self._pointer, *pair(to, "to"))
 
     def resize(self, size: Size) -> None:
         """Width, height and rim, m."""
@@ -111,7 +112,7 @@ class Edit(Handle):
         call(lib.wale_edit_set, self._pointer, patch._pointer, arguments.text(parameter), value)
 
     def move(self, patch: Patch, to: Vector) -> None:
-        call(lib.wale_edit_move, self._pointer, patch._pointer, *to)
+        call(lib.wale_edit_move, self._pointer, patch._pointer, *pair(to, "to"))
 
     def resize(self, patch: Patch, size: Size) -> None:
         call(lib.wale_edit_resize, self._pointer, patch._pointer, *size_in_full(size))

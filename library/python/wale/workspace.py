@@ -99,5 +99,9 @@ class Workspace(Handle):
 
 def load_workspace(path: str | os.PathLike[str]) -> Workspace:
     """Reads a workspace file, which `wale build --workspace` makes."""
-    with open(path, "rb") as file:
-        return Workspace.load(file.read())
+    try:
+        with open(path, "rb") as file:
+            data = file.read()
+    except OSError as why:
+        raise Error.of_file(os.fsdecode(path), why) from why
+    return Workspace.load(data)

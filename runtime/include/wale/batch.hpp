@@ -15,7 +15,8 @@ namespace wale {
 /// hands. Bit-identical to a `tick` with a `Memory` whose grids do not change.
 ///
 /// Instances run in blocks of lanes and are independent: their order and number change no bit. The bank need not
-/// outlive the batch. One thread at a time may use a batch.
+/// outlive the batch. One thread at a time may use a batch. One that was moved from
+/// has no hands, and does nothing.
 class Batch {
  public:
   /// `instances` hands, none of which has entered. Grids have their present values in `grids` if that is a memory of

@@ -34,7 +34,7 @@ typedef struct WaleProfile {
   double mass;                         /* kg, moving mass at the handle */
   double damping;                      /* N s/m */
   double friction;                     /* N */
-  double delay_x, delay_y;             /* s, from a sample to the force that answers it, besides the hold of one period */
+  double delay_x, delay_y;             /* s, at most 1, from a sample to the force that answers it, besides the hold of a period */
   double bandwidth_x, bandwidth_y;     /* Hz, at which the actuator has lost 3 dB; 0: no limit */
   int32_t vibrates;                    /* 1: a pad that shakes */
   int32_t has_position;                /* 0: a pad that does not know where the finger is */

@@ -40,10 +40,13 @@ class Device {
   /// `periods` control periods have passed since the last call. Real hardware moves by itself and ignores it.
   virtual void elapse(long periods) noexcept = 0;
 
+  /// The device's report. The loop takes one with counts beyond `RecordedTick::most_counts`, or with an unknown
+  /// `contact`, as lost at the last place; an interaction that is not finite was not measured.
   virtual Reading sample() noexcept = 0;
 
   /// Pushes with `force` (N at the handle) until the next command. Returns the force that the actuator exerts from now
-  /// on, after calibration, clamping and quantisation; if the device does not know it, the force that was sent. A pad
+  /// on, after calibration, clamping and quantisation; if the device does not know it, the force that was sent, for
+  /// which one that is not finite counts too. A pad
   /// (a profile that vibrates) takes an amplitude (m/s^2) and a frequency (Hz) and returns those of its present
   /// vibration.
   virtual Force command(Force force) noexcept = 0;

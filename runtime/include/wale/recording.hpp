@@ -36,6 +36,8 @@ enum class GuardBit : std::uint32_t {
 /// One tick: the inputs, the program's force, and the outputs.
 struct RecordedTick {
   static constexpr std::uint32_t no_patch = 0xffffffff;
+  /// `counts` are within this, either way: a reading beyond it is a lost one (`Device::sample`).
+  static constexpr int most_counts = 1 << 29;
 
   std::int64_t period = 0;          ///< its number since the run began, from 0
   std::int64_t lateness = 0;        ///< ns after its deadline

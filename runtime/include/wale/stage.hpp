@@ -23,7 +23,9 @@ inline constexpr int usual_priority = 80;
 /// A recording to make of a run.
 struct RecordTo {
   std::string file;  ///< must not exist yet; usually NAME.wrec
-  std::string hand;  ///< what moves the handle, kept in the recording: "simulated, lateral"
+  /// What moves the handle, kept in the recording: "simulated, lateral"; one line of UTF-8, or empty. Otherwise the
+  /// run gives `invalid_encoding` or `malformed_value`.
+  std::string hand;
 };
 
 /// What a stage does to its process and to the system. With the defaults it does nothing but make threads: one that
@@ -48,7 +50,7 @@ struct StageOptions {
 };
 
 /// Several changes that are felt at one tick, all or none. One thread at a time may use an edit; it may outlive its
-/// stage. An edit that is destroyed without `commit` changes nothing.
+/// stage. An edit that is destroyed without `commit` changes nothing. One that was moved from gives `wrong_moment`.
 class StageEdit {
  public:
   StageEdit(StageEdit&&) noexcept;
@@ -82,12 +84,17 @@ class StageEdit {
 /// Patches on a device's workspace, and the loop that lets the hand feel the front-most one under it.
 ///
 /// All calls except the constructors, the destructor and assignment are safe from any thread. Only `now` is for a
-/// real-time thread too. A stage that was moved from may only be destroyed or assigned to.
+/// real-time thread too. Calls of a stage that was moved from give `wrong_moment`, or nothing where they give no error.
+///
+/// The same holds in a child of `fork` for a stage that its parent has made, and for its patches, edits and loops: the
+/// threads that serve it, and its device, are the parent's. Their destructors do nothing in the child and return at
+/// once. The child may make stages of its own, on devices that it opens itself.
 class Stage {
  public:
   /// Takes the device. Without one, nothing fits on the stage and it cannot run.
   explicit Stage(std::unique_ptr<Device> device, StageOptions options = {});
-  /// The device must outlive the stage, and a run of it.
+  /// The device must outlive the stage, and a run of it. Several stages may be made on one device, and one of them runs
+  /// at a time.
   explicit Stage(Device& device, StageOptions options = {});
   /// Without a device, for a `Loop` of one's own.
   explicit Stage(const DeviceProfile& profile, StageOptions options = {});
@@ -117,7 +124,7 @@ class Stage {
   /// - `malformed_value`: the time is not positive, the record would keep more than 2^24 ticks, the largest force is
   ///   not positive, or the priority is not in 1 .. 99;
   /// - `wrong_moment`: nothing is on the stage, it has no device, or another run is under way on it, or one that
-  ///   `start` began waits for its `stop`;
+  ///   `start` began waits for its `stop`, or another stage runs on its device;
   /// - `unusable_device`: the device's profile lacks a figure that a loop needs;
   /// - `unwritable_file`: the recording cannot be made;
   /// - `short_of_resources`: the system gives no thread.

@@ -107,7 +107,7 @@ typedef struct WaleMeasureOptions {
   double settling;       /* s, left out at the beginning: forces slew in and the hand comes up to speed */
   double stuck_seconds;  /* the hand counts as stuck if within this time it moves by no more than `stuck_counts`; 0: 0.05 */
   double stuck_counts;   /* encoder counts on each axis; 0: 2 */
-  int64_t least_crossings; /* of a texture, for a level; 0: 50 */
+  int64_t least_crossings; /* of a texture, for a level, not negative; 0: 50 */
 } WaleMeasureOptions;
 
 /* N (of a pad m/s^2, where the hand was on the patch); not-a-number where it was not measured. */

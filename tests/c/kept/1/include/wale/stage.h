@@ -32,7 +32,7 @@ typedef struct WaleStageOptions {
   WaleText record;      /* records the run in this file, which must not exist yet; empty: does not. It is mapped, and
                            read-only to others until the run ends; who truncates it in spite of that, as the superuser
                            may, ends this process (SIGBUS) */
-  WaleText record_hand; /* what moves the handle, kept in the recording: "simulated, lateral"; may be empty */
+  WaleText record_hand; /* what moves the handle, kept in the recording: "simulated, lateral"; one line, may be empty */
 } WaleStageOptions;
 
 /* Where a patch goes. All 0: in the middle, in the program's own size, in layer 0. All finite. */
@@ -51,7 +51,8 @@ typedef struct WalePatchOptions {
 WALE_API WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, WaleStage** stage,
                                     WaleError** error);
 /* Without a device, for a loop of one's own (wale/loop.h). Of a pad the profile must be that of wale_profile or
-   wale_device_profile: what shakes it is found by its name. Error: malformed_value. */
+   wale_device_profile: what shakes it is found by its name. Errors: malformed_value, also for a profile without a name or with
+   a figure beyond its range; invalid_encoding. */
 WALE_API WaleCode wale_stage_create_for(const WaleProfile* profile, const WaleStageOptions* options, WaleStage** stage,
                                         WaleError** error);
 /* Ends a run that is under way, also one that another thread has called, and waits for its end. The device then exerts no
@@ -70,7 +71,7 @@ WALE_API size_t wale_stage_size(const WaleStage* stage);
 /* Runs for `options->seconds`, in real time or in virtual time on the calling thread, and returns at the end. `run`, which may
    be NULL, gets the figures and the record. Errors:
    - malformed_value: the time is not positive, or longer than can be kept, or an option is out of its range;
-   - wrong_moment: nothing is on the stage, it has no device, or another run is under way;
+   - wrong_moment: nothing is on the stage, it has no device, or another run is under way on it or on its device;
    - unusable_device: the profile lacks a figure that a loop needs;
    - unwritable_file: the recording cannot be made; short_of_resources: the system gives no thread. */
 WALE_API WaleCode wale_stage_run(WaleStage* stage, const WaleRunOptions* options, WaleRun** run, WaleError** error);

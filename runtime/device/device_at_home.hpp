@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "schema/home_process.hpp"
+#include "wale/device.hpp"
+
+namespace wale {
+
+/// A device that threads serve. In a child of `fork` it is lost, and nothing of it reaches the hardware, which is the
+/// parent's.
+class DeviceAtHome final : public Device {
+ public:
+  explicit DeviceAtHome(std::unique_ptr<Device> device) : device_(std::move(device)) {}
+  ~DeviceAtHome() override {
+    if (!home_.is_here()) abandon(std::move(device_));
+  }
+  DeviceAtHome(const DeviceAtHome&) = delete;
+  DeviceAtHome& operator=(const DeviceAtHome&) = delete;
+
+  const DeviceProfile& profile() const noexcept override { return device_->profile(); }
+  void elapse(long periods) noexcept override {
+    if (home_.is_here()) device_->elapse(periods);
+  }
+  Reading sample() noexcept override {
+    return home_.is_here() ? device_->sample() : Reading{.contact = Contact::lost};
+  }
+  Force command(Force force) noexcept override { return home_.is_here() ? device_->command(force) : Force(0); }
+
+ private:
+  const HomeProcess home_;
+  std::shared_ptr<Device> device_;
+};
+
+}  // namespace wale
