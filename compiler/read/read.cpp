@@ -15,6 +15,7 @@
 #include "compiler/read/breakaway.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/room.hpp"
+#include "compiler/read/sharp_step.hpp"
 #include "compiler/read/slow_sway.hpp"
 #include "compiler/read/still_forces.hpp"
 #include "compiler/read/strokes.hpp"
@@ -62,17 +63,35 @@ double even_stiffness(const StaticForce& still, PatchSize patch) {
   return static_cast<double>(near) >= mostly * places_a_side * places_a_side ? stiffness : 0;
 }
 
+/// N: with how much a wall pushes at most beside a part of the force that is limited: infinite if that part is the
+/// spring, which then gives less than its law deep in the wall.
+double most_of_wall(const Bank& bank, const StaticForce& still, const Wall& wall) {
+  if (!(still.cut_at > 0)) return HUGE_VAL;
+  if (!still.part_is_cut || remembers_anything(bank.program().description())) return still.cut_at;
+  const WallFace face = wall_face(bank, wall);
+  const glm::dvec2 deep = face.place + 0.95 * deepest(bank, face).depth * face.inward;
+  const auto cut = [&](glm::dvec2 force) {
+    const double size = glm::length(force);
+    return size > still.cut_at ? still.cut_at / size * force : force;
+  };
+  const ForceLimit limit = limit_of(bank);
+  const glm::dvec2 felt = forces_at(bank, {&deep, 1}).front(), even = still.trend.at(deep), pushed = wall.at(deep);
+  const double if_wall = glm::distance(felt, limit.cut(even + cut(pushed)));
+  return if_wall < glm::distance(felt, limit.cut(cut(even) + pushed)) ? still.cut_at : HUGE_VAL;
+}
+
 /// The walls and steps that were found in the static force. A face bends that, unless the program has memory and
 /// yielded to the hands that were placed behind the face.
 void tell_obstacles(const Bank& bank, ForceReading& found) {
   Obstacles& obstacles = found.still.obstacles;
   std::erase_if(obstacles.walls, [&](const Wall& each) { return !pushes_back(bank, wall_face(bank, each)); });
+  for (StaticStep& each : obstacles.steps) sharpen(bank, each);
   found.steps = obstacles.steps;
   std::ranges::stable_sort(found.steps, std::greater(),
                            [](const StaticStep& each) { return glm::length(each.change); });
   std::vector<WallFace> walls;
-  const double most = found.still.cut_at > 0 ? found.still.cut_at : HUGE_VAL;
-  for (const Wall& each : obstacles.walls) walls.push_back(wall_face(bank, each, most));
+  for (const Wall& each : obstacles.walls)
+    walls.push_back(wall_face(bank, each, most_of_wall(bank, found.still, each)));
   std::ranges::stable_sort(walls, std::greater(), &WallFace::stiffness);
   if (!walls.empty()) {
     found.wall = walls.front();
@@ -264,7 +283,11 @@ AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& f
 
 /// A relief beside a trend that is fitted awry, or that the device cuts, may seem larger than all that pushes.
 void limit_relief(StaticForce& still, double most) {
-  constexpr double plainly_more = 1.06;
+  // A relief beside a push against it may be larger than both together; all alone it is what pushes.
+  const LinearForce& trend = still.trend;
+  const bool alone = still.features.empty() && trend.mean == glm::dvec2(0) && trend.by_x == glm::dvec2(0) &&
+                     trend.by_y == glm::dvec2(0);
+  const double plainly_more = alone ? 1 : 1.06;
   Relief& relief = still.relief;
   const double largest = std::min(still.largest, std::numbers::sqrt2 * most);
   if (relief.amplitude <= plainly_more * largest) return;
@@ -287,7 +310,11 @@ double ForceReading::stepped() const {
   return sum;
 }
 
-double ForceReading::cut_spring() const { return !wall && stiffness >= least_stiffness ? still.cut_at : 0; }
+double ForceReading::cut_spring() const {
+  // Beside a wall, either is what is cut.
+  const bool wall_is_cut = wall && !(still.part_is_cut && wall->most == HUGE_VAL);
+  return !wall_is_cut && stiffness >= least_stiffness ? still.cut_at : 0;
+}
 
 double ForceReading::held_drag(double speed) const { return held ? held->opposing.at(speed) - opposing.at(speed) : 0; }
 

@@ -64,7 +64,7 @@ class ReliefReader {
     const double usual = other > 0 ? std::max(other_squares / other, little_force * little_force) : 0;
     if (cut == 0 || (cut_squares / cut > much_stronger * usual && found.relief.amplitude >= least_force))
       return std::nullopt;
-    found.cut_off = true, found.cut_at = cut_at;
+    found.cut_off = found.part_is_cut = true, found.cut_at = cut_at;
     return found;
   }
 
@@ -323,8 +323,10 @@ StillField field_of(const Unlimited& law) {
 }
 
 /// The force with the laws of its parts that the author limits: each is told as it is where it is not cut, and what is
-/// beside it as it is felt. Nothing if no law is cut. `felt` is the force itself.
-std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillForces& felt) {
+/// beside it as it is felt. Nothing if no law is cut. `felt` is the force itself, `asked` the same without the device's
+/// limit.
+std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillForces& felt,
+                                                std::span<const glm::dvec2> asked) {
   constexpr std::size_t every = 23;         // of the places
   constexpr double least_cut_part = 0.025;  // of those: the 99th percentile of a texture cuts a hundredth
   std::vector<PartLimit> cut;
@@ -337,7 +339,7 @@ std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillFor
     const std::vector<glm::dvec2> forces = field_of(*law)(places);
     std::size_t differ = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
-      differ += glm::length(forces[i] - felt.forces[i * every]) > 0.5 * least_force ? 1 : 0;
+      differ += glm::length(forces[i] - asked[i * every]) > 0.5 * least_force ? 1 : 0;
     if (static_cast<double>(differ) <= least_cut_part * static_cast<double>(places.size())) continue;
     cut.push_back(part), cut_at = std::max(cut_at, part.newton);
   }
@@ -358,7 +360,7 @@ StaticForce static_force(const Bank& bank) {
     ReliefReader reader(field, bank.size());
     const ForceLimit limit = limit_of(bank);
     if (!reader.reaches(limit)) {
-      auto beside = beside_limited_parts(bank, reader.whole());
+      auto beside = beside_limited_parts(bank, reader.whole(), reader.whole().forces);
       return beside ? *std::move(beside) : reader.read();
     }
     for (const int times : {1, 2}) {
@@ -368,6 +370,7 @@ StaticForce static_force(const Bank& bank) {
       const StillField whole = field_of(*unlimited);
       ReliefReader without(whole, bank.size(), limit);
       if (times == 1 && without.reaches(limit * unlimited->scale)) continue;
+      if (auto beside = beside_limited_parts(bank, reader.whole(), without.whole().forces)) return *std::move(beside);
       StaticForce found = without.read();
       return found.cut_off ? found : reader.read();
     }
