@@ -31,6 +31,12 @@ FittedWaves::FittedWaves(const StillForces& whole, const std::vector<Feature>& f
   update_rest();
   found_.trend = linear_force(whole.places, found_.rest);
   update_rest();
+  // Where a feature jumps nothing was left, and now nothing but what the line has there.
+  for (int turn = 0; turn < 2 && !features.empty(); ++turn) {
+    const LinearForce more = linear_force(whole.places, found_.rest);
+    found_.trend.mean += more.mean, found_.trend.by_x += more.by_x, found_.trend.by_y += more.by_y;
+    update_rest();
+  }
   all_ = mean_square(found_.rest);
 }
 

@@ -31,7 +31,7 @@ constexpr double mended = 0.2;                           // of a wall's stiffnes
 constexpr double alike_ways = 0.94;                      // cosine: two walls that stand so may be a curve ...
 constexpr double left_by_a_curve = 1e-5;                 // ... which leaves more than this of what a line leaves ...
 constexpr double hidden_curve = 1e-4;                    // ... unless there is so much noise
-constexpr double alone = 0.3, nearly_alone = 0.1;        // of what is left: explained by one more, and left by it then
+constexpr double alone = 0.12, nearly_alone = 0.1;        // of what is left: explained by one more, and left by it then
 constexpr double less_than_others = 0.9;                 // of what other kinds leave
 constexpr double widest_step = 5e-3;                     // m
 constexpr double apart_at_least = 4e-3;                  // m between two steps
@@ -313,17 +313,20 @@ class ObstacleSearch {
   bool is_bent() const { return by_line_ >= least_force * least_force; }
   double by_line() const { return by_line_; }
 
-  /// A wall, if it explains all.
-  std::optional<ObstacleFit> explained_by(const Wall& wall) const {
+  /// Whether what a model leaves is no more than a texture.
+  bool explains(const ObstacleFit& fit) const { return unexplained(fit) <= left_unexplained * by_line_; }
+
+  /// A wall, and the even force beside it.
+  ObstacleFit beside(const Wall& wall) const {
     ObstacleFit fit;
     fit.found.walls.push_back(wall);
     fit.even = linear_force(whole_.places, fit.rest(whole_.places, forces_));
-    return explains(fit) ? std::optional(fit) : std::nullopt;
+    return fit;
   }
 
   /// Obstacles and more of them. What a small one adds beside a large one is little of what a line leaves, so it is
   /// looked for by itself in what is left.
-  Obstacles with_more(ObstacleFit fit) {
+  ObstacleFit with_more(ObstacleFit fit) {
     while (fit.found.walls.size() + fit.found.steps.size() < most_obstacles) {
       const double left = unexplained(fit);
       if (left < least_force * least_force) break;
@@ -342,7 +345,7 @@ class ObstacleSearch {
       if (!best) break;
       fit = *std::move(best);
     }
-    return std::move(fit.found);
+    return fit;
   }
 
   std::optional<ObstacleFit> found(const Kinds& kinds) {
@@ -435,9 +438,6 @@ class ObstacleSearch {
     return mean_square(rest) - times_noise * noise;
   }
 
-  /// Whether what a model leaves is no more than a texture.
-  bool explains(const ObstacleFit& fit) const { return unexplained(fit) <= left_unexplained * by_line_; }
-
   const StillForces& whole_;
   std::span<const glm::dvec2> forces_;
   std::vector<glm::dvec2> places_, even_;  // of means over small cells
@@ -453,19 +453,21 @@ std::optional<Obstacles> find_obstacles(const StillForces& whole, std::span<cons
   if (!search.is_bent() || !search.is_even_between_bends()) return std::nullopt;
   const auto face =
       find_half_plane(cell_means(whole.side, whole.places), cell_means(whole.side, forces), whole.places, forces);
-  if (face)
-    if (auto fit = search.explained_by(wall_of(*face))) return search.with_more(*std::move(fit));
   // What explains all but rounding is it; a texture leaves more, and then what leaves least.
   std::optional<ObstacleFit> best;
   double least = HUGE_VAL;
+  if (face) {
+    ObstacleFit fit = search.with_more(search.beside(wall_of(*face)));
+    if (search.explains(fit)) return std::move(fit.found);
+  }
   for (const Kinds& kinds : all_kinds) {
     auto fit = search.found(kinds);
     if (!fit) continue;
     const double left = mean_square(fit->rest(whole.places, forces));
-    if (left < all_explained * search.by_line()) return search.with_more(*std::move(fit));
+    if (left < all_explained * search.by_line()) return search.with_more(*std::move(fit)).found;
     if (left < less_than_others * least) least = left, best = std::move(fit);
   }
-  if (best) return search.with_more(*std::move(best));
+  if (best) return search.with_more(*std::move(best)).found;
   return face ? std::optional(Obstacles{{wall_of(*face)}, {}}) : std::nullopt;
 }
 

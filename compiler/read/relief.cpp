@@ -49,20 +49,22 @@ class ReliefReader {
   const StillForces& whole() const { return whole_; }
 
   /// Reads a law whose trends are cut off at some size (N), while all else beside them is felt; `felt` are the forces
-  /// at the same places. Nothing if more than trends is cut off.
-  std::optional<StaticForce> read_beside_cut(const std::vector<glm::dvec2>& felt, double cut_at) {
+  /// at the same places, and `asked` the same without a device's limit. Nothing if more than trends is cut off.
+  std::optional<StaticForce> read_beside_cut(const std::vector<glm::dvec2>& felt, const std::vector<glm::dvec2>& asked,
+                                             double cut_at) {
     whole_felt_ = &felt;
     StaticForce found = read();
     double cut = 0, other = 0, cut_squares = 0, other_squares = 0;
     for (std::size_t i = 0; i < relief_.size(); ++i) {
-      const bool is_cut = glm::length(whole_.forces[i] - felt[i]) > least_force;
+      const bool is_cut = glm::length(whole_.forces[i] - asked[i]) > least_force;
       (is_cut ? cut : other) += 1, (is_cut ? cut_squares : other_squares) += glm::dot(relief_[i], relief_[i]);
     }
     // A texture that is cut off is strongest there.
     constexpr double much_stronger = 1.5;
     const double little_force = 0.5 * least_force;
     const double usual = other > 0 ? std::max(other_squares / other, little_force * little_force) : 0;
-    if (cut == 0 || (cut_squares / cut > much_stronger * usual && found.relief.amplitude >= least_force))
+    if (cut == 0 || (cut_squares / cut > much_stronger * usual && found.relief.amplitude >= least_force &&
+                     !is_even_where_cut(asked, cut_at)))
       return std::nullopt;
     found.cut_off = found.part_is_cut = true, found.cut_at = cut_at;
     return found;
@@ -100,6 +102,22 @@ class ReliefReader {
   }
 
  private:
+  /// Whether the part that is cut off at some size (N) changes evenly with the place, so that the relief is none of it.
+  /// By what is cut off, where something is, its size and its direction are known.
+  bool is_even_where_cut(const std::vector<glm::dvec2>& asked, double cut_at) const {
+    constexpr double little_of_relief = 0.1;  // of its mean square
+    std::vector<glm::dvec2> places, part, relief;
+    for (std::size_t i = 0; i < relief_.size(); ++i) {
+      const glm::dvec2 off = whole_.forces[i] - asked[i];
+      const double size = glm::length(off);
+      if (size <= least_force) continue;
+      places.push_back(whole_.places[i]), part.push_back((size + cut_at) / size * off), relief.push_back(relief_[i]);
+    }
+    const LinearForce line = linear_force(places, part);
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] -= line.at(places[i]);
+    return mean_square(part) < little_of_relief * mean_square(relief);
+  }
+
   /// The forces without waves: trends, features, noise.
   std::vector<glm::dvec2> without_waves() const {
     std::vector<glm::dvec2> forces = waves_.rest;
@@ -326,7 +344,7 @@ StillField field_of(const Unlimited& law) {
 /// beside it as it is felt. Nothing if no law is cut. `felt` is the force itself, `asked` the same without the device's
 /// limit.
 std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillForces& felt,
-                                                std::span<const glm::dvec2> asked) {
+                                                const std::vector<glm::dvec2>& asked) {
   constexpr std::size_t every = 23;         // of the places
   constexpr double least_cut_part = 0.025;  // of those: the 99th percentile of a texture cuts a hundredth
   std::vector<PartLimit> cut;
@@ -349,7 +367,7 @@ std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillFor
   const StillField whole = field_of(*law);
   ReliefReader without(whole, bank.size());
   if (without.reaches(limit_of(bank) * law->scale)) return std::nullopt;
-  return without.read_beside_cut(felt.forces, cut_at);
+  return without.read_beside_cut(felt.forces, asked, cut_at);
 }
 
 }  // namespace
