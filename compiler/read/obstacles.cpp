@@ -75,14 +75,16 @@ class SortedWays {
   explicit SortedWays(std::span<const glm::dvec2> places) {
     for (std::size_t i = 0; i < ways_.size(); ++i) {
       const double angle = static_cast<double>(i) * std::numbers::pi / ways_tried;
-      Way& way = ways_[i];
-      way.along = {std::cos(angle), std::sin(angle)};
-      for (std::size_t k = 0; k < places.size(); ++k) way.order.emplace_back(glm::dot(places[k], way.along), k);
-      std::ranges::sort(way.order);
+      ways_[i] = Way(places, {std::cos(angle), std::sin(angle)});
     }
   }
 
   struct Way {
+    Way() = default;
+    Way(std::span<const glm::dvec2> places, glm::dvec2 way) : along(way) {
+      for (std::size_t k = 0; k < places.size(); ++k) order.emplace_back(glm::dot(places[k], along), k);
+      std::ranges::sort(order);
+    }
     glm::dvec2 along{0};
     std::vector<std::pair<double, std::size_t>> order;  // m along it, and which place
   };
@@ -100,7 +102,10 @@ class NextObstacle {
     for (const glm::dvec2& place : places) half_ = glm::max(half_, glm::abs(place));
   }
 
-  Candidate found(const Kinds& kinds) {
+  /// A wall often faces as another one does, between the ways that are tried.
+  Candidate found(const Kinds& kinds, const std::vector<Wall>& beside = {}) {
+    for (const Wall& each : beside)
+      if (kinds.straight && !each.round()) try_straight({places_, each.inward});
     if (kinds.round) {
       try_round();
       return std::move(best_);
@@ -386,7 +391,7 @@ class ObstacleSearch {
   /// Adds the obstacle that explains most, and returns what is left, N^2.
   double add(ObstacleFit& fit, const Kinds& kinds, double left) const {
     const std::vector<glm::dvec2> rest = fit.rest(places_, even_);
-    const Candidate next = NextObstacle(*ways_, places_, rest).found(kinds);
+    const Candidate next = NextObstacle(*ways_, places_, rest).found(kinds, fit.found.walls);
     if (!(next.explained > 0)) return left;
     for (const Wall& each : next.one.walls) fit.found.walls.push_back(each);
     for (const StaticStep& each : next.one.steps) fit.found.steps.push_back(each);
@@ -417,6 +422,8 @@ class ObstacleSearch {
     const std::vector<glm::dvec2> places = some_of(whole_.places, places_fitted_at),
                                   forces = some_of(forces_, places_fitted_at);
     fit.improve(places, forces, steps_at_places);
+    // How much is left tells two walls from a curve.
+    if (bends_twice(fit.found)) fit.improve(places, forces, steps_at_places);
     if (!fit.found.steps.empty()) {
       ObstacleFit sharp = fit;
       for (StaticStep& each : sharp.found.steps) each.width = 0;
