@@ -17,6 +17,7 @@
 #include "compiler/measure/rehearsal.hpp"
 #include "compiler/read/cues.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/tolerances.hpp"
 #include "compiler/text/readable.hpp"
 #include "runtime/machine/parallel.hpp"
 
@@ -156,14 +157,16 @@ void settle_largest(Description& description, const Bank& bank, const ForceReadi
   found.newton = std::max(found.newton, static_cast<double>(most));
 }
 
-/// A face cannot be stiffer than the steepest slope of the force, which is exact; a face is fitted to samples.
+/// The steepest slope of the force is exact, and a face is fitted to samples: beyond the slope by no more than a reading's
+/// error, it is that slope. Where memory or time play a part, the slope is another one, and the face stays as it is read.
 void settle_stiffness(Description& description) {
   const Grade& grade = description.grade;
   if (!description.wall || grade.jumps || grade.standing == Standing::not_analysed) return;
-  double& stiffness = description.wall->face.stiffness;
-  stiffness = std::min(stiffness, grade.stiffness);
-  for (Description::Wall& each : description.more_walls)
-    each.face.stiffness = std::min(each.face.stiffness, grade.stiffness);
+  const auto settle = [&](double& stiffness) {
+    if (stiffness <= (1 + reading) * grade.stiffness) stiffness = std::min(stiffness, grade.stiffness);
+  };
+  settle(description.wall->face.stiffness);
+  for (Description::Wall& each : description.more_walls) settle(each.face.stiffness);
 }
 
 /// The force, the stability of the loop, and the percepts and the texture that the force shows.
@@ -208,6 +211,7 @@ void describe_shaking(Description& description, const Bank& bank, const Declarat
   description.shaking = measure_shaking(bank, declarations.hands.find("normal"));
   description.percepts = recorded_percepts(bank, {}, declarations);
   description.fates = fates_at(bank, {}, declarations);
+  settle_stiffness(description);
   if (description.percepts.empty()) description.no_percept = "it does not shake the device";
 }
 

@@ -31,6 +31,12 @@ FittedWaves::FittedWaves(const StillForces& whole, const std::vector<Feature>& f
   update_rest();
   found_.trend = linear_force(whole.places, found_.rest);
   update_rest();
+  // Where a feature jumps nothing was left, and now nothing but what the line has there.
+  for (int turn = 0; turn < 2 && !features.empty(); ++turn) {
+    const LinearForce more = linear_force(whole.places, found_.rest);
+    found_.trend.mean += more.mean, found_.trend.by_x += more.by_x, found_.trend.by_y += more.by_y;
+    update_rest();
+  }
   all_ = mean_square(found_.rest);
 }
 
@@ -233,6 +239,24 @@ void FittedWaves::fit_trend(StillForces& rest) {
   for (std::size_t i = 0; i < forces.size(); ++i) rest.forces[i] += more.at(rest.places[i]);
 }
 
+void FittedWaves::settle_trend() {
+  if (found_.waves.empty() || found_.lattice) return;
+  StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_together));
+  some.forces = rest_at(some.places, std::move(some.forces));
+  std::vector<glm::dvec2> waves;
+  for (const FoundWave& each : found_.waves) {
+    add_wave(each.wave, 1, some);
+    for (const std::size_t part : each.parts) waves.push_back(static_cast<double>(part) * each.wave.waves);
+  }
+  for (std::size_t i = 0; i < some.places.size(); ++i) some.forces[i] += found_.trend.at(some.places[i]);
+  const FoundWaves before = found_;
+  const double left = mean_square(found_.rest);
+  found_.trend = line_beside_waves(some.places, some.forces, waves, whole_.size);
+  update_rest();
+  for (FoundWave& each : found_.waves) fold_anew(each, each.wave.waves, each.wave.profile.size());
+  if (!(mean_square(found_.rest) < left)) found_ = before;
+}
+
 bool FittedWaves::is_slow(glm::dvec2 waves) const { return glm::length(waves * whole_.size) < slow_periods; }
 
 void FittedWaves::keep_local(const StillForces& window, const std::vector<glm::dvec2>& forces,
@@ -272,6 +296,7 @@ FoundWaves FittedWaves::finished() {
   if (found_.local) return std::move(found_);
   drop_parts_that_are_gone();
   settle_shared_harmonics();
+  settle_trend();
   for (FoundWave& each : found_.waves) tell_carrier(each);
   const double rest = mean_square(found_.rest);
   double waves = 0;

@@ -43,6 +43,8 @@ class FittedWaves {
 
   /// The linear part of what the waves leave. Slow waves are fitted with it: a few periods look a little like a slope.
   void fit_trend(StillForces& rest);
+  /// The linear part beside all waves at once, so that it holds nothing of their incomplete periods, if that is better.
+  void settle_trend();
   /// Fits the trend and all waves, the last of which is new, in turn: at few places, at more, then once at all.
   void fit_together(bool slow);
 

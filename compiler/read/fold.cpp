@@ -103,8 +103,11 @@ double explained_by(std::span<const glm::dvec2> places, std::span<const glm::dve
 FoldedWave folded(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 waves,
                   std::size_t count) {
   const Bins bins = bins_of(places, forces, waves, count);
-  FoldedWave wave{waves, std::vector<glm::dvec2>(count), bins.mean(), bins.explained()};
-  for (std::size_t i = 0; i < count; ++i) wave.profile[i] = bins.mean(i) - wave.mean;
+  FoldedWave wave{waves, std::vector<glm::dvec2>(count), glm::dvec2(0), bins.explained()};
+  // An incomplete period has a mean over the places, which is none of the wave's.
+  for (std::size_t i = 0; i < count; ++i)
+    wave.profile[i] = bins.mean(i), wave.mean += wave.profile[i] / static_cast<double>(count);
+  for (glm::dvec2& each : wave.profile) each -= wave.mean;
   return wave;
 }
 

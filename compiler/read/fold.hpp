@@ -12,7 +12,7 @@ namespace wale {
 struct FoldedWave {
   glm::dvec2 waves{0};              ///< periods over a metre along x and y
   std::vector<glm::dvec2> profile;  ///< N: the force over one period, at the middles of equal parts, without its mean
-  glm::dvec2 mean{0};               ///< N: of the forces that it was found in
+  glm::dvec2 mean{0};               ///< N: over one period, of the forces that it was found in
   /// 0 .. 1: the share of the mean square of the forces it was found in, beyond what as many free numbers explain by
   /// chance
   double explained = 0;

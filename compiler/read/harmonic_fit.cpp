@@ -179,4 +179,11 @@ HarmonicFit fit_harmonics(std::span<const glm::dvec2> places, std::span<const gl
   return found;
 }
 
+LinearForce line_beside_waves(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+                              std::span<const glm::dvec2> waves, glm::dvec2 size) {
+  HarmonicFitter all(places, forces, waves, size, static_cast<int>(harmonics_beside));
+  all.fit(waves);
+  return all.line();
+}
+
 }  // namespace wale

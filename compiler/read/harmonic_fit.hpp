@@ -24,4 +24,9 @@ struct HarmonicFit {
 HarmonicFit fit_harmonics(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
                           std::span<const glm::dvec2> waves, glm::dvec2 size, std::size_t bins);
 
+/// The line that fits forces best together with waves, where these are, of a few harmonics each. Unlike a line that is
+/// fitted to what the waves leave, it holds nothing of their incomplete periods.
+LinearForce line_beside_waves(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+                              std::span<const glm::dvec2> waves, glm::dvec2 size);
+
 }  // namespace wale

@@ -28,13 +28,15 @@ constexpr double most_noise = 0.2;                       // of what a line leave
 constexpr double least_beside = 0.012;                   // of the places, on either side of an obstacle
 constexpr double least_push_of_wall = 0.02;              // N, at its deepest
 constexpr double mended = 0.2;                           // of a wall's stiffness
-constexpr double alike_ways = 0.94;                      // cosine: two walls that stand so are a curve
+constexpr double alike_ways = 0.94;                      // cosine: two walls that stand so may be a curve ...
+constexpr double left_by_a_curve = 1e-5;                 // ... which leaves more than this of what a line leaves ...
+constexpr double hidden_curve = 1e-4;                    // ... unless there is so much noise
+constexpr double alone = 0.12, nearly_alone = 0.1;        // of what is left: explained by one more, and left by it then
 constexpr double less_than_others = 0.9;                 // of what other kinds leave
 constexpr double widest_step = 5e-3;                     // m
 constexpr double apart_at_least = 4e-3;                  // m between two steps
 constexpr double opposed_ways = -0.9;                    // cosine
 constexpr std::size_t places_fitted_at = 6400;
-constexpr std::size_t profile_values = 1024;
 constexpr std::size_t every_bend = 6;        // that is tried, before it is fitted
 constexpr double first_width = 1.5e-3;       // m: of a step, before it is fitted
 constexpr double first_period_share = 0.25;  // of half the patch: between the centres that are tried for round walls
@@ -73,14 +75,16 @@ class SortedWays {
   explicit SortedWays(std::span<const glm::dvec2> places) {
     for (std::size_t i = 0; i < ways_.size(); ++i) {
       const double angle = static_cast<double>(i) * std::numbers::pi / ways_tried;
-      Way& way = ways_[i];
-      way.along = {std::cos(angle), std::sin(angle)};
-      for (std::size_t k = 0; k < places.size(); ++k) way.order.emplace_back(glm::dot(places[k], way.along), k);
-      std::ranges::sort(way.order);
+      ways_[i] = Way(places, {std::cos(angle), std::sin(angle)});
     }
   }
 
   struct Way {
+    Way() = default;
+    Way(std::span<const glm::dvec2> places, glm::dvec2 way) : along(way) {
+      for (std::size_t k = 0; k < places.size(); ++k) order.emplace_back(glm::dot(places[k], along), k);
+      std::ranges::sort(order);
+    }
     glm::dvec2 along{0};
     std::vector<std::pair<double, std::size_t>> order;  // m along it, and which place
   };
@@ -98,7 +102,10 @@ class NextObstacle {
     for (const glm::dvec2& place : places) half_ = glm::max(half_, glm::abs(place));
   }
 
-  Candidate found(const Kinds& kinds) {
+  /// A wall often faces as another one does, between the ways that are tried.
+  Candidate found(const Kinds& kinds, const std::vector<Wall>& beside = {}) {
+    for (const Wall& each : beside)
+      if (kinds.straight && !each.round()) try_straight({places_, each.inward});
     if (kinds.round) {
       try_round();
       return std::move(best_);
@@ -207,6 +214,14 @@ void join_preloads(Obstacles& found) {
   }
 }
 
+/// Whether a profile bends twice the same way: two walls that face alike, or a curve.
+bool bends_twice(const Obstacles& found) {
+  for (std::size_t i = 0; i < found.walls.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (glm::dot(found.walls[i].inward, found.walls[k].inward) > alike_ways) return true;
+  return false;
+}
+
 /// Whether walls and steps are such as stand in a patch: none that is hardly there, no two in the same place.
 bool is_sound(const ObstacleFit& fit, std::span<const glm::dvec2> places) {
   const auto count = static_cast<double>(places.size());
@@ -230,8 +245,10 @@ bool is_sound(const ObstacleFit& fit, std::span<const glm::dvec2> places) {
       const Wall& other = walls[k];
       if (wall.round() || other.round()) return false;
       const double cosine = glm::dot(wall.inward, other.inward);
-      // A profile that bends twice the same way is a curve, and one with two overlapping walls is a spring that ends.
-      if (cosine > alike_ways || (cosine < opposed_ways && wall.offset + other.offset < 0)) return false;
+      // One wall that bends a little, and a spring that ends.
+      if ((cosine > alike_ways && std::abs(wall.offset - other.offset) < apart_at_least) ||
+          (cosine < opposed_ways && wall.offset + other.offset < 0))
+        return false;
     }
   }
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -301,12 +318,39 @@ class ObstacleSearch {
   bool is_bent() const { return by_line_ >= least_force * least_force; }
   double by_line() const { return by_line_; }
 
-  /// Whether these explain all.
-  bool explained_by(const Obstacles& found) const {
+  /// Whether what a model leaves is no more than a texture.
+  bool explains(const ObstacleFit& fit) const { return unexplained(fit) <= left_unexplained * by_line_; }
+
+  /// A wall, and the even force beside it.
+  ObstacleFit beside(const Wall& wall) const {
     ObstacleFit fit;
-    fit.found = found;
+    fit.found.walls.push_back(wall);
     fit.even = linear_force(whole_.places, fit.rest(whole_.places, forces_));
-    return explains(fit);
+    return fit;
+  }
+
+  /// Obstacles and more of them. What a small one adds beside a large one is little of what a line leaves, so it is
+  /// looked for by itself in what is left.
+  ObstacleFit with_more(ObstacleFit fit) {
+    while (fit.found.walls.size() + fit.found.steps.size() < most_obstacles) {
+      const double left = unexplained(fit);
+      if (left < least_force * least_force) break;
+      if (!ways_) ways_.emplace(places_);
+      const std::vector<glm::dvec2> rest = fit.rest(places_, even_);
+      std::optional<ObstacleFit> best;
+      double least = nearly_alone * left;
+      for (const Kinds& kinds : {Kinds{.steps = true}, Kinds{.straight = true}}) {
+        if (NextObstacle(*ways_, places_, rest).found(kinds).explained < alone * mean_square(rest)) continue;
+        ObstacleFit more = fit;
+        add(more, kinds, left);
+        auto all = accepted(std::move(more));
+        const double here = all ? unexplained(*all) : HUGE_VAL;
+        if (here < least) least = std::max(here, 0.0), best = std::move(all);
+      }
+      if (!best) break;
+      fit = *std::move(best);
+    }
+    return fit;
   }
 
   std::optional<ObstacleFit> found(const Kinds& kinds) {
@@ -347,7 +391,7 @@ class ObstacleSearch {
   /// Adds the obstacle that explains most, and returns what is left, N^2.
   double add(ObstacleFit& fit, const Kinds& kinds, double left) const {
     const std::vector<glm::dvec2> rest = fit.rest(places_, even_);
-    const Candidate next = NextObstacle(*ways_, places_, rest).found(kinds);
+    const Candidate next = NextObstacle(*ways_, places_, rest).found(kinds, fit.found.walls);
     if (!(next.explained > 0)) return left;
     for (const Wall& each : next.one.walls) fit.found.walls.push_back(each);
     for (const StaticStep& each : next.one.steps) fit.found.steps.push_back(each);
@@ -378,6 +422,8 @@ class ObstacleSearch {
     const std::vector<glm::dvec2> places = some_of(whole_.places, places_fitted_at),
                                   forces = some_of(forces_, places_fitted_at);
     fit.improve(places, forces, steps_at_places);
+    // How much is left tells two walls from a curve.
+    if (bends_twice(fit.found)) fit.improve(places, forces, steps_at_places);
     if (!fit.found.steps.empty()) {
       ObstacleFit sharp = fit;
       for (StaticStep& each : sharp.found.steps) each.width = 0;
@@ -386,16 +432,17 @@ class ObstacleSearch {
       if (mean_square(sharp.rest(places, forces)) < mean_square(fit.rest(places, forces))) fit = std::move(sharp);
     }
     if (!explains(fit) || !is_sound(fit, whole_.places) || !fit.fills_its_circles(whole_.places, forces_)) return {};
+    if (bends_twice(fit.found) && unexplained(fit, hidden_curve) > left_by_a_curve * by_line_) return {};
     return fit;
   }
 
-  /// Whether what a model leaves is no more than a texture.
-  bool explains(const ObstacleFit& fit) const {
+  /// N^2: what a model leaves beyond a texture's noise, which counts up to some share of what a line leaves.
+  double unexplained(const ObstacleFit& fit, double noise_at_most = most_noise) const {
     // At the places themselves: a mean over a cell that a step crosses is neither force.
     const std::vector<glm::dvec2> fine = fit.rest(whole_.places, forces_), rest = cell_means(whole_.side, fine);
     const double within = (mean_square(fine) - mean_square(rest)) / places_a_mean;
-    const double noise = std::min({noise_of(rest), coarser_noise * within, most_noise * by_line_});
-    return mean_square(rest) <= left_unexplained * by_line_ + times_noise * noise;
+    const double noise = std::min({noise_of(rest), coarser_noise * within, noise_at_most * by_line_});
+    return mean_square(rest) - times_noise * noise;
   }
 
   const StillForces& whole_;
@@ -413,18 +460,21 @@ std::optional<Obstacles> find_obstacles(const StillForces& whole, std::span<cons
   if (!search.is_bent() || !search.is_even_between_bends()) return std::nullopt;
   const auto face =
       find_half_plane(cell_means(whole.side, whole.places), cell_means(whole.side, forces), whole.places, forces);
-  if (face && search.explained_by({{wall_of(*face)}, {}})) return Obstacles{{wall_of(*face)}, {}};
   // What explains all but rounding is it; a texture leaves more, and then what leaves least.
   std::optional<ObstacleFit> best;
   double least = HUGE_VAL;
+  if (face) {
+    ObstacleFit fit = search.with_more(search.beside(wall_of(*face)));
+    if (search.explains(fit)) return std::move(fit.found);
+  }
   for (const Kinds& kinds : all_kinds) {
     auto fit = search.found(kinds);
     if (!fit) continue;
     const double left = mean_square(fit->rest(whole.places, forces));
-    if (left < all_explained * search.by_line()) return fit->found;
+    if (left < all_explained * search.by_line()) return search.with_more(*std::move(fit)).found;
     if (left < less_than_others * least) least = left, best = std::move(fit);
   }
-  if (best) return best->found;
+  if (best) return search.with_more(*std::move(best)).found;
   return face ? std::optional(Obstacles{{wall_of(*face)}, {}}) : std::nullopt;
 }
 
@@ -440,60 +490,6 @@ Obstacles fitted_beside(const Obstacles& found, std::span<const SlowWave> waves,
   fit.even = linear_force(some_places, fit.rest(some_places, some));
   fit.improve(some_places, some, 10);
   return is_sound(fit, places) ? fit.found : found;
-}
-
-namespace {
-
-Feature feature_of(const Wall& wall, std::span<const glm::dvec2> places) {
-  Feature feature{.radial = wall.round(), .origin = wall.centre, .direction = wall.inward};
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const glm::dvec2& place : places) {
-    const double at = feature.coordinate(place);
-    low = std::min(low, at), high = std::max(high, at);
-  }
-  feature.step = (high - low) / static_cast<double>(profile_values);
-  // One of the profile's places is where the wall begins; a jump is in the middle between two.
-  const auto before = static_cast<std::size_t>(std::max(1.0, std::ceil((wall.offset - low) / feature.step)));
-  const double begins = static_cast<double>(before) + (wall.preload != 0 ? 0.5 : 0);
-  if (wall.preload != 0) feature.jump = wall.offset;
-  feature.low = wall.offset - begins * feature.step;
-  for (std::size_t i = 0; feature.low + feature.step * (static_cast<double>(i) - 1) < high || i < before + 2; ++i) {
-    const double beyond = feature.step * (static_cast<double>(i) - begins);
-    const double deep = wall.fills ? -beyond : beyond;
-    const double push = deep > 0 ? wall.preload + wall.stiffness * deep : 0;
-    // Outward from a round wall's centre.
-    feature.profile.push_back(wall.round() ? glm::dvec2(wall.fills ? push : -push, 0) : -push * wall.inward);
-  }
-  for (const glm::dvec2& force : feature.profile) feature.range = std::max(feature.range, glm::length(force));
-  feature.monotone = true;
-  return feature;
-}
-
-Feature feature_of(const StaticStep& step, std::span<const glm::dvec2> places) {
-  Feature feature{.direction = step.way};
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const glm::dvec2& place : places) {
-    const double at = feature.coordinate(place);
-    low = std::min(low, at), high = std::max(high, at);
-  }
-  feature.step = (high - low) / static_cast<double>(profile_values);
-  // The jump is in the middle between two of the profile's places.
-  const auto before = std::ceil((step.offset - low) / feature.step);
-  feature.low = step.offset - (before + 0.5) * feature.step;
-  for (double at = feature.low; at < high + feature.step; at += feature.step)
-    feature.profile.push_back(StaticStep{{1, 0}, step.offset, step.width, step.change}.at({at, 0}));
-  feature.range = glm::length(step.change);
-  feature.monotone = true;
-  return feature;
-}
-
-}  // namespace
-
-std::vector<Feature> features_of(const Obstacles& found, std::span<const glm::dvec2> places) {
-  std::vector<Feature> features;
-  for (const Wall& each : found.walls) features.push_back(feature_of(each, places));
-  for (const StaticStep& each : found.steps) features.push_back(feature_of(each, places));
-  return features;
 }
 
 }  // namespace wale

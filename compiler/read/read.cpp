@@ -15,6 +15,7 @@
 #include "compiler/read/breakaway.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/room.hpp"
+#include "compiler/read/sharp_step.hpp"
 #include "compiler/read/slow_sway.hpp"
 #include "compiler/read/still_forces.hpp"
 #include "compiler/read/strokes.hpp"
@@ -62,17 +63,45 @@ double even_stiffness(const StaticForce& still, PatchSize patch) {
   return static_cast<double>(near) >= mostly * places_a_side * places_a_side ? stiffness : 0;
 }
 
+/// N: with how much a wall pushes at most beside a part of the force that is limited: infinite if that part is the
+/// spring, which then gives less than its law deep in the wall.
+double most_of_wall(const Bank& bank, const StaticForce& still, const Wall& wall) {
+  if (!(still.cut_at > 0)) return HUGE_VAL;
+  if (!still.part_is_cut) return still.cut_at;
+  constexpr std::size_t count = 24;
+  const WallFace face = wall_face(bank, wall);
+  const double depth = deepest(bank, face).depth;
+  std::vector<glm::dvec2> places;
+  for (std::size_t i = 0; i < count; ++i)
+    places.push_back(face.place + depth * (static_cast<double>(i) + 0.5) / count * face.inward);
+  const std::vector<glm::dvec2> felt = forces_at(bank, places);
+  const auto cut = [&](glm::dvec2 force) {
+    const double size = glm::length(force);
+    return size > still.cut_at ? still.cut_at / size * force : force;
+  };
+  const ForceLimit limit = limit_of(bank);
+  double off_if_wall = 0, off_if_spring = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec2 push = still.trend.mean, even = still.trend.at(places[i]) - push, pushed = wall.at(places[i]);
+    const glm::dvec2 if_wall = felt[i] - limit.cut(push + even + cut(pushed)),
+                     if_spring = felt[i] - limit.cut(push + cut(even) + pushed);
+    off_if_wall += glm::dot(if_wall, if_wall), off_if_spring += glm::dot(if_spring, if_spring);
+  }
+  return off_if_wall < off_if_spring ? still.cut_at : HUGE_VAL;
+}
+
 /// The walls and steps that were found in the static force. A face bends that, unless the program has memory and
 /// yielded to the hands that were placed behind the face.
 void tell_obstacles(const Bank& bank, ForceReading& found) {
   Obstacles& obstacles = found.still.obstacles;
   std::erase_if(obstacles.walls, [&](const Wall& each) { return !pushes_back(bank, wall_face(bank, each)); });
+  for (StaticStep& each : obstacles.steps) sharpen(bank, each);
   found.steps = obstacles.steps;
   std::ranges::stable_sort(found.steps, std::greater(),
                            [](const StaticStep& each) { return glm::length(each.change); });
   std::vector<WallFace> walls;
-  const double most = found.still.cut_at > 0 ? found.still.cut_at : HUGE_VAL;
-  for (const Wall& each : obstacles.walls) walls.push_back(wall_face(bank, each, most));
+  for (const Wall& each : obstacles.walls)
+    walls.push_back(wall_face(bank, each, most_of_wall(bank, found.still, each)));
   std::ranges::stable_sort(walls, std::greater(), &WallFace::stiffness);
   if (!walls.empty()) {
     found.wall = walls.front();
@@ -262,12 +291,12 @@ AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& f
   return off;
 }
 
-/// A relief beside a trend that is fitted awry, or that the device cuts, may seem larger than all that pushes.
-void limit_relief(StaticForce& still, double most) {
-  constexpr double plainly_more = 1.06;
+/// Makes a relief no larger than all that pushes, N, times a tolerance: beside a trend that is fitted awry, or that the
+/// device cuts, it may seem so.
+void limit_relief(StaticForce& still, double most, double times) {
   Relief& relief = still.relief;
   const double largest = std::min(still.largest, std::numbers::sqrt2 * most);
-  if (relief.amplitude <= plainly_more * largest) return;
+  if (relief.amplitude <= times * largest) return;
   const double share = largest / relief.amplitude;
   // What fills less than a hundredth of the patch is in none of these, and keeps its maximum.
   for (double* each : {&relief.amplitude, &relief.rms, &relief.mean}) *each *= share;
@@ -287,7 +316,11 @@ double ForceReading::stepped() const {
   return sum;
 }
 
-double ForceReading::cut_spring() const { return !wall && stiffness >= least_stiffness ? still.cut_at : 0; }
+double ForceReading::cut_spring() const {
+  // Beside a wall, either is what is cut.
+  const bool wall_is_cut = wall && !(still.part_is_cut && wall->most == HUGE_VAL);
+  return !wall_is_cut && stiffness >= least_stiffness ? still.cut_at : 0;
+}
 
 double ForceReading::held_drag(double speed) const { return held ? held->opposing.at(speed) - opposing.at(speed) : 0; }
 
@@ -364,11 +397,16 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
     tell_held_button(bank, found);
     return found;
   }
-  limit_relief(found.still, bank.program().description().device.most());
+  // A relief may be a little larger than itself and a push against it together.
+  constexpr double beside_a_trend = 1.06;
+  const double most = bank.program().description().device.most();
+  limit_relief(found.still, most, beside_a_trend);
   found.at_first = glm::length(at_first.force);
   tell_obstacles(bank, found);
   if (found.wall) found.wall_push = deepest(bank, *found.wall).newton;
   tell_trend(bank, found, at_first);
+  const bool alone = found.still.features.empty() && found.constant == glm::dvec2(0) && found.stiffness == 0;
+  if (alone) limit_relief(found.still, most, 1);
   LinearForce even = found.still.trend;
   even.mean -= at_first.force;
   const glm::dvec2 half = half_of(bank);

@@ -49,22 +49,24 @@ class ReliefReader {
   const StillForces& whole() const { return whole_; }
 
   /// Reads a law whose trends are cut off at some size (N), while all else beside them is felt; `felt` are the forces
-  /// at the same places. Nothing if more than trends is cut off.
-  std::optional<StaticForce> read_beside_cut(const std::vector<glm::dvec2>& felt, double cut_at) {
+  /// at the same places, and `asked` the same without a device's limit. Nothing if more than trends is cut off.
+  std::optional<StaticForce> read_beside_cut(const std::vector<glm::dvec2>& felt, const std::vector<glm::dvec2>& asked,
+                                             double cut_at) {
     whole_felt_ = &felt;
     StaticForce found = read();
     double cut = 0, other = 0, cut_squares = 0, other_squares = 0;
     for (std::size_t i = 0; i < relief_.size(); ++i) {
-      const bool is_cut = glm::length(whole_.forces[i] - felt[i]) > least_force;
+      const bool is_cut = glm::length(whole_.forces[i] - asked[i]) > least_force;
       (is_cut ? cut : other) += 1, (is_cut ? cut_squares : other_squares) += glm::dot(relief_[i], relief_[i]);
     }
     // A texture that is cut off is strongest there.
     constexpr double much_stronger = 1.5;
     const double little_force = 0.5 * least_force;
     const double usual = other > 0 ? std::max(other_squares / other, little_force * little_force) : 0;
-    if (cut == 0 || (cut_squares / cut > much_stronger * usual && found.relief.amplitude >= least_force))
+    if (cut == 0 || (cut_squares / cut > much_stronger * usual && found.relief.amplitude >= least_force &&
+                     !is_even_where_cut(asked, cut_at)))
       return std::nullopt;
-    found.cut_off = true, found.cut_at = cut_at;
+    found.cut_off = found.part_is_cut = true, found.cut_at = cut_at;
     return found;
   }
 
@@ -100,6 +102,22 @@ class ReliefReader {
   }
 
  private:
+  /// Whether the part that is cut off at some size (N) changes evenly with the place, so that the relief is none of it.
+  /// By what is cut off, where something is, its size and its direction are known.
+  bool is_even_where_cut(const std::vector<glm::dvec2>& asked, double cut_at) const {
+    constexpr double little_of_relief = 0.1;  // of its mean square
+    std::vector<glm::dvec2> places, part, relief;
+    for (std::size_t i = 0; i < relief_.size(); ++i) {
+      const glm::dvec2 off = whole_.forces[i] - asked[i];
+      const double size = glm::length(off);
+      if (size <= least_force) continue;
+      places.push_back(whole_.places[i]), part.push_back((size + cut_at) / size * off), relief.push_back(relief_[i]);
+    }
+    const LinearForce line = linear_force(places, part);
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] -= line.at(places[i]);
+    return mean_square(part) < little_of_relief * mean_square(relief);
+  }
+
   /// The forces without waves: trends, features, noise.
   std::vector<glm::dvec2> without_waves() const {
     std::vector<glm::dvec2> forces = waves_.rest;
@@ -323,8 +341,10 @@ StillField field_of(const Unlimited& law) {
 }
 
 /// The force with the laws of its parts that the author limits: each is told as it is where it is not cut, and what is
-/// beside it as it is felt. Nothing if no law is cut. `felt` is the force itself.
-std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillForces& felt) {
+/// beside it as it is felt. Nothing if no law is cut. `felt` is the force itself, `asked` the same without the device's
+/// limit.
+std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillForces& felt,
+                                                const std::vector<glm::dvec2>& asked) {
   constexpr std::size_t every = 23;         // of the places
   constexpr double least_cut_part = 0.025;  // of those: the 99th percentile of a texture cuts a hundredth
   std::vector<PartLimit> cut;
@@ -337,7 +357,7 @@ std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillFor
     const std::vector<glm::dvec2> forces = field_of(*law)(places);
     std::size_t differ = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
-      differ += glm::length(forces[i] - felt.forces[i * every]) > 0.5 * least_force ? 1 : 0;
+      differ += glm::length(forces[i] - asked[i * every]) > 0.5 * least_force ? 1 : 0;
     if (static_cast<double>(differ) <= least_cut_part * static_cast<double>(places.size())) continue;
     cut.push_back(part), cut_at = std::max(cut_at, part.newton);
   }
@@ -347,7 +367,7 @@ std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillFor
   const StillField whole = field_of(*law);
   ReliefReader without(whole, bank.size());
   if (without.reaches(limit_of(bank) * law->scale)) return std::nullopt;
-  return without.read_beside_cut(felt.forces, cut_at);
+  return without.read_beside_cut(felt.forces, asked, cut_at);
 }
 
 }  // namespace
@@ -358,7 +378,7 @@ StaticForce static_force(const Bank& bank) {
     ReliefReader reader(field, bank.size());
     const ForceLimit limit = limit_of(bank);
     if (!reader.reaches(limit)) {
-      auto beside = beside_limited_parts(bank, reader.whole());
+      auto beside = beside_limited_parts(bank, reader.whole(), reader.whole().forces);
       return beside ? *std::move(beside) : reader.read();
     }
     for (const int times : {1, 2}) {
@@ -368,6 +388,7 @@ StaticForce static_force(const Bank& bank) {
       const StillField whole = field_of(*unlimited);
       ReliefReader without(whole, bank.size(), limit);
       if (times == 1 && without.reaches(limit * unlimited->scale)) continue;
+      if (auto beside = beside_limited_parts(bank, reader.whole(), without.whole().forces)) return *std::move(beside);
       StaticForce found = without.read();
       return found.cut_off ? found : reader.read();
     }

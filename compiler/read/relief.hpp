@@ -79,7 +79,8 @@ struct StaticForce {
   Obstacles obstacles;
   /// The device's limit, or the author's, cuts trends off. They are told as they are where it does not.
   bool cut_off = false;
-  double cut_at = 0;  ///< N: where a trend grows no more that is cut off; 0 if none is
+  bool part_is_cut = false;  ///< by a limit of a part of the force, beside others that it does not limit
+  double cut_at = 0;         ///< N: where a trend grows no more that is cut off; 0 if none is
   Relief relief;
 };
 
