@@ -211,7 +211,6 @@ void describe_shaking(Description& description, const Bank& bank, const Declarat
   description.shaking = measure_shaking(bank, declarations.hands.find("normal"));
   description.percepts = recorded_percepts(bank, {}, declarations);
   description.fates = fates_at(bank, {}, declarations);
-  settle_stiffness(description);
   if (description.percepts.empty()) description.no_percept = "it does not shake the device";
 }
 

@@ -13,15 +13,15 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t places_on_step = 15;     // along the step's line
-constexpr std::size_t fewest_on_step = 5;      // of them, at which it is seen to jump
-constexpr double looked_from = 0.75e-3;    // m beside the line, from where it is looked for at least
-constexpr double widths_away = 3;      // the same, of its width
-constexpr int times_halved = 14;           // from millimetres to a tenth of a micrometre
-constexpr double half_of_a_jump = 0.5e-6;      // m on either side, over which a jump happens
-constexpr double most_of_step = 0.7;         // of the step
-constexpr double off_its_line = 5e-6;  // m: the jump of something else
-constexpr double same_step = 0.25;         // of the size: otherwise it is another step
+constexpr std::size_t places_on_step = 15;  // along the step's line
+constexpr std::size_t fewest_on_step = 5;   // of them, at which it is seen to jump
+constexpr double looked_from = 0.75e-3;     // m beside the line, from where it is looked for at least
+constexpr double widths_away = 3;           // the same, of its width
+constexpr int times_halved = 14;            // from millimetres to a tenth of a micrometre
+constexpr double half_of_a_jump = 0.5e-6;   // m on either side, over which a jump happens
+constexpr double most_of_step = 0.7;        // of the step
+constexpr double off_its_line = 5e-6;       // m: the jump of something else
+constexpr double same_step = 0.25;          // of the size: otherwise it is another step
 
 /// A place where the force jumps.
 struct Jump {
@@ -31,7 +31,8 @@ struct Jump {
 
 /// The places of a line within the patch.
 std::vector<glm::dvec2> places_on_line(const Bank& bank, const StaticStep& step) {
-  const glm::dvec2 half = 0.5 * glm::dvec2(bank.size().width, bank.size().height) - static_cast<double>(bank.size().rim);
+  const glm::dvec2 half =
+      0.5 * glm::dvec2(bank.size().width, bank.size().height) - static_cast<double>(bank.size().rim);
   const glm::dvec2 middle = step.offset * step.way, along(-step.way.y, step.way.x);
   double low = -glm::length(half), high = glm::length(half);
   for (const int axis : {0, 1}) {
@@ -81,8 +82,8 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-/// The straight line through jumps, as their place across at no place along, and its slope. What is farthest off is left
-/// out until all others are on it; nothing if too few are.
+/// The straight line through jumps, as their place across at no place along, and its slope. What is farthest off is
+/// left out until all others are on it; nothing if too few are.
 std::optional<glm::dvec2> line_through_jumps(std::vector<Jump>& jumps) {
   while (jumps.size() >= fewest_on_step) {
     const auto count = static_cast<double>(jumps.size());
