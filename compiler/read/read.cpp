@@ -365,11 +365,14 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
     found.inertia = inertia(bank);
     const std::vector<std::vector<Force>> felt = felt_at_rest(bank);
     tell_swings(bank, felt, found.sway, found.vibration);
-    const auto parted =
-        found.vibration.amplitude < least_force ? parted_from_sway(bank, felt, found.sway) : std::nullopt;
+    auto parted = found.vibration.amplitude < least_force ? parted_from_sway(bank, felt, found.sway) : std::nullopt;
+    // Means over the few periods of a slow sway would tell it once more, as something that comes or goes.
+    const bool sways_alone = parted && parted->alone;
+    if (sways_alone) parted.reset();
     if (parted) found.sway.amplitude = parted->amplitude, found.sway.frequency = parted->frequency;
-    const SlowChange slow =
-        parted ? slow_change(bank, parted->left, {}, {}) : slow_change(bank, felt, found.sway, found.vibration);
+    const SlowChange slow = sways_alone ? SlowChange{}
+                            : parted    ? slow_change(bank, parted->left, {}, {})
+                                        : slow_change(bank, felt, found.sway, found.vibration);
     at_first = only_at_first(bank, felt, slow, found);
     if (parted) at_first.uncertain = std::max(at_first.uncertain, misfit_of_parting * parted->amplitude);
     found.other = other_force(bank, felt, slow, found.sway.amplitude + found.vibration.amplitude,

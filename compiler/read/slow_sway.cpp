@@ -139,7 +139,7 @@ std::optional<PartedSway> parted_from_sway(const Bank& bank, const std::vector<s
     most = std::max(most, range);
     if (fit.way > one_way_once * range + left_by_sway * found.amplitude) return std::nullopt;
   }
-  if (most < std::max(least_force, left_by_sway * found.amplitude)) return std::nullopt;
+  found.alone = most < std::max(least_force, left_by_sway * found.amplitude);
   return found;
 }
 

@@ -32,6 +32,7 @@ constexpr double no_swing = 1e-5;        // N
 constexpr double same_rate = 0.02;
 constexpr double plainly_less = 0.5;     // of the greatest, where it is least
 constexpr double beats_of_ticks = 0.05;  // of a vibration's power, below its band: the rate of the ticks is no multiple
+constexpr double uneven_in_time = 1.15;  // times the size under a window: it dies away or grows
 constexpr double pure = 0.995;           // of the power: a sine has as much in the lines around its own
 constexpr double missed = 1.2;           // most that the ticks of a sine may miss of its peak: at three a period, 1.155
 
@@ -56,21 +57,30 @@ std::vector<std::complex<float>> without_drift(const std::vector<Force>& forces)
 }
 
 /// N: the 99th percentile of the size of a changing force within some lines of its spectrum, as the amplitude of a
-/// relief is defined. `fade` is the window under which it was transformed.
-double size_within(const Spectrum& spectrum, const std::vector<float>& fade, std::size_t first, std::size_t end) {
+/// relief is defined. `fade` is the window under which it was transformed; near its ends, which are so much of the time
+/// on either side, it may leave too little.
+double size_within(const Spectrum& spectrum, const std::vector<float>& fade, std::size_t first, std::size_t end,
+                   double ends = 0.25) {
   const std::size_t count = spectrum.size();
   Spectrum within(count);
   // The transform back is that of the conjugate.
   for (std::size_t i = first; i < end; ++i)
     within[i] = std::conj(spectrum[i]), within[count - i] = std::conj(spectrum[count - i]);
   const Spectrum back = fourier_of_line(within);
-  // Near its ends the window leaves too little.
+  const auto left_out = static_cast<std::size_t>(ends * static_cast<double>(count));
   std::vector<float> sizes;
-  for (std::size_t i = count / 4; i < count - count / 4; ++i)
+  for (std::size_t i = left_out; i < count - left_out; ++i)
     sizes.push_back(std::abs(back[i]) / (fade[i] * static_cast<float>(count)));
   const auto rank = sizes.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size()));
   std::nth_element(sizes.begin(), rank, sizes.end());
   return *rank;
+}
+
+/// N: the same of all of a time in which a vibration dies away or grows, which a window would weigh by when it is
+/// strong. A vibration has many periods in it, so that its ends matter little.
+double size_in_all_of(const std::vector<std::complex<float>>& changes, std::size_t first) {
+  const Spectrum spectrum = fourier_of_line(changes);
+  return size_within(spectrum, std::vector<float>(changes.size(), 1.0f), first, changes.size() / 2 + 1, 0);
 }
 
 /// rad in [0, pi): the axis of the part of a force that some lines of its spectrum hold, if it has one.
@@ -245,6 +255,7 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
   const double share = std::sqrt(least / most);
   const double rate = bank.program().description().device.rate, seconds = ticks / rate;
   const std::vector<float> fade = hann_window(busiest.size());
+  const std::vector<std::complex<float>> unfaded = busiest;
   for (std::size_t i = 0; i < busiest.size(); ++i) busiest[i] *= fade[i];
   const Spectrum spectrum = fourier_of_line(busiest);
   // The transform of x + i y holds one of theirs in a coefficient and the other in its mirror image. Hann's window lets
@@ -292,6 +303,8 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
   const double peak = std::sqrt(2 * tone);
   if (tone >= pure * (slower + faster) && peak > vibration.amplitude && peak < missed * vibration.amplitude)
     vibration.amplitude = peak;
+  if (const double whole = size_in_all_of(unfaded, first_fast); whole > uneven_in_time * vibration.amplitude)
+    vibration.amplitude = std::min(whole, farthest_from_middle(*at_busiest));
   return share;
 }
 
