@@ -18,8 +18,7 @@ Error unread_thesis_workspace(const std::string& name) {
   return {.code = Code::damaged_file,
           .sentence = "expected an array, a wave, a movie or a shuffle, found other binary data, perhaps a workspace of the "
                       "thesis's Sandpaper (type TXPS); those are not read, since the sizes of their fields are not printed",
-          .mend = "lay its patches out anew; Sandpaper's `Save Text` shows what they are. An array whose size is wrong is named "
-                  "with `--as array`",
+          .mend = "lay its patches out anew; Sandpaper's `Save Text` shows what they are. If it is an array, its size is wrong",
           .place = {.name = name}};
 }
 

@@ -64,7 +64,7 @@ Result<ThesisInWale> surface_in_wale(const ThesisArray& surface, const ThesisSur
   if (const auto checked = positive("cell", options.cell, "a pixel of the thesis's screen is 0.37 mm"); !checked) return checked.error();
   if (surface.width < least_side || surface.height < least_side || surface.cells.size() > most_cells)
     return wrong_size(options, fmt::format("expected 4 by 4 to 2^24 cells for a relief, found {} by {}", surface.width, surface.height),
-                      "a wave (`--as wave`) may be narrower; a larger array can be cut");
+                      "a wave may be narrower; a larger array can be cut");
   if (shading && (shading->width != surface.width || shading->height != surface.height))
     return wrong_size(options, fmt::format("expected a shading of {} by {} cells as its surface, found {} by {}", surface.width,
                                            surface.height, shading->width, shading->height),
@@ -103,7 +103,7 @@ Result<ThesisInWale> wave_in_wale(const ThesisArray& wave, const ThesisSurfaceOp
   if (const auto checked = positive("period", options.period, "say how long a wave is: its file does not"); !checked) return checked.error();
   if (wave.width > longest_wave_side || wave.height > longest_wave_side)
     return wrong_size(options, fmt::format("expected at most {0} by {0} cells for a wave, found {1} by {2}", longest_wave_side, wave.width, wave.height),
-                      "bring it in as an array (`--as array`)");
+                      "take it as an array");
   const bool flat = is_flat(wave), alike = rows_are_alike(wave);
   ThesisInWale made{.name = options.name, .text = {}};
   // Rows and columns beyond the edges are those of the other side, so that the spline goes on smoothly.

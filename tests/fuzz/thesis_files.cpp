@@ -1,5 +1,6 @@
 // A libFuzzer target for the files of the thesis. Any bytes are refused with a reason and a mend, or make a value that is
 // written and read as the same value again. What it becomes in Wale is a text without errors.
+#include <algorithm>
 #include <cstdlib>
 #include <span>
 #include <string>
