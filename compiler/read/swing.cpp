@@ -303,8 +303,10 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
   const double peak = std::sqrt(2 * tone);
   if (tone >= pure * (slower + faster) && peak > vibration.amplitude && peak < missed * vibration.amplitude)
     vibration.amplitude = peak;
-  if (const double whole = size_in_all_of(unfaded, first_fast); whole > uneven_in_time * vibration.amplitude)
-    vibration.amplitude = std::min(whole, farthest_from_middle(*at_busiest));
+  // Without a window what sways or comes leaks into the faster lines.
+  if (alone && vibration.amplitude >= least_force)
+    if (const double whole = size_in_all_of(unfaded, first_fast); whole > uneven_in_time * vibration.amplitude)
+      vibration.amplitude = std::min(whole, farthest_from_middle(*at_busiest));
   return share;
 }
 

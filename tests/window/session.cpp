@@ -1,4 +1,5 @@
 // A session as a designer has one, through the real window.
+#include <QAccessible>
 #include <QSlider>
 #include <QSpinBox>
 
@@ -172,6 +173,28 @@ TEST_F(DrivenWindow, MarksOfASliderAreSaved) {
   ASSERT_TRUE(window->open(file));
   ASSERT_EQ(placed("board").patch.marks.size(), 1u);
   EXPECT_NEAR(*placed("board").patch.marks.front().mark.high, 1.5, 1e-6);
+}
+
+TEST_F(DrivenWindow, NumbersHideMaterialsFromAParticipantWhoListens) {
+  ASSERT_TRUE(window->open(write("kitchen.wale", kitchen)));
+  const auto told = [](Canvas& canvas) {
+    QString all;
+    QAccessibleInterface* list = QAccessible::queryAccessibleInterface(&canvas);
+    for (int i = 0; i < list->childCount(); ++i)
+      for (const auto kind : {QAccessible::Name, QAccessible::Value, QAccessible::Description})
+        all += list->child(i)->text(kind) + "\n";
+    return all;
+  };
+  EXPECT_TRUE(told(canvas()).contains("denim"));
+  trigger("random_numbers");
+  trigger("participant");
+  auto* participant = window->findChild<Canvas*>("participant");
+  ASSERT_TRUE(participant);
+  for (const char* each : {"denim", "ridges", "board", "cloth"})
+    EXPECT_FALSE(told(*participant).contains(each)) << told(*participant).toStdString();
+  QAccessibleInterface* list = QAccessible::queryAccessibleInterface(participant);
+  ASSERT_EQ(list->childCount(), 2);
+  EXPECT_TRUE(list->child(0)->actionInterface()->actionNames().isEmpty());  // nobody moves or deletes there
 }
 
 TEST_F(DrivenWindow, CommentsAndUnknownStatementsAreKept) {

@@ -158,6 +158,11 @@ QString Canvas::label_of(const Placed& placed) const {
   return look_.random_numbers ? QString::number(three_digits(placed.id)) : QString::fromStdString(placed.patch.name);
 }
 
+QString Canvas::told_of(const Placed& placed) const {
+  return look_.random_numbers ? label_of(placed)
+                              : tr("%1, made of %2").arg(label_of(placed), QString::fromStdString(placed.patch.made_of));
+}
+
 QImage Canvas::covered_part(const Placed& placed, QSize pixels) {
   pixels = pixels.expandedTo({1, 1}).boundedTo(QSize(largest_mask, largest_mask));
   const wale::Shape outline = placed.patch.outline.stretched(glm::vec2(size_of(placed)));

@@ -46,6 +46,7 @@ class Canvas : public QWidget {
   double snap() const { return snap_; }
   /// Only shows: nobody can move anything (the participant's window).
   void set_fixed(bool fixed) { fixed_ = fixed; }
+  bool is_fixed() const { return fixed_; }
 
   void zoom(double factor, std::optional<QPointF> about = {});
   void show_all();
@@ -60,6 +61,8 @@ class Canvas : public QWidget {
   const Placed* patch_at(glm::dvec2 metres) const;
   /// What a patch is called on the canvas.
   QString label_of(const Placed& placed) const;
+  /// The same, with what it is made of unless numbers hide that.
+  QString told_of(const Placed& placed) const;
   /// The patch under the hand, or with force off under the mouse.
   std::optional<std::uint64_t> touched() const { return touched_; }
   const wale::Now& now() const { return now_; }

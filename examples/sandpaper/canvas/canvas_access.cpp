@@ -33,10 +33,11 @@ class PatchAccess : public QAccessibleInterface, public QAccessibleActionInterfa
     const glm::dvec2 at = 1000.0 * patch->patch.at, size = 1000.0 * owner_.canvas().size_of(*patch);
     switch (kind) {
       case QAccessible::Name: return owner_.canvas().label_of(*patch);
-      case QAccessible::Value: return QString::fromStdString(patch->patch.made_of);
+      case QAccessible::Value:
+        return owner_.canvas().look().random_numbers ? QString() : QString::fromStdString(patch->patch.made_of);
       case QAccessible::Description:
-        return Canvas::tr("%1, made of %2, at %3, %4 mm, %5 by %6 mm%7")
-            .arg(owner_.canvas().label_of(*patch), QString::fromStdString(patch->patch.made_of))
+        return Canvas::tr("%1, at %2, %3 mm, %4 by %5 mm%6")
+            .arg(owner_.canvas().told_of(*patch))
             .arg(at.x, 0, 'f', 1).arg(at.y, 0, 'f', 1).arg(size.x, 0, 'f', 1).arg(size.y, 0, 'f', 1)
             .arg(patch->locked ? Canvas::tr(", locked") : QString());
       default: return {};
@@ -78,6 +79,7 @@ class PatchAccess : public QAccessibleInterface, public QAccessibleActionInterfa
   const Placed* placed() const { return owner_.document().contents().find(id_); }
 
   std::vector<std::pair<QString, std::function<void()>>> actions() const {
+    if (owner_.canvas().is_fixed()) return {};  // the participant's window only shows
     Document& document = owner_.document();
     const auto move = [&document, id = id_](glm::dvec2 by) {
       document.change_placed(Canvas::tr("Move"), {id}, [by](Placed& placed) {

@@ -247,8 +247,7 @@ void MainWindow::make_feel_menu() {
   add(menu, "say_touched", tr("&Say what is touched"), tr("Ctrl+T"), [this] {
     const auto touched = canvas_->touched();
     const Placed* placed = touched ? document_.contents().find(*touched) : nullptr;
-    const QString words = placed ? tr("%1, made of %2").arg(canvas_->label_of(*placed), QString::fromStdString(placed->patch.made_of))
-                                 : tr("nothing is touched");
+    const QString words = placed ? canvas_->told_of(*placed) : tr("nothing is touched");
     announcement_->say(words);
     QProcess::startDetached("spd-say", {words});  // if there is a speech dispatcher
   });
