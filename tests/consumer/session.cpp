@@ -9,7 +9,7 @@ int main() {
   const std::string path = "consumer.session";
   std::remove(path.c_str());
   {
-    auto log = wale::SessionLog::create(path, {.participant = "S48", .seed = 7});
+    auto log = wale::SessionLog::create(path, {.participant = "S48", .seed = 7, .device = "sandpaper", .file = {}, .versions = {}});
     EXPECT(log.has_value());
     const auto answer = log->append(wale::SessionAnswer{"pile", "board", "2"});
     EXPECT(answer.has_value() && *answer == 2);
