@@ -11,6 +11,7 @@
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/fourier.hpp"
 #include "compiler/read/slow_change.hpp"
+#include "compiler/read/swing_course.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
 #include "wale/batch.hpp"
@@ -297,6 +298,36 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
 
 }  // namespace
 
+namespace {
+
+/// Tells of a swing that dies away or grows how it does so, its size over all of the time, and its rate while it is
+/// there. A sway is one only if it was found; a vibration may be over too soon for that.
+void tell_course(const Bank& bank, const std::vector<std::vector<Force>>& felt, bool fast, Swing& swing) {
+  if (swing.noise || (!fast && !(swing.frequency > 0))) return;
+  const auto changing = [](const std::vector<Force>& forces) {
+    double squares = 0;
+    glm::dvec2 mean{0};
+    for (const Force& force : forces) mean += glm::dvec2(force) / static_cast<double>(forces.size());
+    for (const Force& force : forces) squares += glm::dot(glm::dvec2(force) - mean, glm::dvec2(force) - mean);
+    return squares;
+  };
+  if (felt.empty()) return;
+  const auto busiest = std::ranges::max_element(felt, {}, changing);
+  const double rate = bank.program().description().device.rate;
+  const double slowest = fast ? slowest_vibration : 0;
+  const auto unsteady =
+      unsteady_swing(without_drift(*busiest), rate, slowest, fast ? 0.5 * rate : slowest_vibration);
+  if (!unsteady || unsteady->course.greatest < least_force) return;
+  Swing even, other;
+  if (!unsteady->even.empty())
+    tell_greatest_swings(bank, {unsteady->even}, fast ? other : even, fast ? even : other);
+  if (even.noise || (!(even.frequency > 0) && !(swing.frequency > 0))) return;
+  if (even.frequency > 0) swing.frequency = even.frequency, swing.axis = even.axis;
+  swing.amplitude = unsteady->amplitude, swing.course = unsteady->course;
+}
+
+}  // namespace
+
 void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway, Swing& vibration) {
   const double share = tell_greatest_swings(bank, felt, sway, vibration);
   if (vibration.frequency > 0 && sway.amplitude < least_force) {
@@ -307,6 +338,8 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
       if (std::abs(alone.frequency - vibration.frequency) < same_rate * vibration.frequency) vibration = alone;
     }
   }
+  tell_course(bank, felt, true, vibration);
+  if (sway.amplitude >= least_force) tell_course(bank, felt, false, sway);
   // Of two swings nobody knows which one differs.
   if (share > plainly_less || std::min(sway.amplitude, vibration.amplitude) >= least_force) return;
   Swing& swing = sway.amplitude > vibration.amplitude ? sway : vibration;
