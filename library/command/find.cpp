@@ -49,8 +49,11 @@ std::string as_word_of_percept(const LibraryIndex& index, const std::string& tex
       if (asks && ++all <= most_told) asking.push_back(fmt::format("`{}`", each.name));
     }
     if (all == 0) return void(told += ", which no material here asks for");
-    told += fmt::format(", which {} {} for", fmt::join(asking, ", "), all == 1 ? "asks" : "ask");
-    if (all > most_told) told.insert(told.rfind(" ask for"), fmt::format(" and {} more", all - most_told));
+    if (all > most_told) asking.push_back(fmt::format("{} more", all - most_told));
+    const std::string last = asking.back();
+    asking.pop_back();
+    told += asking.empty() ? fmt::format(", which {} asks for", last)
+                           : fmt::format(", which {} and {} ask for", fmt::join(asking, ", "), last);
   });
   return told;
 }
