@@ -258,17 +258,16 @@ void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const S
 
 /// Warns of rates that the loop cannot follow, at the parameters' defaults and at the ends of their ranges.
 void warn_of_fast_rates(const Bank& bank, const SolvedMaterial& solved, Diagnostics& diagnostics) {
-  constexpr double rounding = 1e-5;
   const PatchProgram& program = bank.program().description();
-  const double loop = program.device.rate, most = 0.5 * loop * (1 - rounding);
+  const double loop = program.device.rate, most = fastest_as_written(loop);
   const auto report = [&](const std::string& which, double rate) {
     diagnostics.report({.code = Code::too_fast_for_loop,
                         .span = solved.force_span,
                         .message = fmt::format("{} of {:.4g} Hz comes out as {}: `{}` computes {:.4g} forces a second",
                                                which, rate, what_comes_out(rate, loop), program.device.name, loop),
-                        .help = fmt::format("choose a rate below {:.4g} Hz", loop / 2)});
+                        .help = fmt::format("choose a rate of {:.4g} Hz or less", most)});
   };
-  if (const double rate = fastest_own_rate(bank); rate >= most) return report("a rate", rate);
+  if (const double rate = fastest_own_rate(bank); rate > most) return report("a rate", rate);
   if (program.states.empty() && !depends_on_the_moment(program)) return;
   std::vector<float> values;
   for (const Parameter& parameter : program.parameters) values.push_back(parameter.value);
@@ -277,7 +276,7 @@ void warn_of_fast_rates(const Bank& bank, const SolvedMaterial& solved, Diagnost
       std::vector<float> set = values;
       set[i] = end;
       const double rate = fastest_own_rate(Bank(bank.program(), set, bank.size()));
-      if (rate >= most)
+      if (rate > most)
         return report(fmt::format("with `{}` at the end of its range, a rate", program.parameters[i].name), rate);
     }
 }

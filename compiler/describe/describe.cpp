@@ -36,6 +36,15 @@ bool reads(std::span<const Instruction> code, RegisterNumber first, std::size_t 
   });
 }
 
+/// Whether the force can depend on a parameter: code that is run before or in a tick reads it.
+bool reads_parameter(const PatchProgram& program, std::size_t index) {
+  const auto number = static_cast<RegisterNumber>(program.first_parameter() + index);
+  const auto any = [&](std::span<const Instruction> code) { return reads(code, number, 1); };
+  return any(program.setup) || any(program.enter) || any(program.tick) ||
+         std::ranges::any_of(program.peaks, [&](const auto& each) { return any(each.code); }) ||
+         std::ranges::any_of(program.outputs, [&](const Output& each) { return each.value == number; });
+}
+
 /// What the force depends on besides the position, as its code reads it: "the hand's velocity", "time", …
 std::vector<std::string> dependences(const PatchProgram& program) {
   struct Dependence {
@@ -199,7 +208,16 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
   tell_ends(description.percepts, bank, found, declarations);
   if (description.limit_matters) {
     const auto speed = static_cast<float>(normal_hand(declarations).speed());
-    for (std::size_t i = 0; i < program.parameters.size(); ++i) description.cuts.push_back(cut_ranges(bank, i, speed));
+    const std::size_t searched = parameters_searched(program);
+    std::size_t done = 0;
+    for (std::size_t i = 0; i < program.parameters.size(); ++i) {
+      description.cuts.emplace_back();
+      if (!reads_parameter(program, i)) continue;
+      if (done++ < searched)
+        description.cuts.back() = cut_ranges(bank, i, speed);
+      else
+        ++description.not_searched;
+    }
   }
   describe_extracted(description, bank, found, declarations);
   settle_stiffness(description);

@@ -113,6 +113,7 @@ struct Description {
   };
   std::vector<Directed> directed;
   Swing sway;                        ///< slower than 10 Hz, which no percept tells; of amplitude 0 if there is none
+  std::optional<SwingCourse> vibration_course;  ///< of a vibration that dies away or grows
   Swing noise;                       ///< what changes with time without a rate; of amplitude 0 if nothing does
   OpposingForce motion;              ///< what resists a moving hand
   double spring_force = 0;           ///< N: at which a spring's force grows no more; 0 if nothing limits it
@@ -139,6 +140,7 @@ struct Description {
   std::vector<Parameter> parameters;  ///< with the values that are described
   /// For each parameter, where the device's limit cuts the force; empty if the limit does not matter.
   std::vector<std::vector<CutRange>> cuts;
+  std::size_t not_searched = 0;  ///< so many parameters more were not searched for where they change something
   std::vector<State> states;  ///< a vector is two states, "p.x" and "p.y"
   std::vector<Grid> memories;
   bool shows_relief = false, shows_colour = false;

@@ -223,6 +223,8 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   if (description.sway.amplitude > 0)
     json["sway"] = {{"amplitude_newton", figure(description.sway.amplitude)},
                     {"frequency_hz", figure(description.sway.frequency)}};
+  if (description.sway.course) json["sway"].update(course_json(*description.sway.course));
+  if (description.vibration_course) json["vibration_course"] = course_json(*description.vibration_course);
   if (description.noise.amplitude > 0) json["noise_in_time_newton"] = figure(description.noise.amplitude);
   if (description.uneven.least)
     json["swing_by_place"] = {{"least_newton", figure(*description.uneven.least)},
@@ -309,6 +311,7 @@ nlohmann::ordered_json to_json(const Description& description) {
       for (const CutRange& cut : description.cuts[i])
         each[cut.above ? "cut_from_si" : "cut_up_to_si"] = figure(cut.value);
   }
+  if (description.not_searched > 0) json["parameters_not_searched"] = description.not_searched;
   add_memory_and_marks(json, description);
   json["patch"] = {{"width_m", figure(description.patch.width)},
                    {"height_m", figure(description.patch.height)},

@@ -109,7 +109,8 @@ void tell_ends(std::vector<DescribedPercept>& percepts, const Bank& bank, const 
   std::vector<float> values;
   for (std::size_t i = 0; i < program.parameters.size(); ++i)
     values.push_back(bank.registers()[program.first_parameter() + i]);
-  for (std::size_t i = 0; asks && i < program.parameters.size(); ++i)
+  const std::size_t searched = 2 * parameters_searched(program);
+  for (std::size_t i = 0; asks && i < program.parameters.size() && tasks.size() < searched; ++i)
     for (const float end : {program.parameters[i].low, program.parameters[i].high})
       if (!is_level(i) && end != values[i]) tasks.push_back({i, end, {}});
   in_parallel(tasks.size(), [&](std::size_t begin, std::size_t end) {

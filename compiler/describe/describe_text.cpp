@@ -181,6 +181,9 @@ void write_parameters(std::string& text, const Description& description) {
       for (const CutRange& cut : description.cuts[number])
         text += fmt::format("  {:<{}} {:<12} {}\n", "", width, "", cut_text(cut, parameter, description.device));
   }
+  if (description.not_searched > 0)
+    text += readable("  {} of these that move the force were not searched for where the device cuts it: they are too many\n",
+                     description.not_searched);
 }
 
 /// A direction in [0, pi) in whole degrees below 180.
@@ -335,6 +338,8 @@ std::string other_forces(const Description& description) {
   if (description.sway.amplitude > 0)
     text += readable("  a sway of {:.3g} N at {:.3g} Hz, which no percept tells\n", description.sway.amplitude,
                      description.sway.frequency);
+  if (description.sway.course) text += course_line("sway", *description.sway.course);
+  if (description.vibration_course) text += course_line("vibration", *description.vibration_course);
   if (description.noise.amplitude > 0)
     text += readable("  up to {:.3g} N that changes with time without a rate, which no percept tells\n",
                      description.noise.amplitude);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/read/tolerances.hpp"
@@ -29,15 +30,18 @@ std::vector<HeldFigure> held_figures(const ForceReading& found) {
     const auto counting = [&](double size) { return std::abs(size) < least ? 0 : size; };
     figures.push_back({name, unit, counting(held), counting(open)});
   };
+  const auto add_both = [&](const char* name, const char* unit, std::pair<double, double> sizes, double least) {
+    add(name, unit, sizes.first, sizes.second, least);
+  };
   const OpposingForce &held = found.held->opposing, &open = found.opposing;
   if (held.explained && open.explained && held.limit == open.limit) {
-    add("friction", "N", held.friction, open.friction, least_force);
-    add("viscosity", "N s/m", held.damping, open.damping, least_damping);
+    add_both("friction", "N", where_they_differ(held.frictions(), open.frictions(), least_force), least_force);
+    add_both("viscosity", "N s/m", where_they_differ(held.dampings(), open.dampings(), least_damping), least_damping);
   } else {
-    add("drag at 50 mm/s", "N", held.at(slow_drag_told_at), open.at(slow_drag_told_at), least_force);
-    add("drag at 200 mm/s", "N", held.at(drag_told_at), open.at(drag_told_at), least_force);
+    add_both("drag at 50 mm/s", "N", drags_where_they_differ(held, open, slow_drag_told_at), least_force);
+    add_both("drag at 200 mm/s", "N", drags_where_they_differ(held, open, drag_told_at), least_force);
   }
-  add("mass", "kg", found.held->inertia.greatest, found.inertia.greatest, least_mass);
+  add_both("mass", "kg", where_they_differ(found.held->inertia, found.inertia, least_mass), least_mass);
   const auto add_swing = [&](const char* name, const char* rate, const Swing& with, const Swing& without) {
     const std::size_t before = figures.size();
     add(name, "N", with.amplitude, without.amplitude, least_force);
@@ -66,6 +70,24 @@ void add_held(nlohmann::ordered_json& json, const std::vector<HeldFigure>& figur
     told = {{"held", figure(each.held)}, {"open", figure(each.open)}, {"unit", each.unit}};
     if (each.rate > 0) told["held_hz"] = figure(each.rate);
   }
+}
+
+std::string course_line(const char* name, const SwingCourse& course) {
+  if (course.grows)
+    return readable("  the {} grows{}: half of it is there after {:.2g} s, up to {:.3g} N in the {:.3g} s looked at\n", name,
+                    course.tenth_after > 0 ? readable(" from {:.2g} s on", course.tenth_after) : "", course.half_after,
+                    course.greatest, still_seconds);
+  return readable("  the {} dies away: {:.3g} N at first, half of that after {:.2g} s{}\n", name, course.greatest,
+                  course.half_after,
+                  course.tenth_after > 0 ? readable(", a tenth after {:.2g} s", course.tenth_after) : "");
+}
+
+nlohmann::ordered_json course_json(const SwingCourse& course) {
+  nlohmann::ordered_json json = {{"course", course.grows ? "grows" : "dies away"},
+                                 {"greatest_newton", figure(course.greatest)},
+                                 {"half_after_s", figure(course.half_after)}};
+  if (course.tenth_after > 0) json["tenth_after_s"] = figure(course.tenth_after);
+  return json;
 }
 
 std::string uneven_line(const Swing& swing) {

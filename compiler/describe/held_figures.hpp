@@ -25,6 +25,10 @@ std::string held_lines(const std::vector<HeldFigure>& figures);
 /// Adds the same to the JSON; only what there is.
 void add_held(nlohmann::ordered_json& json, const std::vector<HeldFigure>& figures);
 
+/// "the vibration dies away: 1 N at first, half of that after 0.69 s, a tenth after 2.3 s", as a line; and in JSON.
+std::string course_line(const char* name, const SwingCourse& course);
+nlohmann::ordered_json course_json(const SwingCourse& course);
+
 /// "the vibration differs from place to place: from none to 1 N", as a line; empty if `swing` has no least size.
 std::string uneven_line(const Swing& swing);
 

@@ -43,6 +43,13 @@ std::size_t coarseness_of(const PatchProgram& program) {
 
 bool leaves_out_motion(const PatchProgram& program) { return remembers(program) && coarseness_of(program) > 1; }
 
+std::size_t parameters_searched(const PatchProgram& program) {
+  constexpr std::size_t most_units = std::size_t{1} << 18, least = 4, most = 64;
+  const auto units = static_cast<std::size_t>(cost_of(program.setup) + cost_of(program.enter) + cost_of(program.tick)) +
+                     program.register_count();
+  return std::clamp(most_units / std::max<std::size_t>(1, units), least, most);
+}
+
 void tick_coarsely(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces) {
   const std::size_t every = coarseness_of(bank.program().description());
   if (every == 1) return tick_all(bank, hands, forces);

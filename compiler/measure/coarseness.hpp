@@ -19,6 +19,10 @@ std::size_t coarseness_of(const PatchProgram& program);
 /// and it is sampled coarsely.
 bool leaves_out_motion(const PatchProgram& program);
 
+/// Of how many parameters at most the ranges are searched for where something changes, which takes many readings each:
+/// fewer, the more a program costs and holds.
+std::size_t parameters_searched(const PatchProgram& program);
+
 /// As `tick_all`, as coarsely as the program is sampled.
 void tick_coarsely(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces);
 

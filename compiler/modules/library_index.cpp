@@ -115,6 +115,7 @@ void LibraryIndex::add(const std::string& module, const std::string& file, const
     IndexedMaterial& entry = materials_.emplace_back();
     entry.name = material->name.text, entry.module = module, entry.file = file;
     entry.documentation = material->documentation, entry.origin = origin;
+    for (const PerceptStatement& asked : material->perceptual) entry.asks.emplace_back(asked.name.text);
     for (const Setting& setting : material->representative) {
       std::vector<std::string> texts = texts_in(setting, tree);
       const std::string_view key = setting.key.text;

@@ -24,6 +24,7 @@ struct IndexedMaterial {
   std::string file;    ///< the same file as messages show it: "library/fabric/denim.wale"
   std::string title, kind;
   std::vector<std::string> called, feels;
+  std::vector<std::string> asks;  ///< the percepts that it asks for, by the names that it uses
   std::string documentation;  ///< text of its `///` comment
   Origin origin = Origin::own;
 

@@ -325,7 +325,7 @@ class ModuleLoader {
       const bool by_text = each.name == each.material->title || std::ranges::find(called, each.name) != called.end();
       std::string text = fmt::format("`{}`", each.material->name);
       if (by_text) text += fmt::format(", called \"{}\"", each.name);
-      told.push_back(is_own(each) ? text : fmt::format("{} (`import {}`)", text, each.material->module));
+      told.push_back(is_own(each) ? text : fmt::format("{} of `{}`", text, each.material->module));
     }
     const std::string nearest(near.front().material->name);
     const std::string last = std::exchange(told.back(), "");

@@ -242,8 +242,15 @@ PerceptStatement Parser::percept_statement() {
   }
   const bool alone =
       ends_statement(at_ + 1) || kind(at_ + 1) == TokenKind::plus_minus || kind(at_ + 1) == TokenKind::comma;
+  const bool ends_behind = ends_statement(at_ + 2) || kind(at_ + 2) == TokenKind::plus_minus;
   if (at(TokenKind::name) && alone) {
     percept.level_name = take_word();
+  } else if (at(TokenKind::name) && kind(at_ + 1) == TokenKind::name && !ends_statement(at_ + 1) && ends_behind &&
+             spelling(here()) != percept.name.text && spelling(here()) != spelling(token(at_ + 1))) {
+    // `very coarse`: whoever knows the percept's levels says which there are.
+    const Word first = take_word(), second = take_word();
+    percept.level_name = Word{text_.substr(first.span.begin, second.span.end - first.span.begin),
+                              {tree_.source, first.span.begin, second.span.end}};
   } else if (ends_statement(at_)) {
     complain("expected a level" + after_previous(), "a level from 0 to 1, or its name",
              fmt::format("write `{} 0.5`", percept.name.text));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/slow_sway.hpp"
 
 namespace wale {
 namespace {
@@ -54,7 +55,7 @@ std::optional<HeldButton> held_button(const Bank& bank, const WallFace* wall) {
   found.opposing = opposing_force(*held, wall), found.inertia = inertia(*held);
   const std::vector<std::vector<Force>> felt = felt_at_rest(*held);
   tell_swings(*held, felt, found.sway, found.vibration);
-  found.slow = slow_change(*held, felt, found.sway, found.vibration);
+  found.slow = slow_parts(*held, felt, found.sway, found.vibration).change;
   return found;
 }
 

@@ -43,7 +43,38 @@ Principal principal_of(glm::dvec2 by_x, glm::dvec2 by_y, double least) {
                                           : Principal{other, one, glm::dvec2(-axis.y, axis.x)};
 }
 
+std::pair<double, double> where_they_differ(const Principal& one, const Principal& other, double least) {
+  const auto along = [](const Principal& size, glm::dvec2 axis) {
+    const double share = glm::dot(size.axis, axis);
+    return size.directed() ? size.across + share * share * (size.greatest - size.across) : size.greatest;
+  };
+  const auto by = [&](glm::dvec2 way) {
+    const auto of = [&](const Principal& size) {
+      return size.directed() ? size.across * way + (size.greatest - size.across) * glm::dot(size.axis, way) * size.axis
+                             : size.greatest * way;
+    };
+    return of(one) - of(other);
+  };
+  const Principal difference = principal_of(by({1, 0}), by({0, 1}), least);
+  const glm::dvec2 axis = difference.directed() ? difference.axis : one.directed() ? one.axis : other.axis;
+  return {along(one, axis), along(other, axis)};
+}
+
 namespace {
+
+/// N: of drags at some speeds, between them in proportion.
+double drag_at(const std::vector<DragAt>& by_speed, double speed) {
+  if (by_speed.empty()) return 0;
+  const DragAt* before = &by_speed.front();
+  for (const DragAt& each : by_speed) {
+    if (each.speed >= speed) {
+      const double part = each.speed > before->speed ? (speed - before->speed) / (each.speed - before->speed) : 0;
+      return before->newton + part * (each.newton - before->newton);
+    }
+    before = &each;
+  }
+  return before->newton;
+}
 
 /// The principal values of two laws along an axis and across it, each value of the reading's.
 Principal of_two(double along, double across, glm::dvec2 axis, double least) {
@@ -184,6 +215,14 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   if (!in_time.changes) differences = drag_by_place(bank, strokes, opposed, outside);
   const std::size_t half = strokes.size() / 2;
   const MeanOpposed mean = mean_of(strokes, opposed);
+  std::array<std::vector<DragAt>, 2> by_axis;
+  for (const std::size_t axis : {0, 1}) {
+    const auto part = [&](const auto& all) {
+      const auto first = all.begin() + static_cast<std::ptrdiff_t>(axis * half);
+      return std::vector(first, first + static_cast<std::ptrdiff_t>(half));
+    };
+    by_axis[axis] = mean_drags(part(strokes), part(along_strokes(strokes, opposed)));
+  }
   const double chance = chance_of(strokes, along_strokes(strokes, opposed));
   const Principal whole = principal_of(mean.along, mean.across, std::max(least_force, chance));
   if (!whole.directed()) {
@@ -191,6 +230,7 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
     found.friction_across = found.friction, found.damping_across = found.damping, found.aside = mean.aside;
     if (!tell_long_ways(found, ways, least_reach(strokes, program.device.rate))) tell_differences(found, differences);
     if (in_time.changes) tell_changes(found, in_time);
+    found.along = std::move(by_axis);
     return found;
   }
   glm::dvec2 axis = whole.axis;
@@ -231,6 +271,7 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   if (oblique || !tell_long_ways(found, ways, least_reach(strokes, program.device.rate)))
     tell_differences(found, differences);
   if (in_time.changes) tell_changes(found, in_time);
+  found.along = std::move(by_axis);
   return found;
 }
 
@@ -246,17 +287,17 @@ bool OpposingForce::by_no_figure() const {
 
 double OpposingForce::unexplained_at(double speed) const { return explained ? 0 : at(speed); }
 
-double OpposingForce::at(double speed) const {
-  if (by_speed.empty()) return 0;
-  const DragAt* before = &by_speed.front();
-  for (const DragAt& each : by_speed) {
-    if (each.speed >= speed) {
-      const double part = each.speed > before->speed ? (speed - before->speed) / (each.speed - before->speed) : 0;
-      return before->newton + part * (each.newton - before->newton);
-    }
-    before = &each;
+double OpposingForce::at(double speed) const { return drag_at(by_speed, speed); }
+
+std::pair<double, double> drags_where_they_differ(const OpposingForce& one, const OpposingForce& other, double speed) {
+  std::pair<double, double> found{0, 0};
+  for (const std::size_t axis : {0, 1}) {
+    const std::pair drags{drag_at(one.along[axis], speed), drag_at(other.along[axis], speed)};
+    const double apart = std::abs(drags.first - drags.second), before = std::abs(found.first - found.second);
+    constexpr double plainly = 1e-3;  // where they differ alike, x is as good as y
+    if (apart > before * (1 + plainly) || axis == 0) found = drags;
   }
-  return before->newton;
+  return found;
 }
 
 double OpposingForce::creeping() const {

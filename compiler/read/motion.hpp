@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
+#include <utility>
 #include <vector>
 
 #include "compiler/read/wall.hpp"
@@ -20,6 +22,9 @@ struct Principal {
 /// The principal values of a resistance: the force against a unit of motion along x, and along y. They are alike if
 /// they differ by no more than `least`, or by a tenth.
 Principal principal_of(glm::dvec2 by_x, glm::dvec2 by_y, double least);
+
+/// Two such sizes along one axis: that along which they differ most.
+std::pair<double, double> where_they_differ(const Principal& one, const Principal& other, double least);
 
 /// The force against a hand at one speed, over ways to and fro.
 struct DragAt {
@@ -47,6 +52,8 @@ struct OpposingForce {
   bool explained = true;
   /// The resistance by speed, slow ones first; along the axis where it is greatest.
   std::vector<DragAt> by_speed;
+  /// The same along x and along y, whatever the axis.
+  std::array<std::vector<DragAt>, 2> along;
   double exponent = 0;  ///< of the speed, to whose power that resistance grows; 0 if to none
   /// N at 0.2 m/s: the resistance to a hand that goes towards +x and +y, and towards -x and -y, if they differ.
   glm::dvec2 forward{0}, backward{0};
@@ -75,6 +82,9 @@ struct OpposingForce {
   /// N at 0.2 m/s: by how much the resistance differs from place to place.
   double uneven() const { return most_by_place - least_by_place; }
 };
+
+/// N: two drags at a speed (m/s) as means over the same ways, along x or along y: where they differ most.
+std::pair<double, double> drags_where_they_differ(const OpposingForce& one, const OpposingForce& other, double speed);
 
 /// Strokes with hands to and fro at several speeds, along both axes and through several positions. Each goes over the
 /// same stretch both ways, so that forces that depend on position only cancel. States and memories work as they do

@@ -87,6 +87,14 @@ MeansBySpeed means_by_speed(const std::vector<Stroke>& strokes, const std::vecto
   return found;
 }
 
+}  // namespace
+
+std::vector<DragAt> mean_drags(const std::vector<Stroke>& strokes, const std::vector<double>& opposed) {
+  return means_by_speed(strokes, opposed).means;
+}
+
+namespace {
+
 /// Whether a law tells the force at each speed, as well as that is known. Three figures come near to any curve, so they
 /// must tell it as well as a law is fitted.
 bool tells_all_speeds(const OpposingForce& law, const MeansBySpeed& by_speed, double largest) {

@@ -12,4 +12,7 @@ namespace wale {
 /// device's limit `most` (N) cuts the force off say nothing about the law if some others do.
 OpposingForce law_of(std::vector<Stroke> strokes, std::vector<double> opposed, double most);
 
+/// The mean forces (N) along the strokes of each speed, slow ones first, at the device's limit too.
+std::vector<DragAt> mean_drags(const std::vector<Stroke>& strokes, const std::vector<double>& opposed);
+
 }  // namespace wale

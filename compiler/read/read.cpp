@@ -239,22 +239,26 @@ void tell_force_on_moving(const Bank& bank, ForceReading& found) {
 
 /// How much more the force pushes a hand that has just come and rests than it does in the mean over time, and over slow
 /// motion to and fro: a sway begins somewhere in its period, and a sign has a value at rest. N.
-AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& felt, const SlowChange& slow,
+AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& felt, const SlowParts& parts,
                       const ForceReading& found) {
+  const SlowChange& slow = parts.change;
   const PatchProgram& program = bank.program().description();
   AtFirst off;
   off.slow = slow;
   if (std::max(found.sway.amplitude, found.vibration.amplitude) >= least_force) {
     const auto places = static_cast<double>(felt.size());
     std::vector<glm::dvec2> all;
-    for (const std::vector<Force>& forces : felt) {
-      // Under Hann's window a swing has no mean, however many periods there are.
+    // Without a sway of few periods the mean is that of what is left.
+    const bool parted = parts.sway && parts.sway->alone;
+    for (std::size_t place = 0; place < felt.size(); ++place) {
+      const std::vector<Force>& forces = parted ? parts.sway->left[place] : felt[place];
+      // Under Hann's window a swing of many periods has no mean.
       glm::dvec2 mean{0};
       const auto count = static_cast<double>(forces.size());
       for (std::size_t i = 0; i < forces.size(); ++i)
         mean += (1 - std::cos(2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / count)) / count *
                 glm::dvec2(forces[i]);
-      all.push_back(glm::dvec2(forces.front()) - mean);
+      all.push_back(glm::dvec2(felt[place].front()) - mean);
       off.force += all.back() / places;
     }
     // A wave that travels is elsewhere in its period at each place, and its mean over places is none's.
@@ -322,9 +326,17 @@ double ForceReading::cut_spring() const {
   return !wall_is_cut && stiffness >= least_stiffness ? still.cut_at : 0;
 }
 
-double ForceReading::held_drag(double speed) const { return held ? held->opposing.at(speed) - opposing.at(speed) : 0; }
+double ForceReading::held_drag(double speed) const {
+  if (!held) return 0;
+  const auto [with, without] = drags_where_they_differ(held->opposing, opposing, speed);
+  return with - without;
+}
 
-double ForceReading::held_mass() const { return held ? held->inertia.greatest - inertia.greatest : 0; }
+double ForceReading::held_mass() const {
+  if (!held) return 0;
+  const auto [with, without] = where_they_differ(held->inertia, inertia, least_mass);
+  return with - without;
+}
 
 double ForceReading::held_swing() const {
   if (!held) return 0;
@@ -365,16 +377,11 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
     found.inertia = inertia(bank);
     const std::vector<std::vector<Force>> felt = felt_at_rest(bank);
     tell_swings(bank, felt, found.sway, found.vibration);
-    auto parted = found.vibration.amplitude < least_force ? parted_from_sway(bank, felt, found.sway) : std::nullopt;
-    // Means over the few periods of a slow sway would tell it once more, as something that comes or goes.
-    const bool sways_alone = parted && parted->alone;
-    if (sways_alone) parted.reset();
-    if (parted) found.sway.amplitude = parted->amplitude, found.sway.frequency = parted->frequency;
-    const SlowChange slow = sways_alone ? SlowChange{}
-                            : parted    ? slow_change(bank, parted->left, {}, {})
-                                        : slow_change(bank, felt, found.sway, found.vibration);
-    at_first = only_at_first(bank, felt, slow, found);
-    if (parted) at_first.uncertain = std::max(at_first.uncertain, misfit_of_parting * parted->amplitude);
+    const SlowParts parts = slow_parts(bank, felt, found.sway, found.vibration);
+    const std::optional<PartedSway>& parted = parts.sway;
+    const SlowChange& slow = parts.change;
+    at_first = only_at_first(bank, felt, parts, found);
+    if (parted && !parted->alone) at_first.uncertain = std::max(at_first.uncertain, misfit_of_parting * parted->amplitude);
     found.other = other_force(bank, felt, slow, found.sway.amplitude + found.vibration.amplitude,
                               std::max(found.opposing.friction, found.breakaway));
     found.other.later = later_force(bank, still_seconds, remembers_time_only(bank.program().description()));

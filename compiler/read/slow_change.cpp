@@ -98,7 +98,7 @@ SlowChange slow_change(const Bank& bank, const std::vector<std::vector<Force>>& 
     return course_over_places(felt, window_for(swings, sway, vibration, rate, felt.front().size()));
   };
   const double swing = std::max(sway.amplitude, vibration.amplitude);
-  if (over(many_swings).newton < std::max(least_force, (vibration.noise ? left_of_noise : left_of_a_swing) * swing))
+  if (over(many_swings).newton < std::max(least_force, (vibration.noise || sway.course ? left_of_noise : left_of_a_swing) * swing))
     return {};
   const Course course = over(few_swings);
   SlowChange found{.newton = course.newton, .push = course.push};

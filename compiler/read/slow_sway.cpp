@@ -23,6 +23,11 @@ constexpr int refinings = 14;            // times
 constexpr double one_way_once = 1.4;     // times the range of what is left: so long is its way at most
 constexpr double left_by_sway = 0.05;    // of the sway: less is what an impure sway leaves
 constexpr int sway_phases = 512;
+constexpr long some_ticks_apart = 3;
+constexpr double left_by_repeating = 0.03;  // of the mean size of what changes
+constexpr double told_well = 0.02;   // of the sway
+constexpr double to_and_fro = 3;     // times its range: so far goes at least what sways, and what only comes goes it once
+constexpr double slowest_unknown = 0.25, fastest_unknown = 0.5;  // Hz: two to four periods in 8 s
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, 2 * sway_harmonics>;
 using Coefficients = Eigen::Matrix<double, 2 * sway_harmonics, 2>;
@@ -106,41 +111,113 @@ std::vector<Force> without(const std::vector<Force>& forces, const Coefficients&
   return left;
 }
 
-}  // namespace
+/// rad in [0, pi): the axis along which a periodic force goes, if it has one.
+std::optional<double> axis_of(const Coefficients& fit) {
+  const double xx = fit.col(0).squaredNorm(), yy = fit.col(1).squaredNorm(), xy = fit.col(0).dot(fit.col(1));
+  constexpr double plainly = 0.5, nearly_whole = 1e-3;
+  if (std::hypot(xx - yy, 2 * xy) < plainly * (xx + yy) || !(xx + yy > 0)) return std::nullopt;
+  const double angle = std::fmod(0.5 * std::atan2(2 * xy, xx - yy) + std::numbers::pi, std::numbers::pi);
+  return std::numbers::pi - angle < nearly_whole ? 0 : angle;
+}
+
+/// N: how far a force goes in all.
+double way_of(const std::vector<Force>& forces, double rate) {
+  const auto every = std::max<std::size_t>(1, static_cast<std::size_t>(0.05 * rate));
+  double way = 0;
+  for (std::size_t i = every; i < forces.size(); i += every) way += glm::length(forces[i] - forces[i - every]);
+  return way;
+}
 
 std::optional<PartedSway> parted_from_sway(const Bank& bank, const std::vector<std::vector<Force>>& felt,
                                            const Swing& sway) {
-  if (felt.empty() || sway.amplitude < least_force || !(sway.frequency > 0) || sway.frequency > fastest_sway)
-    return std::nullopt;
+  if (felt.empty() || sway.frequency > fastest_sway || sway.course) return std::nullopt;
   const double rate = bank.program().description().device.rate;
   const auto busiest = std::ranges::max_element(felt, {}, range_of);
+  // Two or three periods may look like a drift in a spectrum.
+  const bool is_known = sway.amplitude >= least_force && sway.frequency > 0;
+  if (!is_known && (range_of(*busiest) < least_force || way_of(*busiest, rate) < to_and_fro * range_of(*busiest)))
+    return std::nullopt;
   const ShortestWay at_busiest(*busiest, rate);
-  double frequency = sway.frequency, shortest = HUGE_VAL;
+  double frequency = sway.frequency, shortest = HUGE_VAL, step = farthest_off / frequencies * sway.frequency;
   const auto look = [&](double tried) {
     if (const double way = at_busiest.at(tried).way; way < shortest) shortest = way, frequency = tried;
   };
-  double step = farthest_off / frequencies * sway.frequency;
-  for (int i = -frequencies; i <= frequencies; ++i) look(sway.frequency + i * step);
+  if (is_known) {
+    for (int i = -frequencies; i <= frequencies; ++i) look(sway.frequency + i * step);
+  } else {
+    step = (fastest_unknown - slowest_unknown) / (2 * frequencies);
+    for (int i = 0; i <= 2 * frequencies; ++i) look(slowest_unknown + i * step);
+  }
   for (int i = 0; i < refinings; ++i) {
     step *= 0.6;
     const double middle = frequency;
     look(middle - step), look(middle + step);
   }
   PartedSway found{.frequency = frequency};
-  double most = 0;
+  double most = 0, longest_left = -HUGE_VAL;
   for (const std::vector<Force>& forces : felt) {
     const Fit fit = ShortestWay(forces, rate).at(frequency);
     found.left.push_back(without(forces, fit.coefficients, frequency, rate));
     std::vector<double> sizes;
     for (int i = 0; i < sway_phases; ++i)
       sizes.push_back(glm::length(wave_at(fit.coefficients, i / (sway_phases * frequency), frequency)));
+    if (&forces == &*busiest) found.axis = axis_of(fit.coefficients);
     found.amplitude = std::max(found.amplitude, percentile(sizes, percentile_of_amplitude));
     const double range = range_of(found.left.back());
-    most = std::max(most, range);
-    if (fit.way > one_way_once * range + left_by_sway * found.amplitude) return std::nullopt;
+    most = std::max(most, range), longest_left = std::max(longest_left, fit.way - one_way_once * range);
   }
+  if (found.amplitude < least_force) return std::nullopt;
   found.alone = most < std::max(least_force, left_by_sway * found.amplitude);
+  if (!found.alone && (!is_known || longest_left > left_by_sway * found.amplitude)) return std::nullopt;
+  // What three harmonics do not tell well has its size from the spectrum.
+  if (found.alone && is_known && most > told_well * found.amplitude) found.amplitude = sway.amplitude;
   return found;
+}
+
+/// Hz: the rate at which a force of any waveform repeats, near a frequency; nothing if it does not.
+std::optional<double> repeats_at(const std::vector<Force>& forces, double frequency, double rate) {
+  const auto count = static_cast<long>(forces.size());
+  const auto longest = std::min(count / 2 + count / 4, std::lround(rate / (frequency * (1 - farthest_off))));
+  double least = HUGE_VAL, changing = 0;
+  long best = 0;
+  glm::dvec2 mean{0};
+  for (const Force& force : forces) mean += glm::dvec2(force) / static_cast<double>(count);
+  for (const Force& force : forces) changing += glm::length(glm::dvec2(force) - mean) / static_cast<double>(count);
+  for (long apart = std::lround(rate / (frequency * (1 + farthest_off))); apart <= longest; ++apart) {
+    double differs = 0;
+    for (long i = 0; i + apart < count; i += some_ticks_apart)
+      differs += glm::length(forces[static_cast<std::size_t>(i + apart)] - forces[static_cast<std::size_t>(i)]);
+    differs *= static_cast<double>(some_ticks_apart) / static_cast<double>(count - apart);
+    if (differs < least) least = differs, best = apart;
+  }
+  if (!(least < left_by_repeating * changing)) return std::nullopt;
+  return rate / static_cast<double>(best);
+}
+
+}  // namespace
+
+SlowParts slow_parts(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway,
+                     const Swing& vibration) {
+  SlowParts parts;
+  if (vibration.amplitude < least_force) parts.sway = parted_from_sway(bank, felt, sway);
+  if (!parts.sway) {
+    // What repeats goes nowhere, whatever its waveform is and whatever the means over a few periods are.
+    if (sway.amplitude >= least_force && sway.frequency > 0 && sway.frequency <= fastest_sway && !felt.empty()) {
+      const double rate = bank.program().description().device.rate;
+      const auto busiest = std::ranges::max_element(felt, {}, range_of);
+      if (const auto repeats = repeats_at(*busiest, sway.frequency, rate)) {
+        // A vibration beside it repeats at its own multiples.
+        if (vibration.amplitude < least_force) sway.frequency = *repeats;
+        return parts;
+      }
+    }
+    parts.change = slow_change(bank, felt, sway, vibration);
+    return parts;
+  }
+  if (!(sway.frequency > 0) || sway.amplitude < least_force) sway.axis = parts.sway->axis;
+  sway.amplitude = parts.sway->amplitude, sway.frequency = parts.sway->frequency;
+  if (!parts.sway->alone) parts.change = slow_change(bank, parts.sway->left, {}, {});
+  return parts;
 }
 
 }  // namespace wale

@@ -11,6 +11,7 @@
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/fourier.hpp"
 #include "compiler/read/slow_change.hpp"
+#include "compiler/read/swing_course.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
 #include "wale/batch.hpp"
@@ -32,7 +33,6 @@ constexpr double no_swing = 1e-5;        // N
 constexpr double same_rate = 0.02;
 constexpr double plainly_less = 0.5;     // of the greatest, where it is least
 constexpr double beats_of_ticks = 0.05;  // of a vibration's power, below its band: the rate of the ticks is no multiple
-constexpr double uneven_in_time = 1.15;  // times the size under a window: it dies away or grows
 constexpr double pure = 0.995;           // of the power: a sine has as much in the lines around its own
 constexpr double missed = 1.2;           // most that the ticks of a sine may miss of its peak: at three a period, 1.155
 
@@ -74,13 +74,6 @@ double size_within(const Spectrum& spectrum, const std::vector<float>& fade, std
   const auto rank = sizes.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size()));
   std::nth_element(sizes.begin(), rank, sizes.end());
   return *rank;
-}
-
-/// N: the same of all of a time in which a vibration dies away or grows, which a window would weigh by when it is
-/// strong. A vibration has many periods in it, so that its ends matter little.
-double size_in_all_of(const std::vector<std::complex<float>>& changes, std::size_t first) {
-  const Spectrum spectrum = fourier_of_line(changes);
-  return size_within(spectrum, std::vector<float>(changes.size(), 1.0f), first, changes.size() / 2 + 1, 0);
 }
 
 /// rad in [0, pi): the axis of the part of a force that some lines of its spectrum hold, if it has one.
@@ -255,7 +248,6 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
   const double share = std::sqrt(least / most);
   const double rate = bank.program().description().device.rate, seconds = ticks / rate;
   const std::vector<float> fade = hann_window(busiest.size());
-  const std::vector<std::complex<float>> unfaded = busiest;
   for (std::size_t i = 0; i < busiest.size(); ++i) busiest[i] *= fade[i];
   const Spectrum spectrum = fourier_of_line(busiest);
   // The transform of x + i y holds one of theirs in a coefficient and the other in its mirror image. Hann's window lets
@@ -303,11 +295,37 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
   const double peak = std::sqrt(2 * tone);
   if (tone >= pure * (slower + faster) && peak > vibration.amplitude && peak < missed * vibration.amplitude)
     vibration.amplitude = peak;
-  // Without a window what sways or comes leaks into the faster lines.
-  if (alone && vibration.amplitude >= least_force)
-    if (const double whole = size_in_all_of(unfaded, first_fast); whole > uneven_in_time * vibration.amplitude)
-      vibration.amplitude = std::min(whole, farthest_from_middle(*at_busiest));
   return share;
+}
+
+}  // namespace
+
+namespace {
+
+/// Tells of a swing that dies away or grows how it does so, its size over all of the time, and its rate while it is
+/// there. A sway is one only if it was found; a vibration may be over too soon for that.
+void tell_course(const Bank& bank, const std::vector<std::vector<Force>>& felt, bool fast, Swing& swing) {
+  if (swing.noise || (!fast && !(swing.frequency > 0))) return;
+  const auto changing = [](const std::vector<Force>& forces) {
+    double squares = 0;
+    glm::dvec2 mean{0};
+    for (const Force& force : forces) mean += glm::dvec2(force) / static_cast<double>(forces.size());
+    for (const Force& force : forces) squares += glm::dot(glm::dvec2(force) - mean, glm::dvec2(force) - mean);
+    return squares;
+  };
+  if (felt.empty()) return;
+  const auto busiest = std::ranges::max_element(felt, {}, changing);
+  const double rate = bank.program().description().device.rate;
+  const double slowest = fast ? slowest_vibration : 0;
+  const auto unsteady =
+      unsteady_swing(without_drift(*busiest), rate, slowest, fast ? 0.5 * rate : slowest_vibration);
+  if (!unsteady || unsteady->course.greatest < least_force) return;
+  Swing even, other;
+  if (!unsteady->even.empty())
+    tell_greatest_swings(bank, {unsteady->even}, fast ? other : even, fast ? even : other);
+  if (even.noise || (!(even.frequency > 0) && !(swing.frequency > 0))) return;
+  if (even.frequency > 0) swing.frequency = even.frequency, swing.axis = even.axis;
+  swing.amplitude = unsteady->amplitude, swing.course = unsteady->course;
 }
 
 }  // namespace
@@ -322,6 +340,8 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
       if (std::abs(alone.frequency - vibration.frequency) < same_rate * vibration.frequency) vibration = alone;
     }
   }
+  tell_course(bank, felt, true, vibration);
+  if (sway.amplitude >= least_force) tell_course(bank, felt, false, sway);
   // Of two swings nobody knows which one differs.
   if (share > plainly_less || std::min(sway.amplitude, vibration.amplitude) >= least_force) return;
   Swing& swing = sway.amplitude > vibration.amplitude ? sway : vibration;

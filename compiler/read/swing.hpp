@@ -7,6 +7,14 @@
 
 namespace wale {
 
+/// How a swing dies away, or grows, while a hand holds still.
+struct SwingCourse {
+  bool grows = false;      ///< it grows; otherwise it dies away
+  double greatest = 0;     ///< N: its size at first, or in the end
+  double half_after = 0;   ///< s: half of that is left, or there
+  double tenth_after = 0;  ///< s: a tenth is left, or there; 0 if more is at all times
+};
+
 /// A changing force on a hand that holds still.
 struct Swing {
   double amplitude = 0;  ///< N: the 99th percentile of its size, as the amplitude of a relief is defined
@@ -17,6 +25,7 @@ struct Swing {
   std::optional<double> axis{};
   /// N: about the amplitude at the place where it is least; nothing if that is more than half of the greatest
   std::optional<double> least{};
+  std::optional<SwingCourse> course{};  ///< nothing of one that stays as it is, or comes and goes
 };
 
 /// s: so long hands hold still that feel what time brings.

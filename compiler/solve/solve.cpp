@@ -324,18 +324,18 @@ class Solver {
     }
   }
 
-  /// Warns of frequencies with fewer than two ticks a period, which become other, slower ones.
+  /// Warns of frequencies with hardly two ticks a period or fewer, which come out as other forces.
   void warn_of_fast_rates() {
-    const double most = device_->profile.rate / 2;
+    const double loop = device_->profile.rate, half = loop / 2, most = fastest_as_written(loop);
     for (const CheckedRate& rate : material_.rates)
       if (const auto frequency = constant_value(*open_terms_, rate.frequency, &material_.parameters);
           frequency && *frequency > most)
         report(Code::under_resolution, rate.span,
-               readable("a frequency of {:.4g} Hz is more than half of the {:.4g} ticks a second of `{}`, so it comes "
+               readable("a frequency of {:.4g} Hz is {} half of the {:.4g} ticks a second of `{}`, so it comes "
                         "out as {}",
-                        *frequency, device_->profile.rate, device_->profile.name,
-                        what_comes_out(*frequency, device_->profile.rate)),
-               Advice(readable("make it less than {:.4g} Hz, and far less if it should not swell and fade", most))
+                        *frequency, *frequency > half ? "more than" : *frequency == half ? "just" : "nearly", loop,
+                        device_->profile.name, what_comes_out(*frequency, loop)),
+               Advice(readable("make it {:.4g} Hz or less", most))
                    .fact("frequency", *frequency, "Hz")
                    .fact("most", most, "Hz"));
   }

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "compiler/command/print.hpp"
 #include "compiler/modules/find_materials.hpp"
 #include "compiler/modules/library_folders.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
 #include "schema/spelling.hpp"
@@ -24,6 +26,37 @@ struct FindOptions {
   std::vector<std::string> folders;
   bool json = false;
 };
+
+/// What a word says of a percept, and the materials that ask for that: "`sticky` is a word of the percept `stickiness`;
+/// `amber` and `tape` ask for it". Empty if it is a word of none.
+std::string as_word_of_percept(const LibraryIndex& index, const std::string& text) {
+  std::string told;
+  common_modules()->declarations.percepts.each([&](const std::string& name, const Percept& percept) {
+    const auto has = [&](const std::vector<std::string>& words) {
+      return std::ranges::find(words, text) != words.end();
+    };
+    const bool is_name = text == name || text == percept.antonym;
+    if (!told.empty() || !(is_name || has(percept.words) || has(percept.antonym_words))) return;
+    const std::string& meant = text == percept.antonym || has(percept.antonym_words) ? percept.antonym : name;
+    told = is_name ? fmt::format("`{}` is a percept", text)
+                   : fmt::format("`{}` is a word of the percept `{}`", text, meant.empty() ? name : meant);
+    constexpr std::size_t most_told = 5;
+    std::vector<std::string> asking;
+    std::size_t all = 0;
+    for (const IndexedMaterial& each : index.materials()) {
+      const bool asks = std::ranges::any_of(
+          each.asks, [&](const std::string& asked) { return asked == name || asked == percept.antonym; });
+      if (asks && ++all <= most_told) asking.push_back(fmt::format("`{}`", each.name));
+    }
+    if (all == 0) return void(told += ", which no material here asks for");
+    if (all > most_told) asking.push_back(fmt::format("{} more", all - most_told));
+    const std::string last = asking.back();
+    asking.pop_back();
+    told += asking.empty() ? fmt::format(", which {} asks for", last)
+                           : fmt::format(", which {} and {} ask for", fmt::join(asking, ", "), last);
+  });
+  return told;
+}
 
 /// The reason why nothing was found, with a proposal.
 Error why_nothing_is_found(const LibraryIndex& index, const std::vector<std::string>& texts, const std::string& kind) {
@@ -42,6 +75,9 @@ Error why_nothing_is_found(const LibraryIndex& index, const std::vector<std::str
   for (const std::string& text : texts) {
     if (!find_materials(index, {text}, kind).empty()) continue;
     const std::string among = kind.empty() ? "" : fmt::format(" of kind `{}`", kind);
+    if (std::string percept = as_word_of_percept(index, text); !percept.empty())
+      return because(readable("none of {} materials{} has \"{}\"", find_materials(index, {}, kind).size(), among, text),
+                     std::move(percept));
     const auto near = nearest_spelling(text, findable_words(index));
     return because(readable("none of {} materials{} has \"{}\"", find_materials(index, {}, kind).size(), among, text),
                    near ? fmt::format("did you mean \"{}\"?", *near) : "`wale find` alone lists them all");

@@ -55,5 +55,15 @@ TEST(Find, FailsWithoutAMatchAndProposesWords) {
   EXPECT_EQ(json.out, "[]\n");
 }
 
+TEST(Find, TellsOfAWordOfAPercept) {
+  const Shelf shelf;
+  const Outcome sticky = shelf.find({"sticky"});
+  EXPECT_EQ(sticky.status, 1);
+  EXPECT_TRUE(contains(sticky.err, "`sticky` is a word of the percept `stickiness`")) << sticky.err;
+  const Outcome bumpy = shelf.find({"bumpy"});
+  EXPECT_TRUE(contains(bumpy.err, "`cobbled`")) << bumpy.err;
+  EXPECT_TRUE(contains(bumpy.err, " ask for")) << bumpy.err;
+}
+
 }  // namespace
 }  // namespace wale::command_line::finding_test

@@ -129,7 +129,7 @@ TEST(Likes, ThatMayBeSeveralAreAnErrorThatNamesThem) {
 
 TEST(Likes, OfUnknownNamesAreAnErrorWithTheNearestName) {
   const std::string said = Checked(like("corduroi"), {{"cloth", spring("corduroy", 50, "called \"cord\"")}}).said();
-  EXPECT_EQ(said, "W0201 no material is called `corduroi`; did you mean `corduroy` (`import cloth`)?");
+  EXPECT_EQ(said, "W0201 no material is called `corduroi`; did you mean `corduroy` of `cloth`?");
   EXPECT_NE(Checked(like("\"zzzzzz\""), {}).said().find("W0201 no material is called `zzzzzz`"), std::string::npos);
 }
 
@@ -189,8 +189,8 @@ TEST(MaterialNames, ThatAreUnknownComeWithTheNearestThreeAndTheirImports) {
       {"a", spring("quilt", 1)}, {"b", spring("quilp", 2)}, {"c.d", spring("quilts", 3)}, {"e", spring("quarts", 4)}};
   for (const char* what : {"quil", "quil(k: 1)", "0.5 quil", "2 * quil", "between(quil, quilt, 0.5)"})
     EXPECT_EQ(Checked(std::string("material m = ") + what + "\n", files).said(),
-              "W0201 no material is called `quil`; did you mean `quilt` (`import a`), `quilp` (`import b`) or `quilts` "
-              "(`import c.d`)?")
+              "W0201 no material is called `quil`; did you mean `quilt` of `a`, `quilp` of `b` or `quilts` "
+              "of `c.d`?")
         << what;
   // A material of the file needs no import.
   EXPECT_EQ(Checked(spring("quils", 1) + "material m = quil\n", {}).said(),

@@ -42,6 +42,9 @@ TEST(Uses, AFrequencyHasTwoTicksAPeriodAtLeast) {
   };
   EXPECT_EQ(of("120 Hz"), "");
   EXPECT_EQ(of("440 Hz"), "");
+  EXPECT_EQ(of("445 Hz"), "");
+  EXPECT_EQ(of("446 Hz"), "W0309");  // it swells and vanishes 8 times a second
+  EXPECT_EQ(of("450 Hz"), "W0309");
   EXPECT_EQ(of("460 Hz"), "W0309");  // `sandpaper` has 900 ticks a second
   EXPECT_EQ(of("120 kHz"), "W0309");
 }

@@ -10,6 +10,7 @@
 
 #include "compiler/compare/compare.hpp"
 #include "compiler/describe/describe.hpp"
+#include "compiler/describe/held_figures.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/read/cues.hpp"
 #include "compiler/read/tolerances.hpp"
@@ -75,6 +76,26 @@ TEST(ReadingTheButton, DescribeSaysWhatItChanges) {
   EXPECT_EQ(text_of("force = if button then viscous(6 N s/m) else 2 * viscous(3 N s/m)").find("while the button"),
             std::string::npos);
   EXPECT_FALSE(found_in("force = viscous(6 N s/m)").held);
+}
+
+TEST(ReadingTheButton, DragIsComparedOverTheSameWays) {
+  std::mt19937 random(6);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
+  for (int i = 0; i < 8; ++i) {
+    const double open = between(0.3, 4), held = between(0.5, 5);
+    const std::string always[] = {"vector(-{} N s/m * max(0 m/s, velocity.x), 0 N)",
+                                  "vector(0 N, -{} N s/m * velocity.y)"};
+    const std::string adds[] = {"viscous({} N s/m)", "vector(-{} N s/m * velocity.x, 0 N)"};
+    const std::string text = fmt::format("force = {} + (if button then {} else vector(0 N, 0 N))",
+                                         fmt::format(fmt::runtime(always[i % 2]), open),
+                                         fmt::format(fmt::runtime(adds[i / 2 % 2]), held));
+    const ForceReading found = found_in(text);
+    EXPECT_NEAR(found.held_drag(0.2), 0.2 * held, 0.03 * 0.2 * held) << text;
+    for (const HeldFigure& each : held_figures(found)) {
+      const double speed = each.name == std::string("viscosity") ? 1 : each.name == std::string("drag at 50 mm/s") ? 0.05 : 0.2;
+      EXPECT_NEAR(each.held - each.open, speed * held, 0.03 * speed * held) << text << each.name;
+    }
+  }
 }
 
 TEST(ReadingTheButton, WhatComesLateOrByClicksIsFound) {

@@ -423,5 +423,20 @@ TEST(DescribingForces, FiguresHaveNoSizeThatIsAnError) {
   EXPECT_FALSE(std::signbit(figure(-0.0)));
 }
 
+TEST(DescribingForces, OnlySoManyParametersAreSearchedForCuts) {
+  const auto with = [](int moving, int idle) {
+    std::string statements, sum = "0 N";
+    for (int i = 0; i < moving + idle; ++i) statements += fmt::format("param p{} = 1 N in 0 N .. 20 N\n", i);
+    for (int i = 0; i < moving; ++i) sum += fmt::format(" + p{}", i);
+    return described(statements + "force = vector(" + sum + ", 0 N)");
+  };
+  EXPECT_EQ(with(5, 40).not_searched, 0);  // what moves nothing needs no search
+  const Description many = with(100, 3);
+  EXPECT_GE(many.not_searched, 100 - 64);
+  EXPECT_LT(many.not_searched, 100);
+  EXPECT_NE(description_text(many).find(fmt::format("{} of these that move the force were not", many.not_searched)),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace wale::describing_test

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tests/truth/families.hpp"
 
@@ -75,6 +78,38 @@ Composition heartbeats(Chance& chance) {
   return made;
 }
 
+/// Sways of few periods in the time that a reader looks, which seldom fit into it a whole number of times.
+Composition slow_sways(Chance& chance) {
+  Composition made = any_patch(chance);
+  const double size = rounded(chance.octaves(0.1, 2), 3), rate = rounded(chance.octaves(0.28, 1.4), 3);
+  add_shaking(made, chance, size, rate);
+  made.truth[Cue::sway] = valued(size);
+  made.truth[Cue::sway_rate] = valued(rate);
+  return made;
+}
+
+/// What dies away: its size is the 99th percentile of the changing force over the 8 s that are looked at.
+Composition dying(Chance& chance) {
+  Composition made = any_patch(chance);
+  const bool sway = chance.happens(0.3);
+  const double size = rounded(chance.octaves(0.2, 2), 3), lasts = rounded(chance.octaves(sway ? 1 : 0.4, 4), 3);
+  const double rate = rounded(sway ? chance.octaves(2, 8) : chance.octaves(15, 250), 3);
+  const double angle = any_orientation(chance);
+  const glm::dvec2 way{std::cos(angle), std::sin(angle)};
+  const auto at = [=](double seconds) { return size * std::exp(-seconds / lasts) * std::sin(2 * pi * rate * seconds); };
+  made.statement("active 20 W");
+  made.push(fmt::format("{} N * exp(-time / {} s) * sin(2 * pi * {} Hz * time) * {}", number(size), number(lasts),
+                        number(rate), unit_vector(angle)),
+            [=](const Sample& hand) { return at(hand.time) * way; });
+  constexpr int moments = 80000;
+  std::vector<double> sizes;
+  for (int i = 0; i < moments; ++i) sizes.push_back(std::abs(at(8.0 * i / moments)));
+  std::ranges::nth_element(sizes, sizes.begin() + moments / 100 * 99);
+  made.truth[sway ? Cue::sway : Cue::vibration] = valued(sizes[moments / 100 * 99]);
+  made.truth[sway ? Cue::sway_rate : Cue::vibration_rate] = valued(rate);
+  return made;
+}
+
 }  // namespace
 
 void add_sway(Composition& made, Chance& chance, double strongest) {
@@ -92,7 +127,8 @@ void add_vibration(Composition& made, Chance& chance, double strongest) {
 }
 
 std::vector<Family> time_families() {
-  return {{"sway", sways}, {"vibration", vibrations}, {"beat", beats}, {"heartbeat", heartbeats}};
+  return {{"sway", sways},           {"slow sway", slow_sways}, {"vibration", vibrations},
+          {"dying swing", dying}, {"beat", beats},           {"heartbeat", heartbeats}};
 }
 
 }  // namespace wale::truth
