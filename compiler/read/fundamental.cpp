@@ -24,6 +24,10 @@ constexpr double about_carrier = 0.4;           // of the carrier's number: harm
 constexpr double about_its_harmonics = 0.3;     // ... or so near to a multiple of it ...
 constexpr double hardly_beside_carrier = 0.12;  // ... but for so much of the mean square
 constexpr std::size_t most_of_carrier = 4;      // its strongest harmonic
+constexpr double fewest_periods = 3;            // that tell a wave from a chance
+constexpr double fewest_if_exact = 2;           // the same of one that explains ...
+constexpr double exact = 0.95;                  // ... so much ...
+constexpr double far_more = 0.2;                // ... and so much more than any of shorter period
 
 /// Whether one of the waves that seem to be harmonics of a common one does not quite fit it when looked for by itself,
 /// or is a harmonic of another one.
@@ -108,11 +112,20 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
   Fundamental found{peak, 1, explained(1), {1}};
   // What lay beside a peak may be the common multiple of several waves.
   if (may_lie_beside && found.explained >= wholly) return found;
-  const auto most = std::min<std::size_t>(most_multiples, static_cast<std::size_t>(length / 3 / period));
+  const auto most_in = [&](double fewest) {
+    return std::min<std::size_t>(most_multiples, static_cast<std::size_t>(length / fewest / period));
+  };
   std::vector<double> all{found.explained};
-  for (std::size_t multiple = 2; multiple <= most; ++multiple) {
+  for (std::size_t multiple = 2; multiple <= most_in(fewest_periods); ++multiple) {
     all.push_back(explained(multiple));
     if (multiple == few_multiples && std::ranges::max(all) < hopeless) break;
+  }
+  const std::size_t untold = all.size() < few_multiples || std::ranges::max(all) >= hopeless ? most_in(fewest_if_exact) : 0;
+  // A harmonic of a wave that is too long to be found by itself is not told as a wave.
+  for (std::size_t multiple = all.size() + 1; multiple <= untold; ++multiple) {
+    const double shorter = std::ranges::max(all), longer = explained(multiple);
+    if (longer < exact || longer < shorter + far_more) continue;
+    all.resize(multiple - 1), all.push_back(longer);
   }
   std::vector<double> powers;
   for (std::size_t longest = all.size();;) {
