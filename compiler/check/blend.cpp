@@ -28,11 +28,33 @@ std::optional<Value> Blender::compose(const AssembledMaterial& assembled, Statem
                 sum);
   }
   if (surroundings_.diagnostics.is_spent()) return std::nullopt;
+  if (!checker_.spender()) warn_of_idle_weights(assembled, weights, sum);
   if (!sum.textures.empty()) add_textures(sum);
   own.check(assembled.statements);
   for (const auto& layer : own.layers()) sum.force = add(sum.force, layer.force);
   levels_ = std::move(sum.levels);
   return sum.force;
+}
+
+/// An open texture that is alone is as large as the level says, however much there is of it.
+void Blender::warn_of_idle_weights(const AssembledMaterial& assembled, const std::vector<TermId>& weights,
+                                   const Superposition& sum) {
+  if (weights.size() > 1 && std::ranges::any_of(assembled.percepts, &AskedPercept::blended)) return;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const auto& component = assembled.components[i];
+    const auto is_own = [&](const Texture& texture) { return texture.weight == weights[i]; };
+    const bool textured = std::ranges::any_of(sum.textures, is_own);
+    if (component.weight == 1 || !textured || sum.textures.size() > 1 ||
+        std::ranges::find(sum.weighed, weights[i]) != sum.weighed.end())
+      continue;
+    surroundings_.diagnostics.report(
+        {.code = Code::unused_name,
+         .span = component.span,
+         .message = fmt::format("the weight of `{}` has no effect: its texture is the only one, and its size follows "
+                                "from the level",
+                                component.name),
+         .help = "leave the weight out, and ask for another level in a `perceptual` block"});
+  }
 }
 
 /// Makes the weight a parameter, so that a slider can move a blend from one component to another.
@@ -153,6 +175,7 @@ void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf
          .help = "write its force as a sum with the texture as one term, or give the texture an amplitude"});
     return;
   }
+  sum.weighed.push_back(weight);
   const Value weighed = scaled(leaf, weight);
   if (carrier) {
     carrier->size = material_.terms.apply(Operation::multiply, carrier->size, weight);

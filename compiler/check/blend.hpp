@@ -38,11 +38,15 @@ class Blender {
     std::optional<Value> force;
     std::vector<Texture> textures;
     std::vector<std::size_t> taken;  ///< the indices of the carriers of the current component's textures, ascending
+    std::vector<TermId> weighed;     ///< the weights by which a force of a known size is multiplied
     Levels levels;
   };
 
   void superpose(const AssembledMaterial::Component& component, TermId weight, TermId share, Superposition& sum);
   void add_levels(const AssembledMaterial::Component& component, TermId share, Superposition& sum);
+  /// Warns of weights that the author wrote and that change neither a force nor a level.
+  void warn_of_idle_weights(const AssembledMaterial& assembled, const std::vector<TermId>& weights,
+                            const Superposition& sum);
   TermId add_weight(const AssembledMaterial::Component& component);
   TermId whole_of(const std::vector<TermId>& weights);
   void add_leaves(const Value& force, TermId weight, const std::string& name, std::size_t first_carrier,

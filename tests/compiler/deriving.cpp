@@ -295,6 +295,41 @@ material abb = 0.5 ab + b { physical { force = vector(0.2 N, 0 N) } }
                2e-5);
 }
 
+TEST(Blends, WarnOfAWeightThatChangesNothing) {
+  const std::string others = R"(
+material open { perceptual { roughness 0.6 } physical { force = lateral(grating(x, period: 3 mm)) } }
+material crossed { perceptual { roughness 0.4 } physical { force = lateral(grating(y, period: 2 mm)) } }
+material fixed { physical { force = lateral(grating(x, period: 3 mm), amplitude: 1 N) } }
+material oily { physical { force = viscous(2 N s/m) } }
+)";
+  for (const std::string rest :
+       {"WEIGHT open", "WEIGHT open { perceptual { roughness 0.3 } }", "WEIGHT fixed", "WEIGHT open + oily",
+        "WEIGHT open + oily { perceptual { roughness 0.3 } }", "WEIGHT oily + open", "WEIGHT ribbed",
+        "WEIGHT open + crossed", "WEIGHT open + crossed { perceptual { roughness 0.3 } }", "WEIGHT open + fixed",
+        "WEIGHT open { physical { force = viscous(1 N s/m) } }"}) {
+    const auto with = [&](const std::string& weight) {
+      return std::string(base) + others + "material m = " + weight + rest.substr(6);
+    };
+    SourceSet sources;
+    Diagnostics diagnostics;
+    Files files;
+    check_source(sources, sources.add("test.wale", with("0.7")), files, diagnostics);
+    ASSERT_FALSE(diagnostics.has_errors()) << rest;
+    const bool warned = std::ranges::any_of(diagnostics.all(), [](const Diagnostic& each) {
+      return each.code == Code::unused_name && each.message.starts_with("the weight of");
+    });
+    const Compiled some(with("0.7")), all(with("1"));
+    Bank one(some.programs.at("m")), other(all.programs.at("m"));
+    std::mt19937 random(7);
+    double differ = 0;
+    for (int i = 0; i < 500; ++i) {
+      const Hand hand = somewhere(random);
+      differ = std::max<double>(differ, glm::length(tick(one, hand) - tick(other, hand)));
+    }
+    EXPECT_EQ(warned, differ < 1e-4) << rest << ": the forces differ by " << differ << " N";
+  }
+}
+
 TEST(Blends, KeepTheirComponentsStatesApart) {
   const Compiled made(R"(wale 1
 material swing { physical {
