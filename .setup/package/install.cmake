@@ -8,6 +8,11 @@ set(data_folder ${CMAKE_INSTALL_DATADIR}/wale)
 function(install_library name component)
   install(TARGETS ${name}_shared EXPORT Wale-${component}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component} NAMELINK_COMPONENT development)
+  # Debian's libraries name no folders. Only the installation knows the prefix: `--prefix` and CPack change it.
+  get_target_property(version ${name}_shared VERSION)
+  install(CODE "if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")
+    file(RPATH_REMOVE FILE \"\$ENV{DESTDIR}/usr/${CMAKE_INSTALL_LIBDIR}/lib${name}.so.${version}\")
+  endif()" COMPONENT ${component})
   install(TARGETS ${name}_static EXPORT Wale-${component}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
   install(EXPORT Wale-${component} NAMESPACE Wale:: DESTINATION ${config_folder} COMPONENT development)
