@@ -75,6 +75,12 @@ Result<> is_given(const char* argument, const void* value) {
   return {};
 }
 
+Result<> is_place(const char* argument, const void* value) {
+  if (value == nullptr)
+    return about_argument(argument, "expected a place for the result, found NULL", "hand over the address of a pointer");
+  return {};
+}
+
 Result<bool> read_flag(const char* argument, std::int32_t value) {
   if (value != 0 && value != 1)
     return about_argument(argument, "expected 0 or 1, found " + std::to_string(value), "write 1 for yes");

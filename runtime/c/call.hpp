@@ -40,6 +40,8 @@ WaleCode call(WaleError** error, const Body& body) noexcept {
 Error about_argument(std::string argument, std::string sentence, std::string mend, Code code = Code::malformed_value);
 /// Error: an argument is NULL.
 Result<> is_given(const char* argument, const void* value);
+/// Error: there is no place for the result that this argument is for.
+Result<> is_place(const char* argument, const void* value);
 
 /// A text of a result: also an empty one has data.
 inline WaleText text_of(std::string_view text) { return {text.empty() ? "" : text.data(), text.size()}; }

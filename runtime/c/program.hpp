@@ -19,7 +19,7 @@ namespace wale::c {
 /// The result of a call: a place for a handle. Sets it to NULL. Error: it is NULL.
 template <class Handle>
 Result<> clear_result(const char* argument, Handle** to) {
-  if (auto given = is_given(argument, to); !given) return given;
+  if (auto given = is_place(argument, to); !given) return given;
   *to = nullptr;
   return {};
 }

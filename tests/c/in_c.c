@@ -280,7 +280,7 @@ int main(void) {
   CHECK_GOOD(wale_library_create(NULL, &library, &error));
   CHECK_GOOD(wale_library_find(library, WALE_TEXT("corduroy"), NULL, &corduroy, &error));
   run_parts((Part[]){errors, texts, sizes, programs, warnings, libraries, futures, two_threads, NULL});
-  failures += stage_parts() + running_parts() + workspace_parts();
+  failures += stage_parts() + running_parts() + workspace_parts() + null_parts();
   wale_program_free(corduroy);
   wale_library_free(library);
   CHECK(wale_handles() == 0);

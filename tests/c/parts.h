@@ -11,5 +11,6 @@ extern WaleProgram* corduroy;
 int stage_parts(void);
 int running_parts(void);
 int workspace_parts(void);
+int null_parts(void);
 
 #endif
