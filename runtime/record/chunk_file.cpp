@@ -35,7 +35,10 @@ Error unwritable(const std::string& path, int error) {
       return because("the file would exceed the limit on its size (ulimit -f)", "raise the limit or record elsewhere");
     case ENOSPC:
     case EDQUOT: return because("the disk is full", "make room or record elsewhere");
-    default: return because("the file cannot be written: " + std::generic_category().message(error), "");
+    case ENAMETOOLONG: return because("the name of the file is too long", "choose a shorter one");
+    case ENOTDIR: return because("a part of the path is a file and no folder", "choose another folder");
+    default:
+      return because("the file cannot be written: " + std::generic_category().message(error), "record elsewhere");
   }
 }
 

@@ -29,7 +29,11 @@ Result<std::unique_ptr<RecordWriter>> RecordWriter::begin(const std::string& pat
 
 Result<> RecordWriter::start(const RecordingHeader& header) {
   const Result<std::vector<std::byte>> profile = write_profile(header.device);
-  if (!profile) return profile.error();
+  if (!profile) {
+    Error error = profile.error();
+    if (error.mend.empty()) error.mend = "give the device's profile a figure in this range";
+    return error;
+  }
   ByteWriter bytes;
   bytes << header.most_newton << static_cast<std::uint8_t>(header.virtual_time) << std::string_view(header.hand);
   bytes << static_cast<std::uint32_t>(profile->size()) << *profile;
@@ -165,7 +169,9 @@ std::uint32_t RecordWriter::number_of(const Shape& shape) {
   if (fresh) {
     if (const auto* mask = std::get_if<MaskFigures>(&figures)) mask_cells_ += mask->columns * mask->rows;
     if (mask_cells_ > most_mask_cells) {
-      give_up({.code = Code::unwritable_file, .sentence = "a recording holds masks of 268 435 456 cells in all"});
+      give_up({.code = Code::unwritable_file,
+               .sentence = "a recording holds masks of 268 435 456 cells in all",
+               .mend = "use fewer or coarser masks"});
       whole_ = false;
       lost_.store(true, std::memory_order_relaxed);
     }

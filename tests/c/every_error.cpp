@@ -2,9 +2,13 @@
 // comes back: it has a code, a sentence, a place, and what to do about it. every_function.def, which the build makes
 // from the headers, names all functions that can fail; one with a new type of argument does not compile until `draw`
 // knows the type.
+//
+// test_every_error [TIMES [SEED [THREADS]]]. With threads, each draws its own arguments and now and then takes handles
+// that all of them use, those that may be used by any thread at the same time.
 #include <unistd.h>
 #include <wale.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,12 +19,13 @@
 #include <random>
 #include <set>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <vector>
 
 namespace {
 
-std::mt19937 chance(1995);
+thread_local std::mt19937 chance(1995);
 
 std::size_t below(std::size_t end) { return std::uniform_int_distribution<std::size_t>(0, end - 1)(chance); }
 template <class Value>
@@ -31,11 +36,14 @@ bool seldom() { return below(8) == 0; }
 
 /// Handles that earlier calls gave, and the place for the next one.
 template <class Handle>
-std::vector<Handle*> made;
+thread_local std::vector<Handle*> made;
 template <class Handle>
-Handle* given = nullptr;
+thread_local Handle* given = nullptr;
 template <class Handle>
 void (*freed_by)(Handle*) = nullptr;
+/// Handles that all threads use, and none frees.
+template <class Handle>
+std::vector<Handle*> shared;
 
 template <class Handle>
 void keep_given() {
@@ -55,13 +63,17 @@ void keep_given() {
       DO(WaleEdit, edit) DO(WaleLoop, loop) DO(WaleRun, run) DO(WaleFelt, felt) DO(WaleShape, shape)                 \
           DO(WaleSnapshot, snapshot) DO(WaleRecording, recording) DO(WaleWorkspace, workspace)
 
-std::string folder;                       // for files
-std::vector<std::string> paths, texts;    // of files, and for names
-alignas(16) unsigned char room[1 << 16];  // for arrays
-bool has_array = false;                   // the function has one: its lengths are small
+std::string folder;                                    // for files
+std::vector<std::string> paths, texts;                 // of files, and for names
+alignas(16) thread_local unsigned char room[1 << 16];  // for arrays
+thread_local bool has_array = false;                   // the function has one: its lengths are small
 
 template <class Handle>
 void draw_handle(Handle*& to) {
+  if (!shared<Handle>.empty() && below(2) == 0) {
+    to = shared<Handle>[below(shared<Handle>.size())];
+    return;
+  }
   to = seldom() || made<Handle>.empty() ? nullptr : made<Handle>[below(made<Handle>.size())];
 }
 #define DRAW_HANDLE(Handle, name)                              \
@@ -84,7 +96,11 @@ void draw(WaleText& to) {
 void draw(std::size_t& to) {
   to = has_array ? one_of<std::size_t>({0, 1, 3, 8, 64}) : one_of<std::size_t>({0, 0, 1, 7, 100000, SIZE_MAX});
 }
-void draw(double& to) { to = one_of({0.0, 0.001, 0.0025, 0.01, 1.0, -1.0, 1e300, double(NAN), double(INFINITY)}); }
+thread_local bool asks_for_infinity = false;
+void draw(double& to) {
+  to = one_of({0.0, 0.001, 0.0025, 0.01, 1.0, -1.0, 1e300, double(NAN), double(INFINITY)});
+  if (to > 1e300) asks_for_infinity = true;
+}
 void draw(float& to) { to = one_of({0.0f, 0.01f, 0.01f, 0.05f, 1.0f, -1.0f, 1e30f, NAN, float(INFINITY)}); }
 void draw(std::int32_t& to) { to = one_of<std::int32_t>({0, 0, 1, 1, 2, -1, 77}); }
 void draw(WaleVector& to) { draw(to.x), draw(to.y); }
@@ -107,7 +123,7 @@ DRAW_ARRAY(WaleVector) DRAW_ARRAY(const WaleVector) DRAW_ARRAY(float) DRAW_ARRAY
     /// A struct with a size for a result.
     template <class Struct>
     void draw_result(Struct*& to) {
-  static Struct place;
+  static thread_local Struct place;
   place.size = below(6) == 0 ? one_of<std::size_t>({0, 3, 1 << 20}) : sizeof place;
   to = seldom() ? nullptr : &place;
 }
@@ -123,7 +139,7 @@ DRAW_RESULT(WaleProgramDetails) DRAW_RESULT(WaleParameter) DRAW_RESULT(WalePerce
     /// Options: mostly all 0, with some fields set by `set`.
     template <class Struct, class Set>
     void draw_options(const Struct*& to, const Set& set) {
-  static struct {
+  static thread_local struct {
     Struct known;
     double newer;
   } place;
@@ -170,7 +186,7 @@ void draw(const WaleMeasureOptions*& to) {
   draw_options(to, [](WaleMeasureOptions& its) { draw_field(its.settling, its.stuck_seconds, its.stuck_counts); });
 }
 void draw(const WaleLibraryOptions*& to) {
-  static WaleText folders[2];
+  static thread_local WaleText folders[2];
   draw_options(to, [](WaleLibraryOptions& its) {
     for (WaleText& each : folders) draw(each);
     if (below(2)) folders[0] = folders[1] = text_of(folder);
@@ -196,7 +212,7 @@ void draw(const WaleProfile*& to) {
   });
 }
 void draw(const WaleBatchOptions*& to) {
-  static WaleSetting setting;
+  static thread_local WaleSetting setting;
   draw_options(to, [](WaleBatchOptions& its) {
     its.hands = its.ticks = below(5), its.position = reinterpret_cast<const WaleVector*>(room);
     draw(setting.name), draw(setting.value);
@@ -205,11 +221,11 @@ void draw(const WaleBatchOptions*& to) {
   });
 }
 
-WaleError* error = nullptr;
+thread_local WaleError* error = nullptr;
 void draw(WaleError**& to) { to = &error; }
 
-std::map<WaleCode, int> seen;
-int failures = 0;
+thread_local std::map<WaleCode, int> seen;
+std::atomic<int> failures = 0;
 
 /// Whether an error tells its reader enough. Looks at its others too.
 void look_at(const char* function, const WaleError* wrong, WaleCode code) {
@@ -234,7 +250,7 @@ void look_at(const char* function, const WaleError* wrong, WaleCode code) {
   if (std::string(told.place.data, told.place.length).find(".wale") != std::string::npos && code / 100 < 5 &&
       told.column < 1)
     fail("column in its Wale file");
-  if (std::strstr(told.in_words.data, "inf ") != nullptr) fail("number that was asked for");
+  if (!asks_for_infinity && std::strstr(told.in_words.data, "inf ") != nullptr) fail("number that was asked for");
   for (std::size_t i = 0; i < told.others; ++i) {
     const WaleError* other = wale_error_other(wrong, i);
     if (wale_error_code(other) == 0) fail("code of another error");
@@ -262,6 +278,7 @@ constexpr bool is_array = std::is_pointer_v<Type> &&
 template <class... Arguments>
 void try_once(const char* name, WaleCode (*function)(Arguments...)) {
   has_array = (is_array<Arguments> || ...);
+  asks_for_infinity = false;
   std::tuple<Arguments...> drawn{};
   std::apply([](auto&... each) { (draw(each), ...); }, drawn);
   note(name, std::apply(function, drawn));
@@ -348,11 +365,56 @@ void owner_declares(const std::string& text) {
   note("wale_library_create", wale_library_create(nullptr, &given<WaleLibrary>, &error));
 }
 
+void try_all() {
+#define FUNCTION(name) try_once(#name, name);
+#include "every_function.def"
+}
+
+void free_all() {
+#define FREE_ALL(Handle, name)                                        \
+  for (Handle * each : made<Handle>) wale_##name##_free(each);        \
+  made<Handle>.clear();
+  EVERY_HANDLE(FREE_ALL)
+}
+
+/// Some of the handles that this thread has made become those of all threads.
+template <class Handle>
+void share() {
+  shared<Handle>.swap(made<Handle>);
+}
+/// They are this thread's again.
+template <class Handle>
+void take_back() {
+  made<Handle>.insert(made<Handle>.end(), shared<Handle>.begin(), shared<Handle>.end());
+  shared<Handle>.clear();
+}
+#define MAY_BE_SHARED(DO)                                                                                             \
+  DO(WaleLibrary) DO(WaleProgram) DO(WaleDevices) DO(WaleDevice) DO(WaleStage) DO(WalePatch) DO(WaleRun) DO(WaleFelt) \
+      DO(WaleShape) DO(WaleRecording) DO(WaleWorkspace)
+
+/// Several threads call all functions at the same time, also with the same handles.
+void try_at_once(int times, int threads, unsigned seed) {
+#define SHARE(Handle) share<Handle>();
+  MAY_BE_SHARED(SHARE)
+  std::vector<std::thread> running;
+  for (int i = 0; i < threads; ++i)
+    running.emplace_back([times, seed, i] {
+      chance.seed(seed + 1 + static_cast<unsigned>(i));
+      for (int k = 0; k < times; ++k) try_all();
+      free_all();
+    });
+  for (std::thread& each : running) each.join();
+#define TAKE_BACK(Handle) take_back<Handle>();
+  MAY_BE_SHARED(TAKE_BACK)
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
   const int times = count > 1 ? std::atoi(arguments[1]) : 60;
-  if (count > 2) chance.seed(static_cast<unsigned>(std::atoi(arguments[2])));
+  const unsigned seed = count > 2 ? static_cast<unsigned>(std::atoi(arguments[2])) : 1995;
+  const int threads = count > 3 ? std::atoi(arguments[3]) : 0;
+  chance.seed(seed);
   prepare();
 #define FREED(Handle, name) freed_by<Handle> = wale_##name##_free;
   EVERY_HANDLE(FREED)
@@ -372,12 +434,10 @@ int main(int count, char** arguments) {
   for (int i = 0; i < times; ++i) {
     if (i == times / 3) owner_declares("wale 1\nexport device mine {\n  force 3 m\n}\n");
     if (i == times / 2) owner_declares("wale 1\nexport device {\n");
-#define FUNCTION(name) try_once(#name, name);
-#include "every_function.def"
+    try_all();
   }
-#define FREE_ALL(Handle, name) \
-  for (Handle * each : made<Handle>) wale_##name##_free(each);
-  EVERY_HANDLE(FREE_ALL)
+  if (threads > 0) try_at_once(times, threads, seed);
+  free_all();
 
   if (wale_handles() != 0) std::fprintf(stderr, "%zu handles are left\n", wale_handles()), ++failures;
 

@@ -71,7 +71,8 @@ set_target_properties(test_every_error PROPERTIES CXX_STANDARD 17)
 target_include_directories(test_every_error PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 target_link_libraries(test_every_error PRIVATE strict_c)
 add_test(NAME C.EveryError COMMAND test_every_error)
-set_tests_properties(C.EveryError PROPERTIES TIMEOUT 300)
+add_test(NAME C.EveryErrorAtOnce COMMAND test_every_error 12 7 3)
+set_tests_properties(C.EveryError C.EveryErrorAtOnce PROPERTIES TIMEOUT 300)
 
 # It replaces malloc, which sanitizers do too.
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")

@@ -286,6 +286,10 @@ TEST(RecordingFile, CannotReplaceAFileOrBeInAMissingFolder) {
                 "only a table, as in `--record run.csv`, replaces a file");
   EXPECT_EQ(bytes_of(folder / "a.wrec"), before);
   EXPECT_EQ(attempt(folder / "none/a.wrec"), folder / "none/a.wrec" + ": there is no such folder; make it first");
+  EXPECT_EQ(attempt(folder / "a.wrec/b.wrec"),
+            folder / "a.wrec/b.wrec" + ": a part of the path is a file and no folder; choose another folder");
+  const std::string long_name = folder / std::string(300, 'x');  // a file system's names have 255 bytes
+  EXPECT_EQ(attempt(long_name), long_name + ": the name of the file is too long; choose a shorter one");
   device.profile_.mass = -1;
   Stage light(device, {.record = RecordTo{folder / "b.wrec", {}}});
   ASSERT_TRUE(light.add(oil(1)));
