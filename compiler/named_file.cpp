@@ -104,6 +104,19 @@ std::vector<std::string> some_of_kind(const LibraryIndex& index, const std::stri
   return names;
 }
 
+/// Materials with a word that begins so in their name, title or what they are called: at most three, each name once.
+std::vector<std::string> some_with_word(const LibraryIndex& index, const std::string& word) {
+  constexpr std::size_t most = 3, least_letters = 3;
+  std::vector<std::string> names;
+  if (word.size() < least_letters) return names;
+  for (const FoundMaterial& each : find_materials(index, {word}, "")) {
+    const bool is_named_so = each.by == FoundBy::name || each.by == FoundBy::title || each.by == FoundBy::called;
+    if (!is_named_so || each.material->origin == Origin::hidden || names.size() == most) continue;
+    if (std::ranges::find(names, each.material->name) == names.end()) names.push_back(each.material->name);
+  }
+  return names;
+}
+
 /// `is_not` goes on with the sentence of the error: "`corderoy` …".
 Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::string>& roots,
                                std::string_view is_not) {
@@ -132,6 +145,9 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
     } else if (const auto near = nearest_materials(*index, name); !near.empty()) {
       error.mend = fmt::format("the nearest: {}; `wale find` lists all", listed_near(near));
       for (const NearMaterial& each : near) error.nearest.push_back(each.material->name);
+    } else if (auto with_word = some_with_word(*index, name); !with_word.empty()) {
+      error.mend = fmt::format("its word is in: `{}`; `wale find` lists all", fmt::join(with_word, "`, `"));
+      error.nearest = std::move(with_word);
     } else
       error.mend = "`wale find` lists the materials of the library";
     if (!index->left_out().empty())
