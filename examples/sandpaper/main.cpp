@@ -5,12 +5,30 @@
 #include <QFileInfo>
 #include <QTimer>
 #include <cstdio>
+#include <cstdlib>
 #include <wale/language_service.hpp>
 
 #include "window/main_window.hpp"
 
+namespace {
+
+QtMessageHandler usual = nullptr;
+
+/// Qt ends a process that finds no screen as a crash; a person gets a sentence and a status instead.
+void end_without_a_screen(QtMsgType type, const QMessageLogContext& context, const QString& text) {
+  if (type != QtFatalMsg) return;  // its other lines tell the same in words of Qt
+  if (!text.contains("platform plugin")) return usual(type, context, text);
+  std::fputs("sandpaper: there is no screen to open a window on; log in to a desktop, or feel without a window: wale feel\n",
+             stderr);
+  std::_Exit(1);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  usual = qInstallMessageHandler(end_without_a_screen);
   QApplication application(argc, argv);
+  qInstallMessageHandler(usual);
   QApplication::setApplicationName("sandpaper");
   QApplication::setOrganizationName("wale");
   QApplication::setApplicationDisplayName("Sandpaper");
