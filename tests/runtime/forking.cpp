@@ -56,11 +56,14 @@ TEST(Forking, LeavesStagesToTheParent) {
     edit.reset();
     stage.reset();
     if (device.commands != commands) return 7;
+#if !defined(__SANITIZE_THREAD__)  // it allows no threads after a fork
     // The child's own.
     Resting own;
     Stage another(own);
     if (!another.add(push(1)) || !another.run({.seconds = 0.01, .virtual_time = true})) return 8;
-    return another.start() && another.stop() ? 0 : 9;
+    if (!another.start() || !another.stop()) return 9;
+#endif
+    return 0;
   });
   EXPECT_EQ(left, 0);
   EXPECT_TRUE(stage->is_running()) << "the parent's run goes on";
