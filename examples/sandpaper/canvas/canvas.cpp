@@ -68,7 +68,7 @@ void Canvas::set_look(const CanvasLook& look) {
 }
 
 void Canvas::tell_readers() {
-  if (!QAccessible::isActive()) return;
+  if (!QAccessible::isActive() || fixed_) return;  // nobody chooses where all is fixed
   if (document_.chosen().size() == 1)
     if (auto* self = QAccessible::queryAccessibleInterface(this))
       for (int i = 0; i < self->childCount(); ++i)

@@ -18,6 +18,8 @@ SessionPanel::SessionPanel(Session& session, QWidget* parent)
   state_->setObjectName("session_state");
   state_->setWordWrap(true);
   state_->setTextFormat(Qt::PlainText);
+  state_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  state_->setMinimumHeight(4 * state_->fontMetrics().lineSpacing());  // a label that wraps has no height of its own
   auto* form = new QFormLayout(this);
   form->addRow(tr("&Participant"), participant_);
   form->addRow(tr("&Seed"), seed_);
@@ -27,6 +29,10 @@ SessionPanel::SessionPanel(Session& session, QWidget* parent)
     if (session_.runs()) return session_.end("ended by the experimenter");
     bool is_number = false;
     const auto seed = seed_->text().toUInt(&is_number);
+    if (!is_number && !seed_->text().isEmpty()) {
+      state_->setText(tr("A seed is a number from 0 to 4294967295."));
+      return seed_->setFocus();
+    }
     emit begin_wanted(participant_->text(), is_number ? seed : QRandomGenerator::global()->generate());
   });
   connect(&session_, &Session::changed, this, &SessionPanel::update_state);

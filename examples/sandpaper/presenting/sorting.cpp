@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 #include <utility>
@@ -15,6 +16,7 @@ constexpr double gap = 1.08;        // the same within a pile
 constexpr double growth = 1.1;      // of a table that is too small
 constexpr std::size_t room = 2;     // places for each key, so that piles find room
 constexpr std::size_t in_a_row = 3; // keys of a pile
+constexpr double label_room = 0.5;  // sides of a key, above a pile
 
 bool is_name(const std::string& text) {
   return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
@@ -65,11 +67,11 @@ bool Sorting::start(const wale::MiniKeys& declared, const Contents& contents, st
     while (!numbers.insert(number).second);
     keys[i].label = declared.numbered_at_random ? QString::number(number) : QString::fromStdString(keys[i].name);
     keys[i].at = places[i];
-    order.items.push_back({keys[i].name, keys[i].label.toStdString(), places[i]});
   }
-  if (!session_.log(order)) return false;
   if (declared.numbered_at_random)  // the order in which they are reached by keys must tell nothing either
     std::ranges::sort(keys, {}, [](const SortingKey& each) { return each.label.toInt(); });
+  for (const SortingKey& each : keys) order.items.push_back({each.name, each.label.toStdString(), each.at});
+  if (!session_.log(order)) return false;
   keys_ = std::move(keys);
   emit changed();
   return true;
@@ -148,13 +150,32 @@ void Sorting::tidy(int pile) {
   for (SortingKey& each : keys_)
     if (each.pile == pile) of_it.push_back(&each);
   if (of_it.empty()) return;
-  // Around the place of the key that has lain there longest, and within the table.
+  // Around the place of the first key, or as near to it as the pile lies on nothing else.
   const glm::dvec2 first = of_it.front()->at;
   const std::size_t columns = std::min(of_it.size(), in_a_row), rows = (of_it.size() + in_a_row - 1) / in_a_row;
   const glm::dvec2 size = gap * side() * glm::dvec2(static_cast<double>(columns), static_cast<double>(rows));
-  const glm::dvec2 low = -0.5 * table_, high = 0.5 * table_ - size;
-  glm::dvec2 corner = first - 0.5 * gap * side();
-  corner = {std::clamp(corner.x, low.x, std::max(low.x, high.x)), std::clamp(corner.y, low.y, std::max(low.y, high.y))};
+  const glm::dvec2 margin{0.1 * side(), 0.1 * side()}, label{0, label_room * side()};
+  const glm::dvec2 low = -0.5 * table_, high = 0.5 * table_ - size - label;
+  const auto is_free = [&](glm::dvec2 corner) {
+    const glm::dvec2 from = corner - margin, to = corner + size + label + margin;
+    const auto lies_on = [&](glm::dvec2 at, glm::dvec2 whole) {
+      const glm::dvec2 least = at - 0.5 * whole, most = at + 0.5 * whole;
+      return from.x < most.x && to.x > least.x && from.y < most.y && to.y > least.y;
+    };
+    return !lies_on(area_at(), area_size()) &&
+           std::ranges::none_of(keys_, [&](const SortingKey& each) { return each.pile != pile && lies_on(each.at, glm::dvec2(side())); });
+  };
+  const auto within = [&](glm::dvec2 corner) {
+    return glm::dvec2(std::clamp(corner.x, low.x, std::max(low.x, high.x)), std::clamp(corner.y, low.y, std::max(low.y, high.y)));
+  };
+  const glm::dvec2 wanted = within(first - 0.5 * gap * side());
+  glm::dvec2 corner = wanted;
+  if (!is_free(wanted)) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (double x = low.x; x <= high.x; x += side() / 4)
+      for (double y = low.y; y <= high.y; y += side() / 4)
+        if (const double way = std::hypot(x - wanted.x, y - wanted.y); way < nearest && is_free({x, y})) nearest = way, corner = {x, y};
+  }
   for (std::size_t i = 0; i < of_it.size(); ++i)
     of_it[i]->at = corner + gap * side() * glm::dvec2(static_cast<double>(i % in_a_row) + 0.5, static_cast<double>(i / in_a_row) + 0.5);
 }

@@ -30,9 +30,7 @@ SortingPage::SortingPage(Sorting& sorting, Feeling& feeling, QWidget* parent)
   layout->addWidget(table_, 1);
   layout->addLayout(bar);
   connect(&sorting_, &Sorting::changed, this, &SortingPage::update_bar);
-  connect(table_, &SortingTable::label_wanted, this, [this] {
-    if (label_->isEnabled()) label_->setFocus(), label_->selectAll();
-  });
+  connect(table_, &SortingTable::label_wanted, this, &SortingPage::ask_label);
   connect(label_, &QLineEdit::editingFinished, this, [this] { sorting_.label(shown_, label_->text()); });
   connect(label_, &QLineEdit::returnPressed, table_, qOverload<>(&QWidget::setFocus));
   connect(new_pile_, &QPushButton::clicked, this, [this] {
@@ -45,6 +43,12 @@ SortingPage::SortingPage(Sorting& sorting, Feeling& feeling, QWidget* parent)
   connect(done, &QPushButton::clicked, this, &SortingPage::done);
   setFocusProxy(table_);
   update_bar();
+}
+
+void SortingPage::ask_label() {
+  if (!label_->isEnabled()) return;
+  label_->setFocus();
+  label_->selectAll();
 }
 
 void SortingPage::update_bar() {

@@ -14,6 +14,8 @@ class SortingPage : public QWidget {
  public:
   SortingPage(Sorting& sorting, Feeling& feeling, QWidget* parent = nullptr);
   SortingTable& table() const { return *table_; }
+  /// Lets somebody type the label of the chosen key's pile, if it is in one.
+  void ask_label();
 
  signals:
   void done();

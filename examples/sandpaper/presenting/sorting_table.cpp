@@ -76,7 +76,8 @@ void SortingTable::paintEvent(QPaintEvent*) {
   painter.setBrush(palette().color(QPalette::AlternateBase));
   painter.drawRect(area);
   const SortingKey* chosen = sorting_.chosen();
-  painter.drawText(area, Qt::AlignCenter | Qt::TextWordWrap,
+  // At the top: the hand is in the middle.
+  painter.drawText(area.adjusted(4, 6, -4, -6), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap,
                    !chosen              ? tr("Choose a key:\nits surface is felt here")
                    : !feeling_.is_on() ? tr("%1\nno force").arg(chosen->label)
                                        : chosen->label);
@@ -172,6 +173,18 @@ void SortingTable::step(int by) {
   if (count == 0) return;
   const int now = sorting_.chosen_index() ? static_cast<int>(*sorting_.chosen_index()) : (by > 0 ? -1 : 0);
   sorting_.choose(static_cast<std::size_t>((now + by + count) % count));
+}
+
+bool SortingTable::event(QEvent* event) {
+  // Ctrl and a digit change how the canvas looks; here they join piles.
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (key->modifiers() == Qt::ControlModifier && key->key() >= Qt::Key_1 && key->key() <= Qt::Key_9) {
+      event->accept();
+      return true;
+    }
+  }
+  return QWidget::event(event);
 }
 
 void SortingTable::keyPressEvent(QKeyEvent* event) {

@@ -28,6 +28,7 @@ class SortingTable : public QWidget {
   void label_wanted();  ///< somebody wants to type the label of the chosen key's pile
 
  protected:
+  bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;

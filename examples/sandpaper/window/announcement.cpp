@@ -51,6 +51,7 @@ void Announcement::offer(const QString& words, const QString& button, const std:
   if (quiet_) return;
   QAccessibleEvent alert(words_, QAccessible::Alert);
   QAccessible::updateAccessibility(&alert);
+  emit read_out(words);
 }
 
 }  // namespace sandpaper

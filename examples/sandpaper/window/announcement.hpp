@@ -23,6 +23,9 @@ class Announcement : public QFrame {
   /// Whether nothing is read out: with a participant, who hears the same loudspeaker and must not hear of materials.
   void set_quiet(bool quiet) { quiet_ = quiet; }
 
+ signals:
+  void read_out(const QString& words);  ///< screen readers are told
+
  private:
   QLabel* words_;
   QToolButton* button_;

@@ -242,7 +242,7 @@ void MainWindow::touched_changed() {
   sliders_->set_touched(touched);
   const Placed* placed = touched ? document_.contents().find(*touched) : nullptr;
   palette_->set_touched(placed ? QString::fromStdString(placed->patch.made_of) : QString());
-  if (!document_.is_stale())
+  if (!document_.is_stale() && panels_before_.isEmpty())
     statusBar()->showMessage(placed ? tr("on %1 = %2").arg(canvas_->label_of(*placed), QString::fromStdString(placed->patch.made_of))
                                     : QString());
 }

@@ -118,6 +118,7 @@ class MainWindow : public QMainWindow {
   QStackedWidget* pages_of_work_ = nullptr;  // the canvas, or the sorting table
   SortingPage* sorting_page_ = nullptr;
   SessionPanel* session_panel_ = nullptr;
+  QByteArray panels_before_;  // which were open before a sort in this window
   ParticipantWindow* participant_ = nullptr;
   QTimer plotting_, advising_;
   qint64 last_typed_ = 0;

@@ -2,6 +2,8 @@
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QMenuBar>
+#include <QStatusBar>
+#include <utility>
 
 #include "window/main_window.hpp"
 
@@ -59,6 +61,18 @@ void MainWindow::make_present_menu() {
       });
     if (keys->isEmpty()) keys->addAction(tr("the file declares none"))->setEnabled(false);
   });
+  QMenu* piles = menu->addMenu(tr("The &chosen key"));
+  const auto of_chosen = [this](const auto& act) {
+    return [this, act] {
+      Sorting& sorting = presenting_.sorting();
+      if (const auto chosen = sorting.chosen_index()) return act(sorting, *chosen);
+      announcement_->say(tr("No key is chosen: there is one when a sort runs and a key was clicked"));
+    };
+  };
+  add(piles, "new_pile", tr("Into a &new pile (+)"), {}, of_chosen([](Sorting& sorting, std::size_t key) { sorting.put(key, sorting.new_pile()); }));
+  add(piles, "take_out", tr("&Out of its pile (0)"), {}, of_chosen([](Sorting& sorting, std::size_t key) { sorting.put(key, 0); }));
+  add(piles, "label_pile", tr("&Label its pile (L)"), {}, of_chosen([this](Sorting&, std::size_t) { sorting_page_->ask_label(); }));
+  add(piles, "take_back", tr("Take the last answer &back (Backspace)"), {}, [this] { presenting_.sorting().take_back(); });
   add(menu, "finish_sorting", tr("&Finish the sort and save its groups"), tr("Ctrl+Return"), [this] { presenting_.finish_sorting(); });
   add(menu, "cancel_sorting", tr("Break the sort o&ff"), tr("Shift+F6"), [this] {
     presenting_.cancel_sorting("by the experimenter");
@@ -94,6 +108,14 @@ void MainWindow::update_presenting() {
   if (pages_of_work_->currentWidget() != page) {
     pages_of_work_->setCurrentWidget(page);
     if (isActiveWindow()) page->setFocus();
+    // In one window, the participant would read in the panels what each key is made of.
+    if (sorts && !(participant_ && participant_->isVisible())) {
+      panels_before_ = saveState();
+      for (QDockWidget* each : findChildren<QDockWidget*>()) each->hide();
+      statusBar()->clearMessage();
+    } else if (!sorts && !panels_before_.isEmpty()) {
+      restoreState(std::exchange(panels_before_, {}));
+    }
   }
   for (const char* name : {"finish_sorting", "cancel_sorting"})
     if (QAction* each = action(name)) each->setEnabled(sorts);
