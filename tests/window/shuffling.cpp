@@ -1,6 +1,7 @@
 // Shuffled places: random, with the least overlap, against slow references.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -90,6 +91,31 @@ TEST(Shuffle, TwelvePatchesLieSideBySide) {
     for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(shuffled.contents.placed[i]->patch.at, again.contents.placed[i]->patch.at);
   }
   EXPECT_EQ(orders.size(), 5u);  // from back to front
+}
+
+TEST(Shuffle, AShapeBesideItsPlaceLiesWhereItIsSeen) {
+  // As kitchen.wale's puddle: its corners are far from its patch's centre.
+  const std::vector<glm::vec2> corners = {{0.04f, -0.02f}, {0.08f, -0.01f}, {0.085f, -0.045f}, {0.05f, -0.06f}};
+  Contents contents = squares(std::vector<glm::dvec2>(4, {0.05, 0.05}));
+  Placed puddle = *contents.placed[1];
+  puddle.patch.shape = "polygon";
+  puddle.patch.outline = *wale::Shape::polygon(corners);
+  puddle.patch.size = glm::dvec2(puddle.patch.outline.size());
+  contents.placed[1] = std::make_shared<const Placed>(puddle);
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    const Shuffled shuffled = shuffle(contents, {}, seed, 0.2, given_size);
+    EXPECT_EQ(shuffled.overlap, 0) << seed;
+    const auto found = std::ranges::find(shuffled.contents.placed, "p1", [](const PlacedRef& each) { return each->patch.name; });
+    for (const glm::vec2 corner : corners) {
+      const glm::dvec2 at = (*found)->patch.at + glm::dvec2(corner);
+      EXPECT_LE(std::hypot(at.x, at.y), 0.1) << seed;
+      for (const PlacedRef& each : shuffled.contents.placed)
+        if (each->patch.name != "p1") {
+          const glm::dvec2 from = at - each->patch.at;
+          EXPECT_FALSE(std::abs(from.x) < 0.025 && std::abs(from.y) < 0.025) << seed;
+        }
+    }
+  }
 }
 
 TEST(Shuffle, LockedPatchesStayAndOthersKeepOffThem) {

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <map>
 #include <random>
+#include <tuple>
 #include <utility>
 
 namespace sandpaper {
@@ -19,6 +20,45 @@ constexpr int restarts = 8, sweeps = 200;
 
 struct Box {
   glm::dvec2 at{0}, half{0};
+};
+
+/// The box around what a patch covers, from its place: a polygon need not lie around the patch's centre. For a shape that
+/// tells only distances it is up to a 64th too large on each side.
+Box footprint(const Placed& placed, glm::dvec2 size) {
+  const wale::Shape& outline = placed.patch.outline;
+  if (outline.is_rectangle() || placed.patch.shape == "ellipse") return {{0, 0}, 0.5 * size};
+  constexpr int cells = 64;
+  const wale::Shape shape = outline.stretched(glm::vec2(size));
+  const glm::dvec2 cell = size / double(cells);
+  const double around = 0.5 * std::hypot(cell.x, cell.y);
+  glm::dvec2 low = 0.5 * size, high = -low;
+  for (int i = 0; i < cells * cells; ++i) {
+    const glm::dvec2 at = -0.5 * size + cell * (glm::dvec2(i % cells, i / cells) + 0.5);
+    if (shape.edge(glm::vec2(at)).metres < -around) continue;  // no point of the cell belongs to it
+    low = {std::min(low.x, at.x - cell.x / 2), std::min(low.y, at.y - cell.y / 2)};
+    high = {std::max(high.x, at.x + cell.x / 2), std::max(high.y, at.y + cell.y / 2)};
+  }
+  if (low.x >= high.x || low.y >= high.y) return {{0, 0}, 0.5 * size};
+  // The patch's place is a multiple of the grain as its box's is.
+  const glm::dvec2 middle = 0.5 * (low + high), rounded{std::round(middle.x / grain) * grain, std::round(middle.y / grain) * grain};
+  return {rounded, 0.5 * (high - low) + 0.5 * grain};
+}
+
+/// The boxes of many patches that may have few shapes.
+class Footprints {
+ public:
+  explicit Footprints(const SizeOf& size_of) : size_of_(size_of) {}
+  Box of(const Placed& placed) {
+    const glm::dvec2 size = size_of_(placed);
+    if (placed.patch.outline.is_rectangle()) return {{0, 0}, 0.5 * size};
+    const auto [found, is_new] = known_.try_emplace({placed.patch.outline.identity(), size.x, size.y});
+    if (is_new) found->second = footprint(placed, size);
+    return found->second;
+  }
+
+ private:
+  const SizeOf& size_of_;
+  std::map<std::tuple<const void*, double, double>, Box> known_;
 };
 
 double shared(const Box& a, const Box& b) {
@@ -171,19 +211,22 @@ Shuffled shuffle(const Contents& contents, const std::set<std::uint64_t>& chosen
   for (std::size_t i = 0; i < spots.size(); ++i) result.contents.placed[spots[i]] = all[from[i]];
   std::vector<Box> boxes;
   std::vector<std::size_t> movable, of_slot;
+  std::vector<glm::dvec2> beside;  // of each that moves, its box from its place
+  Footprints footprints(size_of);
   for (std::size_t i = 0, slot = 0; i < all.size(); ++i) {
     const bool moves = slot < spots.size() && spots[slot] == i;
     if (moves) ++slot;
     const Placed& each = *result.contents.placed[i];
     if (!each.is_laid_out()) continue;
-    if (moves) movable.push_back(boxes.size()), of_slot.push_back(i);
-    boxes.push_back({each.patch.at, 0.5 * size_of(each)});
+    const Box around = footprints.of(each);
+    if (moves) movable.push_back(boxes.size()), of_slot.push_back(i), beside.push_back(around.at);
+    boxes.push_back({each.patch.at + around.at, around.half});
   }
   Table table(std::move(boxes), movable, (diameter > 0 ? diameter : usual_diameter) / 2, dice);
   result.overlap = table.arrange();
   for (std::size_t i = 0; i < movable.size(); ++i) {
     Placed moved = *result.contents.placed[of_slot[i]];
-    moved.patch.at = table.box(movable[i]).at;
+    moved.patch.at = table.box(movable[i]).at - beside[i];
     result.contents.placed[of_slot[i]] = std::make_shared<const Placed>(std::move(moved));
   }
   result.moved = static_cast<int>(spots.size());
@@ -192,8 +235,12 @@ Shuffled shuffle(const Contents& contents, const std::set<std::uint64_t>& chosen
 
 double overlap(const Contents& contents, const SizeOf& size_of) {
   std::vector<Box> boxes;
+  Footprints footprints(size_of);
   for (const PlacedRef& each : contents.placed)
-    if (each->is_laid_out()) boxes.push_back({each->patch.at, 0.5 * size_of(*each)});
+    if (each->is_laid_out()) {
+      const Box around = footprints.of(*each);
+      boxes.push_back({each->patch.at + around.at, around.half});
+    }
   double sum = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) sum += shared(boxes[i], boxes[k]);

@@ -22,7 +22,7 @@ struct Shuffled {
 Shuffled shuffle(const Contents& contents, const std::set<std::uint64_t>& chosen, std::uint32_t seed, double diameter,
                  const SizeOf& size_of);
 
-/// m², the area that the rectangles around two patches share, in the sum over all pairs.
+/// m², the area that the rectangles around what two patches cover share, in the sum over all pairs.
 double overlap(const Contents& contents, const SizeOf& size_of);
 
 }  // namespace sandpaper
