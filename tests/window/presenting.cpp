@@ -404,6 +404,9 @@ TEST_F(PresentedWindow, NothingTellsMaterialsToAParticipant) {
   ASSERT_TRUE(wait_until([&] { return sorting().runs(); }));
   EXPECT_EQ(participant->currentWidget(), &participant->page());
   EXPECT_FALSE(told(participant->page().table()).contains("oak"));
+  sorting().choose(0);
+  trigger("say_touched");
+  EXPECT_EQ(announced(), sorting().keys().front().label);
   EXPECT_GE(sorting().keys().front().label.toInt(), 100);
   trigger("cancel_sorting");
   EXPECT_EQ(participant->currentWidget(), &participant->canvas());

@@ -234,7 +234,10 @@ void MainWindow::make_feel_menu() {
     const Placed* placed = touched ? document_.contents().find(*touched) : nullptr;
     // A participant hears it too.
     const Canvas& told = participant_ && participant_->isVisible() ? participant_->canvas() : *canvas_;
-    const QString words = placed ? told.told_of(*placed) : tr("nothing is touched");
+    const SortingKey* key = presenting_.sorting().chosen();
+    const QString words = presenting_.sorting().runs() ? (key ? key->label : tr("no key is chosen"))
+                          : placed                     ? told.told_of(*placed)
+                                                       : tr("nothing is touched");
     announcement_->say(words);
     QProcess::startDetached("spd-say", {words});  // if there is a speech dispatcher
   });
