@@ -233,18 +233,4 @@ Shuffled shuffle(const Contents& contents, const std::set<std::uint64_t>& chosen
   return result;
 }
 
-double overlap(const Contents& contents, const SizeOf& size_of) {
-  std::vector<Box> boxes;
-  Footprints footprints(size_of);
-  for (const PlacedRef& each : contents.placed)
-    if (each->is_laid_out()) {
-      const Box around = footprints.of(*each);
-      boxes.push_back({each->patch.at + around.at, around.half});
-    }
-  double sum = 0;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) sum += shared(boxes[i], boxes[k]);
-  return sum;
-}
-
 }  // namespace sandpaper

@@ -10,7 +10,8 @@ namespace sandpaper {
 struct Shuffled {
   Contents contents;
   int moved = 0;
-  /// m², how far patches lie on each other, as `overlap` gives it; nothing for so many patches that it was not sought.
+  /// m², the area that the rectangles around what two patches cover share, in the sum over all pairs; nothing for so many
+  /// patches that it was not sought.
   std::optional<double> overlap;
 };
 
@@ -21,8 +22,5 @@ struct Shuffled {
 /// two patches are not moved. Takes up to some tenths of a second.
 Shuffled shuffle(const Contents& contents, const std::set<std::uint64_t>& chosen, std::uint32_t seed, double diameter,
                  const SizeOf& size_of);
-
-/// m², the area that the rectangles around what two patches cover share, in the sum over all pairs.
-double overlap(const Contents& contents, const SizeOf& size_of);
 
 }  // namespace sandpaper
