@@ -26,7 +26,8 @@ struct SessionBegin {
 
 /// A program that can be felt from here on.
 struct SessionProgram {
-  std::string patch, material;  ///< the patch's name, and its material as written
+  /// The patch's name, or those of several of one material with ", " between; and the material as written.
+  std::string patch, material;
   std::uint64_t hash = 0;       ///< `program_hash`
   friend bool operator==(const SessionProgram&, const SessionProgram&) = default;
 };
@@ -41,7 +42,7 @@ struct SessionItem {
 
 /// An order, or places, that a seed gave.
 struct SessionOrder {
-  std::string what;  ///< "frames", "places", "keys"
+  std::string what;  ///< "frames", "places", "keys", "numbers"
   std::string of;    ///< the movie, the workspace or the keys
   std::uint32_t seed = 0;
   std::vector<SessionItem> items;

@@ -22,13 +22,6 @@ constexpr int small = 12;              // pixels: smaller patches are drawn plai
 constexpr int largest_mask = 2048;     // pixels
 constexpr double arrow_per_newton = 0.01;  // m
 
-/// A number of three digits that is always the same for a patch.
-int three_digits(std::uint64_t id) {
-  std::uint64_t mixed = (id + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-  mixed ^= mixed >> 29;
-  return 100 + static_cast<int>(mixed % 900);
-}
-
 /// The place inside a shape that is farthest from its edge, roughly; m from its centre.
 glm::dvec2 inner_place(const wale::Shape& outline, glm::dvec2 size) {
   constexpr int places = 16;
@@ -45,8 +38,8 @@ glm::dvec2 inner_place(const wale::Shape& outline, glm::dvec2 size) {
 
 }  // namespace
 
-Canvas::Canvas(Document& document, Feeling& feeling, Pictures& pictures, QWidget* parent)
-    : QWidget(parent), document_(document), feeling_(feeling), pictures_(pictures) {
+Canvas::Canvas(Document& document, Feeling& feeling, Pictures& pictures, const Numbers& numbers, QWidget* parent)
+    : QWidget(parent), document_(document), feeling_(feeling), pictures_(pictures), numbers_(numbers) {
   use_canvas_access();
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
@@ -63,6 +56,7 @@ Canvas::Canvas(Document& document, Feeling& feeling, Pictures& pictures, QWidget
     changed();
   });
   connect(&pictures_, &Pictures::drawn, this, &Canvas::changed);
+  connect(&numbers_, &Numbers::renewed, this, &Canvas::changed);
   connect(&timer_, &QTimer::timeout, this, &Canvas::refresh);
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.start(picture_milliseconds);
@@ -74,7 +68,7 @@ void Canvas::set_look(const CanvasLook& look) {
 }
 
 void Canvas::tell_readers() {
-  if (!QAccessible::isActive()) return;
+  if (!QAccessible::isActive() || fixed_) return;  // nobody chooses where all is fixed
   if (document_.chosen().size() == 1)
     if (auto* self = QAccessible::queryAccessibleInterface(this))
       for (int i = 0; i < self->childCount(); ++i)
@@ -155,7 +149,7 @@ const Placed* Canvas::patch_at(glm::dvec2 metres) const {
 }
 
 QString Canvas::label_of(const Placed& placed) const {
-  return look_.random_numbers ? QString::number(three_digits(placed.id)) : QString::fromStdString(placed.patch.name);
+  return look_.random_numbers ? numbers_.of(placed) : QString::fromStdString(placed.patch.name);
 }
 
 QString Canvas::told_of(const Placed& placed) const {
@@ -195,17 +189,19 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
   const QRectF box = box_of(placed);
   if (!box.intersects(QRectF(rect()))) return;
   const wale::Program* program = feeling_.program(placed.id);
-  const bool is_chosen = document_.chosen().contains(placed.id);
+  const bool is_chosen = !fixed_ && document_.chosen().contains(placed.id);
+  // All alike: a colour would tell which patches are made of the same.
+  const bool is_blind = look_.surfaces == Look::blind;
   if (box.width() < small && box.height() < small) {
     painter.fillRect(box.toAlignedRect(), is_chosen  ? palette().color(QPalette::Highlight)
-                                          : program ? colour_of(placed.patch.made_of)
-                                                    : QColor(Qt::gray));
+                                          : program && !is_blind ? colour_of(placed.patch.made_of)
+                                                                 : QColor(Qt::gray));
     return;
   }
   const bool is_plain = placed.patch.outline.is_rectangle();
   const QSize pixels = (box.size() * devicePixelRatioF()).toSize();
   QImage image;
-  QColor plain = program ? colour_of(placed.patch.made_of) : QColor(190, 190, 190);
+  QColor plain = program && !is_blind ? colour_of(placed.patch.made_of) : QColor(190, 190, 190);
   const auto material = program ? nullptr : feeling_.material(placed.id);
   if (material) plain = QColor(230, 160, 160);
   if (program)
@@ -229,7 +225,7 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
     painter.setPen(Qt::black);
     painter.drawText(box, Qt::AlignCenter | Qt::TextWordWrap, material ? tr("an error in its material") : tr("compiling …"));
   }
-  if (look_.surfaces != Look::blind || is_chosen) {
+  if (!is_blind || is_chosen) {
     painter.setPen(QPen(is_chosen ? palette().color(QPalette::Highlight) : QColor(0, 0, 0, 110), is_chosen ? 2 : 1));
     painter.setBrush(Qt::NoBrush);
     if (is_plain) painter.drawRect(box);

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "document/document.hpp"
+#include "document/numbers.hpp"
 #include "feeling/feeling.hpp"
 #include "canvas/pictures.hpp"
 
@@ -26,7 +27,7 @@ struct CanvasLook {
   bool cursor_behind = false;  ///< behind the patches' outlines and names
   bool force = true;           ///< the force as an arrow
   bool grid = true, names = true, marks = true;
-  bool random_numbers = false;  ///< three digits instead of each name
+  bool random_numbers = false;  ///< three digits instead of each name, new in each session
   bool black = false;           ///< black background
 };
 
@@ -36,7 +37,7 @@ class Canvas : public QWidget {
   Q_OBJECT
 
  public:
-  Canvas(Document& document, Feeling& feeling, Pictures& pictures, QWidget* parent = nullptr);
+  Canvas(Document& document, Feeling& feeling, Pictures& pictures, const Numbers& numbers, QWidget* parent = nullptr);
 
   Document& document() const { return document_; }
   const CanvasLook& look() const { return look_; }
@@ -111,6 +112,7 @@ class Canvas : public QWidget {
   Document& document_;
   Feeling& feeling_;
   Pictures& pictures_;
+  const Numbers& numbers_;
   CanvasLook look_;
   double scale_ = 3000;       // pixels per metre
   glm::dvec2 centre_{0};      // m, in the middle of the widget

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <random>
 #include <utility>
 
 namespace sandpaper {
@@ -58,23 +56,6 @@ int fit(Document& document, double diameter, const SizeOf& size_of) {
   document.change_placed(Document::tr("Fit into reach"), ids, [&](Placed& placed) {
     placed.patch.at += way_within(placed.patch.at, 0.5 * size_of(placed), diameter / 2);
   });
-  return static_cast<int>(ids.size());
-}
-
-int shuffle(Document& document, std::uint32_t seed) {
-  std::vector<std::uint64_t> ids;
-  std::vector<glm::dvec2> places;
-  for (const PlacedRef& each : document.contents().placed)
-    if (each->is_changeable() && !each->locked && (document.chosen().size() < 2 || document.chosen().contains(each->id)))
-      ids.push_back(each->id), places.push_back(each->patch.at);
-  if (ids.size() < 2) return 0;
-  // Sattolo's algorithm: one cycle, so that no patch keeps its place. The engine gives the same numbers everywhere.
-  std::mt19937 random(seed);
-  for (std::size_t i = places.size() - 1; i > 0; --i) std::swap(places[i], places[random() % i]);
-  std::map<std::uint64_t, glm::dvec2> place_of;
-  for (std::size_t i = 0; i < ids.size(); ++i) place_of[ids[i]] = places[i];
-  document.change_placed(Document::tr("Shuffle"), {ids.begin(), ids.end()},
-                         [&](Placed& placed) { placed.patch.at = place_of.at(placed.id); });
   return static_cast<int>(ids.size());
 }
 

@@ -20,10 +20,6 @@ void align(Document& document, Alignment alignment, const SizeOf& size_of);
 /// many were moved.
 int fit(Document& document, double diameter, const SizeOf& size_of);
 
-/// Gives the chosen patches, or all if fewer than two are chosen, each other's places in an order that the seed gives;
-/// locked ones stay. Each of at least two patches gets another place. Returns how many were moved.
-int shuffle(Document& document, std::uint32_t seed);
-
 /// Copies of the chosen patches, a little to the lower right, which are then chosen.
 void duplicate(Document& document);
 

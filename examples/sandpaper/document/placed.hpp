@@ -16,6 +16,7 @@ struct Placed {
   wale::LaidOutPatch patch;
   std::string compiled_from;             ///< the material's text without what sliders have changed since
   std::map<std::string, float> sliders;  ///< parameters that sliders have moved, SI
+  bool away = false;                     ///< not on the stage now: while somebody sorts, only the chosen one is
   bool locked = false;                   ///< the mouse and the arrow keys leave it where it is; not kept in the file
 
   /// Whether it can be laid out; otherwise it is only kept as its author wrote it.

@@ -68,8 +68,8 @@ void Feeling::take(QString spelling, wale::Result<std::unique_ptr<wale::Device>>
     return;
   }
   stage_.reset();
-  device_ = *std::move(device);
-  mouse_ = dynamic_cast<MouseHand*>(device_.get());
+  mouse_ = dynamic_cast<MouseHand*>(device->get());
+  device_ = std::make_unique<Recentred>(*std::move(device));
   spelling_ = std::move(spelling);
   profile_ = device_->profile();
   if (max_force_ <= 0 || max_force_ > profile_.force_newton) max_force_ = profile_.force_newton;
@@ -124,7 +124,7 @@ wale::PatchOptions Feeling::options(const Felt& felt) const {
 }
 
 void Feeling::place(Felt& felt) {
-  if (!felt.program || felt.patch) return;
+  if (!felt.program || felt.patch || felt.placed->away) return;
   auto patch = stage_->add(*felt.program, options(felt));
   if (!patch) {
     emit said(tr("%1 cannot be felt: %2").arg(QString::fromStdString(felt.placed->patch.name), words_of(patch.error())));
@@ -140,7 +140,7 @@ void Feeling::update(Felt& felt, const PlacedRef& placed, std::size_t layer) {
   const std::size_t layer_before = std::exchange(felt.layer, layer);
   const wale::LaidOutPatch &old = before->patch, &now = placed->patch;
   if (before == placed && layer == layer_before) return;
-  if (felt.patch && !(old.outline == now.outline)) {  // a shape is part of a patch for good
+  if (felt.patch && (placed->away || !(old.outline == now.outline))) {  // a shape is part of a patch for good
     by_patch_.erase(felt.patch->id());
     (void)felt.patch->remove();
     felt.patch.reset();
@@ -217,6 +217,38 @@ void Feeling::move_mouse(glm::vec2 to, bool pressed) {
   if (!mouse_) return;
   mouse_->move(to);
   mouse_->press(pressed);
+}
+
+bool Feeling::recentre() {
+  if (is_mouse()) {
+    emit said(tr("The mouse is where it is seen: it has no other centre. Choose a device first"));
+    return false;
+  }
+  set_on(false);
+  if (!device_ || profile_.position_counts <= 0) {
+    emit said(tr("This device has no position"));
+    return false;
+  }
+  // No loop runs, so the device is this thread's.
+  device_->elapse(1);
+  const wale::Reading reading = device_->device().sample();
+  if (reading.contact != wale::Contact::good) {
+    emit said(tr("The device does not say where its handle is: move it a little, and try again"));
+    return false;
+  }
+  device_->move_centre(reading.counts);
+  return true;
+}
+
+bool Feeling::centre_back() {
+  if (!device_ || device_->centre() == glm::ivec2(0)) return false;
+  set_on(false);
+  device_->move_centre({0, 0});
+  return true;
+}
+
+glm::dvec2 Feeling::centre() const {
+  return device_ ? glm::dvec2(device_->centre()) * glm::dvec2(profile_.position_step()) : glm::dvec2(0);
 }
 
 wale::Now Feeling::now() const { return stage_ ? stage_->now() : wale::Now{}; }

@@ -13,6 +13,7 @@
 #include "document/placed.hpp"
 #include "feeling/mouse_hand.hpp"
 #include "feeling/programs.hpp"
+#include "feeling/recentred.hpp"
 
 namespace sandpaper {
 
@@ -46,6 +47,14 @@ class Feeling : public QObject {
   /// Moves a slider at once, before the document knows.
   void set(std::uint64_t id, const std::string& parameter, float value);
   void move_mouse(glm::vec2 to, bool pressed);
+
+  /// Makes the place where the handle is now the workspace's centre, or gives back the device's own one. Takes all force
+  /// away first, since each patch comes to lie elsewhere under the hand. Says why where it cannot: the mouse is where it is
+  /// seen. Returns whether it could.
+  bool recentre();
+  bool centre_back();
+  /// m, where the centre is from the device's own one.
+  glm::dvec2 centre() const;
 
   wale::Now now() const;
   /// The patch that the hand is on.
@@ -85,7 +94,7 @@ class Feeling : public QObject {
   Programs& programs_;
   QString spelling_;
   wale::DeviceProfile profile_;
-  std::unique_ptr<wale::Device> device_;
+  std::unique_ptr<Recentred> device_;
   MouseHand* mouse_ = nullptr;
   double max_force_ = 0;
   bool on_ = false;

@@ -6,7 +6,6 @@
 #include <QInputDialog>
 #include <QMenuBar>
 #include <QProcess>
-#include <QRandomGenerator>
 #include <QSettings>
 #include <QUrl>
 
@@ -210,21 +209,7 @@ void MainWindow::make_view_menu() {
     toggle->setShortcut(QKeySequence(QString("Alt+%1").arg(++number)));
     menu->addAction(toggle);
   }
-  add_toggle(menu, "participant", tr("Participant's &window"), tr("Ctrl+Shift+P"), false, [this](bool on) {
-    if (!participant_) {
-      participant_ = new Canvas(document_, feeling_, pictures_);
-      participant_->setObjectName("participant");
-      participant_->setWindowTitle(tr("Sandpaper"));
-      participant_->setFocusPolicy(Qt::StrongFocus);
-      participant_->set_fixed(true);
-      participant_->setParent(this, Qt::Window);
-      participant_->resize(800, 800);
-    }
-    CanvasLook look = canvas_->look();
-    look.grid = false;
-    participant_->set_look(look);
-    participant_->setVisible(on);
-  });
+  add_toggle(menu, "participant", tr("Participant's &window"), tr("Ctrl+Shift+P"), false, [this](bool on) { show_participant(on); });
 }
 
 void MainWindow::make_feel_menu() {
@@ -247,7 +232,12 @@ void MainWindow::make_feel_menu() {
   add(menu, "say_touched", tr("&Say what is touched"), tr("Ctrl+T"), [this] {
     const auto touched = canvas_->touched();
     const Placed* placed = touched ? document_.contents().find(*touched) : nullptr;
-    const QString words = placed ? canvas_->told_of(*placed) : tr("nothing is touched");
+    // A participant hears it too.
+    const Canvas& told = participant_ && participant_->isVisible() ? participant_->canvas() : *canvas_;
+    const SortingKey* key = presenting_.sorting().chosen();
+    const QString words = presenting_.sorting().runs() ? (key ? key->label : tr("no key is chosen"))
+                          : placed                     ? told.told_of(*placed)
+                                                       : tr("nothing is touched");
     announcement_->say(words);
     QProcess::startDetached("spd-say", {words});  // if there is a speech dispatcher
   });
@@ -256,16 +246,6 @@ void MainWindow::make_feel_menu() {
     for (const auto& [spelling, name] : feeling_.choices()) device_->addItem(name, spelling);
     update_safety();
     announcement_->say(tr("%n device(s) can be chosen", nullptr, device_->count()));
-  });
-}
-
-void MainWindow::make_present_menu() {
-  QMenu* menu = menuBar()->addMenu(tr("&Present"));
-  add(menu, "next_frame", tr("&Next workspace of the movie"), tr("F8"), [this] { step_frame(1); });
-  add(menu, "previous_frame", tr("&Previous workspace of the movie"), tr("F7"), [this] { step_frame(-1); });
-  add(menu, "shuffle", tr("&Shuffle the patches' places"), tr("F9"), [this] {
-    const int moved = shuffle(document_, QRandomGenerator::global()->generate());
-    announcement_->say(moved == 0 ? tr("Two unlocked patches are needed to shuffle") : tr("%n patch(es) changed places", nullptr, moved));
   });
 }
 

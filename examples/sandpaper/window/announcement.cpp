@@ -48,8 +48,10 @@ void Announcement::offer(const QString& words, const QString& button, const std:
   button_->setText(button);
   button_->setVisible(!button.isEmpty());
   show();
+  if (quiet_) return;
   QAccessibleEvent alert(words_, QAccessible::Alert);
   QAccessible::updateAccessibility(&alert);
+  emit read_out(words);
 }
 
 }  // namespace sandpaper

@@ -20,12 +20,18 @@ class Announcement : public QFrame {
   /// With a button that does something about it; then the line stays.
   void offer(const QString& words, const QString& button, const std::function<void()>& act);
   QString text() const { return words_->text(); }
+  /// Whether nothing is read out: with a participant, who hears the same loudspeaker and must not hear of materials.
+  void set_quiet(bool quiet) { quiet_ = quiet; }
+
+ signals:
+  void read_out(const QString& words);  ///< screen readers are told
 
  private:
   QLabel* words_;
   QToolButton* button_;
   QTimer timer_;
   std::function<void()> act_;
+  bool quiet_ = false;
 };
 
 }  // namespace sandpaper

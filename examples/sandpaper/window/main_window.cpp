@@ -31,11 +31,13 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
       library_(library),
       language_(language),
       document_(language),
+      numbers_(document_),
       programs_(language),
       feeling_(library, programs_),
+      presenting_(library, document_, numbers_, feeling_),
       catalogue_(wale::library_catalogue()),
       autosave_(document_),
-      canvas_(new Canvas(document_, feeling_, pictures_)),
+      canvas_(new Canvas(document_, feeling_, pictures_, numbers_)),
       announcement_(new Announcement),
       description_(new DescriptionPanel(language)),
       editor_(new TextEditor(document_, language)) {
@@ -46,7 +48,9 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   layout->addWidget(announcement_);
-  layout->addWidget(canvas_, 1);
+  pages_of_work_ = new QStackedWidget;
+  pages_of_work_->addWidget(canvas_);
+  layout->addWidget(pages_of_work_, 1);
   setCentralWidget(middle);
   make_panels();
   make_safety_bar();
@@ -56,10 +60,11 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   make_feel_menu();
   make_present_menu();
   make_help_menu();
+  make_sorting();
   resize(1280, 760);
 
   connect(&document_, &Document::contents_changed, this, [this] {
-    feeling_.follow(document_.contents());
+    feeling_.follow(presenting_.felt());
     update_actions();
     advising_.start(before_advice);
   });
@@ -111,6 +116,7 @@ MainWindow::~MainWindow() {
   qApp->removeEventFilter(this);
   feeling_.set_on(false);
   // The panels use the parts of the window, which end before its children.
+  presenting_.end("the window was closed");
   delete participant_;
   qDeleteAll(findChildren<QDockWidget*>());
   delete takeCentralWidget();
@@ -137,8 +143,10 @@ void MainWindow::make_panels() {
   auto* pages = dock("pages", tr("Learn"), pages_, Qt::BottomDockWidgetArea);
   splitDockWidget(text, pages, Qt::Horizontal);
   pages->hide();
+  session_panel_ = new SessionPanel(presenting_.session());
   auto* plots = dock("plots", tr("Run"), plots_, Qt::BottomDockWidgetArea);
   tabifyDockWidget(text, plots);
+  dock("session", tr("Session"), session_panel_, Qt::RightDockWidgetArea)->hide();
   text->raise();
   resizeDocks({findChild<QDockWidget*>("dock_palette"), sliders}, {230, 330}, Qt::Horizontal);
   resizeDocks({text}, {210}, Qt::Vertical);
@@ -234,7 +242,7 @@ void MainWindow::touched_changed() {
   sliders_->set_touched(touched);
   const Placed* placed = touched ? document_.contents().find(*touched) : nullptr;
   palette_->set_touched(placed ? QString::fromStdString(placed->patch.made_of) : QString());
-  if (!document_.is_stale())
+  if (!document_.is_stale() && panels_before_.isEmpty())
     statusBar()->showMessage(placed ? tr("on %1 = %2").arg(canvas_->label_of(*placed), QString::fromStdString(placed->patch.made_of))
                                     : QString());
 }
@@ -286,22 +294,6 @@ void MainWindow::seek_advice() {
   });
 }
 
-void MainWindow::step_frame(int by) {
-  editor_->commit();
-  const auto presentation = library_.presentation(document_.text(), document_.file().toStdString());
-  QStringList frames = document_.workspaces();
-  if (presentation && !presentation->movies.empty()) {
-    frames.clear();
-    for (const std::string& each : presentation->movies.front().frames) frames << QString::fromStdString(each);
-  }
-  if (frames.size() < 2) return announcement_->say(tr("This file has one workspace: there is nothing to step to"));
-  const qsizetype now = frames.indexOf(QString::fromStdString(document_.contents().name));
-  const QString next = frames[(now + by + frames.size()) % frames.size()];
-  if (!document_.show_workspace(next)) return announcement_->say(tr("%1 cannot be shown: mend the text first").arg(next));
-  QApplication::beep();
-  announcement_->say(tr("%1, %2 of %3").arg(next).arg(frames.indexOf(next) + 1).arg(frames.size()));
-}
-
 bool MainWindow::open(const QString& file) {
   feeling_.set_on(false);
   if (const auto opened = document_.open(file); !opened) {
@@ -324,6 +316,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     return;
   }
   feeling_.set_on(false);
+  presenting_.end("the window was closed");
   if (participant_) participant_->close();
   QMainWindow::closeEvent(event);
 }

@@ -16,6 +16,9 @@
 #include "panels/palette_panel.hpp"
 #include "panels/plot_panel.hpp"
 #include "panels/slider_panel.hpp"
+#include "presenting/participant_window.hpp"
+#include "presenting/presenting.hpp"
+#include "presenting/session_panel.hpp"
 #include "window/announcement.hpp"
 #include "window/autosave.hpp"
 
@@ -35,6 +38,7 @@ class MainWindow : public QMainWindow {
   bool open(const QString& file);
   Document& document() { return document_; }
   Feeling& feeling() { return feeling_; }
+  Presenting& presenting() { return presenting_; }
   Canvas& canvas() { return *canvas_; }
   bool is_busy() const { return programs_.is_busy() || pictures_.is_busy() || description_->is_busy() ||
                                 advising_.isActive() || advisor_.waiting() > 0; }
@@ -54,8 +58,13 @@ class MainWindow : public QMainWindow {
   void make_edit_menu();
   void make_view_menu();
   void make_feel_menu();
-  void make_present_menu();
   void make_help_menu();
+
+  // presenting_actions.cpp
+  void make_present_menu();
+  void make_sorting();
+  void show_participant(bool shown);
+  void update_presenting();
 
   // main_window.cpp
   void make_panels();
@@ -69,7 +78,6 @@ class MainWindow : public QMainWindow {
   void offer_left_behind();
   void show_page(const QString& page);
   void seek_advice();
-  void step_frame(int by);
 
   // files.cpp
   bool save();
@@ -87,8 +95,10 @@ class MainWindow : public QMainWindow {
   const wale::Library& library_;
   const wale::LanguageService& language_;
   Document document_;
+  Numbers numbers_;
   Programs programs_;
   Feeling feeling_;
+  Presenting presenting_;
   Pictures pictures_;
   std::unique_ptr<wale::Catalogue> catalogue_;
   Autosave autosave_;
@@ -105,7 +115,11 @@ class MainWindow : public QMainWindow {
   QComboBox* device_ = nullptr;
   QDoubleSpinBox* limit_ = nullptr;
   QLabel* place_ = nullptr;
-  Canvas* participant_ = nullptr;
+  QStackedWidget* pages_of_work_ = nullptr;  // the canvas, or the sorting table
+  SortingPage* sorting_page_ = nullptr;
+  SessionPanel* session_panel_ = nullptr;
+  QByteArray panels_before_;  // which were open before a sort in this window
+  ParticipantWindow* participant_ = nullptr;
   QTimer plotting_, advising_;
   qint64 last_typed_ = 0;
   long lost_ = 0;  // ticks of this run without a device
