@@ -209,7 +209,7 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
   const auto material = program ? nullptr : feeling_.material(placed.id);
   if (material) plain = QColor(230, 160, 160);
   if (program)
-    image = pictures_.find(*program, parameters_of(placed), glm::vec2(size_of(placed)), pixels, look_.surfaces, plain,
+    image = pictures_.find(*program, parameters_of(placed), glm::vec2(size_of(placed)), placed.patch.outline, pixels, look_.surfaces, plain,
                            is_chosen ? 2 : 1);
   if (is_plain) {
     if (image.isNull()) painter.fillRect(box, plain);
