@@ -18,6 +18,7 @@ constexpr int picture_milliseconds = 16;
 constexpr double margin = 1.08;        // how much more than the workspace is shown
 constexpr double least_scale = 100, most_scale = 200000;
 constexpr double usual_side = 0.04;    // m, of a patch whose program is not known yet
+constexpr int view_rests_milliseconds = 150;
 constexpr int small = 12;              // pixels: smaller patches are drawn plain
 constexpr int largest_mask = 2048;     // pixels
 constexpr double arrow_per_newton = 0.01;  // m
@@ -64,6 +65,8 @@ Canvas::Canvas(Document& document, Feeling& feeling, Pictures& pictures, QWidget
   });
   connect(&pictures_, &Pictures::drawn, this, &Canvas::changed);
   connect(&timer_, &QTimer::timeout, this, &Canvas::refresh);
+  moving_.setSingleShot(true);
+  connect(&moving_, &QTimer::timeout, this, &Canvas::changed);
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.start(picture_milliseconds);
 }
@@ -90,6 +93,12 @@ void Canvas::changed() {
   update();
 }
 
+void Canvas::view_changed() {
+  shows_all_ = false;
+  moving_.start(view_rests_milliseconds);
+  changed();
+}
+
 void Canvas::changeEvent(QEvent* event) {
   if (event->type() == QEvent::PaletteChange) changed();
   QWidget::changeEvent(event);
@@ -108,8 +117,7 @@ void Canvas::zoom(double factor, std::optional<QPointF> about) {
   const glm::dvec2 before = to_metres(fixed);
   scale_ = std::clamp(scale_ * factor, least_scale, most_scale);
   centre_ += before - to_metres(fixed);
-  shows_all_ = false;
-  changed();
+  view_changed();
 }
 
 void Canvas::show_all() {
@@ -266,7 +274,7 @@ void Canvas::draw_still() {
   still_.fill(ground);
   QPainter painter(&still_);
   painter.setRenderHint(QPainter::Antialiasing);
-  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, !moving_.isActive());
   if (look_.grid && !look_.black) {
     // Lines of 1, 5, 10 mm and so on, no closer than 8 pixels.
     double step = 0.001;
