@@ -65,6 +65,15 @@ Result<std::vector<double>> read_list(const Declarations& known, const std::stri
   return values;
 }
 
+/// One quantity above 0.
+Result<double> read_above_0(const Declarations& known, const std::string& option, const std::string& text,
+                            const char* dimension, const Expected& expected) {
+  const auto values = read_list(known, option, text, {known.dimension(dimension)}, 1, expected);
+  if (!values) return values.error();
+  if (values->front() > 0) return values->front();
+  return unexpected(Code::value_out_of_range, option, text, expected);
+}
+
 /// The dimension of a parameter; empty if its SI unit is not a unit of the language.
 std::optional<Dimension> dimension_of(const Declarations& known, const Parameter& parameter) {
   if (parameter.si_unit.empty()) return Dimension{};
@@ -109,10 +118,20 @@ Result<Hand> read_hand(const Declarations& known, const std::string& option, con
 }
 
 Result<double> read_force(const Declarations& known, const std::string& option, const std::string& text) {
-  const Expected expected{"a force above 0 N", option + " \"3 N\""};
-  const auto values = read_list(known, option, text, {known.dimension("force")}, 1, expected);
+  return read_above_0(known, option, text, "force", {"a force above 0 N", option + " \"3 N\""});
+}
+
+Result<double> read_length(const Declarations& known, const std::string& option, const std::string& text) {
+  return read_above_0(known, option, text, "length", {"a length above 0 mm", option + " \"40 mm\""});
+}
+
+Result<std::pair<double, double>> read_lengths_between(const Declarations& known, const std::string& option,
+                                                       const std::string& text) {
+  const Expected expected{"two lengths, the smaller one first", option + " \"0 mm, 1 mm\""};
+  const Dimension length = known.dimension("length");
+  const auto values = read_list(known, option, text, {length, length}, 2, expected);
   if (!values) return values.error();
-  if (values->front() > 0) return values->front();
+  if ((*values)[0] < (*values)[1]) return std::pair((*values)[0], (*values)[1]);
   return unexpected(Code::value_out_of_range, option, text, expected);
 }
 

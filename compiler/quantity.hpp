@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "compiler/declarations/declarations.hpp"
 #include "wale/patch_program.hpp"
@@ -18,6 +19,10 @@ Result<Hand> read_hand(const Declarations& known, const std::string& option, con
 
 /// A largest force in N, above 0: "3 N".
 Result<double> read_force(const Declarations& known, const std::string& option, const std::string& text);
+/// A length in m, above 0: "40 mm".
+Result<double> read_length(const Declarations& known, const std::string& option, const std::string& text);
+/// Two lengths in m, the first below the second: "0 mm, 1 mm".
+Result<std::pair<double, double>> read_lengths_between(const Declarations& known, const std::string& option, const std::string& text);
 
 /// A value for a parameter, in SI and in its range.
 struct ParameterValue {

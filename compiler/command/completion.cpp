@@ -15,7 +15,7 @@ namespace {
 enum class Sought { nothing, file, material, folder, percept, device, place, code, kind };
 
 Sought sought_by(const CLI::App& verb, const CLI::Option& option) {
-  constexpr std::array<std::string_view, 3> of_files_alone = {"check", "format", "replay"};
+  constexpr std::array<std::string_view, 4> of_files_alone = {"check", "format", "replay", "import"};
   if (option.get_positional()) {
     const std::string name = option.get_name(true);
     if (name == "PERCEPT") return Sought::percept;

@@ -224,4 +224,19 @@ CLI::Option* offer_force(CLI::App& verb, const char* option, std::optional<doubl
   return offer_value(verb, option, "FORCE", into, about, read);
 }
 
+CLI::Option* offer_length(CLI::App& verb, const char* option, std::optional<double>& into, const char* about) {
+  const auto read = [](const char* name, const std::string& text) {
+    return read_length(common_modules()->declarations, name, text);
+  };
+  return offer_value(verb, option, "LENGTH", into, about, read);
+}
+
+CLI::Option* offer_lengths_between(CLI::App& verb, const char* option, std::optional<std::pair<double, double>>& into,
+                                   const char* about) {
+  const auto read = [](const char* name, const std::string& text) {
+    return read_lengths_between(common_modules()->declarations, name, text);
+  };
+  return offer_value(verb, option, "LOW,HIGH", into, about, read);
+}
+
 }  // namespace wale::command

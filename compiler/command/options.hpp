@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/command/command.hpp"
@@ -102,5 +103,10 @@ CLI::Option* offer_duration(CLI::App& verb, const char* option, std::optional<do
 CLI::Option* offer_hand(CLI::App& verb, const char* option, std::optional<Hand>& into, const char* about);
 /// A force above 0, in N: "3 N".
 CLI::Option* offer_force(CLI::App& verb, const char* option, std::optional<double>& into, const char* about);
+/// A length above 0, in m: "40 mm".
+CLI::Option* offer_length(CLI::App& verb, const char* option, std::optional<double>& into, const char* about);
+/// Two lengths in m, the first below the second: "0 mm, 1 mm".
+CLI::Option* offer_lengths_between(CLI::App& verb, const char* option, std::optional<std::pair<double, double>>& into,
+                                   const char* about);
 
 }  // namespace wale::command

@@ -118,6 +118,12 @@ void Parser::file() {
 
 /// Reads `wale 1`. Without it the file is read as the version that this compiler knows; a newer version is not read.
 bool Parser::version() {
+  if (text_.starts_with("{\\rtf")) {
+    complain_at(Code::missing_version, span_of(here()), "this is a document of a word processor, not plain text",
+                fmt::format("`wale {}`", known_version), "RTF",
+                "in the word processor, save it as plain text (.txt, UTF-8), or copy its text into a new file");
+    return false;
+  }
   const std::string_view first = spelling(here());
   const bool is_wale = here().kind == TokenKind::name && (first == "wale" || first == "Wale" || first == "WALE");
   const bool has_number = is_wale && kind(at_ + 1) == TokenKind::number && !token(at_ + 1).starts_line;

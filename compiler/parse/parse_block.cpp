@@ -253,7 +253,8 @@ PerceptStatement Parser::percept_statement() {
                               {tree_.source, first.span.begin, second.span.end}};
   } else if (ends_statement(at_)) {
     complain("expected a level" + after_previous(), "a level from 0 to 1, or its name",
-             fmt::format("write `{} 0.5`", percept.name.text));
+             fmt::format("if `{0}` is a percept, write `{0} 0.5`; if it is a level, its percept is before it, as in `roughness {0}`",
+                         percept.name.text));
     percept.value = erroneous(begin);
   } else {
     percept.value = expression();

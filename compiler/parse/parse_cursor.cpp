@@ -253,6 +253,8 @@ std::string Parser::mend_here() const {
       if (begins_another_statement(next, after)) return fmt::format("put `{}` on a line of its own", spelling(next));
       if (next.kind == TokenKind::left_parenthesis)
         return fmt::format("to multiply, write `{} * (…)`", spelling(previous));
+      if (is_call_without_parentheses())
+        return fmt::format("to call a function, write `{0}({1})`; to multiply, `{0} * {1}`", spelling(previous), spelling(next));
       return fmt::format("to multiply, write `{} * {}{}`", spelling(previous), spelling(next),
                          after.kind == TokenKind::left_parenthesis ? "(…)" : "") +
              (previous.kind == TokenKind::name && after.kind == TokenKind::left_parenthesis

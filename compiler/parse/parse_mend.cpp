@@ -63,6 +63,20 @@ bool Parser::is_doubled() const {
 /// `0.1 in`, where no range can follow.
 bool Parser::is_inch_here() const { return at(TokenKind::word_in) && at_ > 0 && kind(at_ - 1) == TokenKind::number; }
 
+/// `lateral ridges` in a force, with a height of this file: heights make forces in functions alone.
+bool Parser::is_call_without_parentheses() const {
+  if (!in_force_ || at_ == 0 || kind(at_ - 1) != TokenKind::name || !at(TokenKind::name)) return false;
+  bool is_height = false;
+  for (std::size_t i = 0; i + 1 < at_; ++i) {
+    if (kind(i) != TokenKind::name || kind(i + 1) != TokenKind::name) continue;
+    constexpr std::string_view values[] = {"let", "param", "height", "state"};
+    if (std::ranges::find(values, spelling(token(i))) == std::end(values)) continue;
+    if (spelling(token(i + 1)) == spelling(token(at_ - 1))) return false;
+    is_height = is_height || (spelling(token(i)) == "height" && spelling(token(i + 1)) == spelling(here()));
+  }
+  return is_height;
+}
+
 /// `like brick`, where a material is expected.
 bool Parser::is_like(std::size_t index) const {
   if (!in_origin_ || !is_word(index, "like") || ends_statement(index + 1)) return false;
@@ -182,6 +196,9 @@ std::vector<Fix> Parser::fixes_here() const {
           fixes.push_back(insert_after(span_of(previous), ":", "name the argument", false));
         return fixes;
       }
+      if (is_call_without_parentheses())
+        return {replace(Span{tree_.source, previous.end, next.end}, "(" + std::string(spelling(next)) + ")", "call the function", false),
+                insert_after(span_of(previous), " *", "multiply with `*`", false)};
       // In `(1 + 2(`, the last `(` is rather a mistyped `)`.
       return {insert_after(span_of(previous), " *", "multiply with `*`",
                            number_before && (call || next.kind == TokenKind::left_parenthesis) &&

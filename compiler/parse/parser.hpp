@@ -239,6 +239,7 @@ class Parser {
                                     std::vector<Fix> fixes = {}, std::vector<SecondarySpan> secondary = {});
   ExprId erroneous(std::size_t first_token) { return add(Erroneous{}, since(first_token)); }
   [[gnu::cold]] std::string mend_here() const;
+  bool is_call_without_parentheses() const;
   bool begins_another_statement(const Token& word, const Token& after) const;
   void end_statement();
   [[noreturn, gnu::cold]] void give_up();

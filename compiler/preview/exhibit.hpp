@@ -8,6 +8,7 @@
 #include "compiler/drawing/plot.hpp"
 #include "wale/memory.hpp"
 #include "wale/program.hpp"
+#include "wale/shape.hpp"
 
 namespace wale {
 
@@ -25,6 +26,7 @@ struct Exhibit {
   std::optional<double> period;  ///< m; of the force's relief as it is read, or else of the picture's
   /// The level of the texture, by the strongest percept that a force down the slopes carries; empty if there is none.
   std::optional<double> felt;
+  Shape shape;       ///< of the patch, in its size
   double speed = 0;  ///< m/s; forces against velocity are shown up to this speed
 };
 

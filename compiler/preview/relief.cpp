@@ -30,7 +30,7 @@ Heights heights_of(const Bank& bank, const Memory* memory, const Exhibit& exhibi
   }
   heights.values.resize(positions.size());
   std::vector<glm::vec3> colours(bank.program().description().picture.colour ? positions.size() : 0);
-  surface_all(bank, memory, positions, heights.values, colours);
+  surface_all(bank, memory, positions, exhibit.shape, heights.values, colours);
   for (glm::vec3 colour : colours) heights.colours.push_back({colour.r, colour.g, colour.b});
   for (float& value : heights.values) {
     if (!std::isfinite(value)) value = 0;

@@ -44,8 +44,9 @@ class Plane {
     exhibit.side = pixel_ * square * shown;
     exhibit.centre = middle - glm::dvec2(patch.options.at);
     exhibit.felt = felt;
-    const std::vector<Colour> relief = relief_colours(bank, nullptr, exhibit, images, shown);
     const Shape shape = patch.options.shape.stretched({bank.size().width, bank.size().height});
+    exhibit.shape = shape;
+    const std::vector<Colour> relief = relief_colours(bank, nullptr, exhibit, images, shown);
     const auto covers = [&](int column, int row) {
       const glm::dvec2 at(x_of(column) - patch.options.at.x, y_of(row) - patch.options.at.y);
       return std::abs(at.x) <= 0.5 * width && std::abs(at.y) <= 0.5 * height && shape.contains(glm::vec2(at));

@@ -23,7 +23,12 @@ constexpr OtherFile archive{"an archive", "unpack it, and name a Wale file from 
 constexpr OtherFile table{"a table", "a Wale file reads it by `table(\"FILE.csv\", …)`"};
 constexpr OtherFile binary{"a binary file", "Wale files are plain text and begin with `wale 1`"};
 
+constexpr OtherFile document{"a document of a word processor",
+                             "in the word processor, save it as plain text (.txt, UTF-8), or copy its text into a new plain file"};
+
 constexpr Beginning beginnings[] = {
+    {"{\\rtf"sv, document},
+    {"\xd0\xcf\x11\xe0"sv, document},
     {"\x89WPP"sv, {"a patch program", "name the Wale file that it was built from"}},
     {"\x89WWS"sv, {"a workspace file", "name the Wale file that it was built from; `wale feel` plays it"}},
     {"\x89WRC"sv, {"a recording", "`wale replay` reads it"}},
@@ -38,6 +43,13 @@ constexpr Beginning beginnings[] = {
     {"\x7f\x45LF"sv, {"a program", binary.mend}},
 };
 
+/// The archives of word processors say early what they are.
+bool is_zipped_document(std::string_view bytes) {
+  const std::string_view first = bytes.substr(0, 512);
+  return bytes.starts_with("PK\x03\x04"sv) &&
+         (first.find("application/vnd.oasis.opendocument.text") != first.npos || first.find("[Content_Types].xml") != first.npos);
+}
+
 /// A NUL byte shows so early that a file is no text.
 constexpr std::size_t looked_at = 4096;
 
@@ -45,7 +57,7 @@ constexpr std::size_t looked_at = 4096;
 
 std::optional<OtherFile> other_file(std::string_view name, std::string_view bytes) {
   for (const Beginning& each : beginnings)
-    if (bytes.starts_with(each.bytes)) return each.file;
+    if (bytes.starts_with(each.bytes)) return is_zipped_document(bytes) ? document : each.file;
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   std::string_view text = bytes;
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());

@@ -43,6 +43,7 @@ LaidOutPatch laid_out(const PlacedPatch& placed, const CheckedPatch& checked, co
   LaidOutPatch patch{.name = checked.name,
                      .made_of = checked.made_of,
                      .at = {checked.at[0], checked.at[1]},
+                     .at_is_written = setting_in(placed, "at") != nullptr,
                      .rim = checked.rim};
   if (setting_in(placed, "size") && checked.size)
     patch.size = glm::dvec2((*checked.size)[0], (*checked.size)[1]);
@@ -166,7 +167,7 @@ std::string patch_text(const LaidOutPatch& patch) {
   std::string text = indented(patch.before, "  ");
   if (!patch.verbatim.empty()) return text + "  " + patch.verbatim + "\n";
   std::vector<std::pair<std::string, std::string>> settings;
-  if (patch.at != glm::dvec2(0))
+  if (patch.at_is_written || patch.at != glm::dvec2(0))
     settings.emplace_back("at", millimetres(patch.at.x) + ", " + millimetres(patch.at.y));
   if (patch.size) settings.emplace_back("size", millimetres(patch.size->x) + ", " + millimetres(patch.size->y));
   if (!patch.shape.empty()) settings.emplace_back("shape", patch.shape);

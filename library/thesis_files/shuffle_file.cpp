@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <deque>
+#include <map>
 #include <optional>
 
 #include "library/thesis_files/text_lines.hpp"
@@ -112,6 +114,28 @@ Result<std::string> write_thesis_shuffle(const ThesisShuffle& shuffle) {
   const auto read = read_thesis_shuffle(text, "shuffle");
   if (!read || !(*read == shuffle)) return refuse("movie", "the movie's name looks like a part of the header");
   return text;
+}
+
+Result<ThesisShuffle> shuffle_of(const ThesisMovie& movie, const ThesisMovie& shuffled) {
+  const auto refuse = [](std::string sentence) {
+    return Error{.code = Code::malformed_value,
+                 .sentence = std::move(sentence),
+                 .mend = "a shuffle has each frame of its movie as often as the movie",
+                 .place = {.name = "frames"}};
+  };
+  if (movie.workspaces.size() != shuffled.workspaces.size())
+    return refuse(fmt::format("expected {} frames as in the movie, found {}", movie.workspaces.size(), shuffled.workspaces.size()));
+  std::map<std::string, std::deque<std::size_t>> places;
+  for (std::size_t i = 0; i < movie.workspaces.size(); ++i) places[movie.workspaces[i]].push_back(i);
+  ThesisShuffle shuffle;
+  for (const std::string& frame : shuffled.workspaces) {
+    const auto found = places.find(frame);
+    if (found == places.end() || found->second.empty())
+      return refuse(fmt::format("`{}` is there more often than in the movie", frame));
+    shuffle.frames.push_back({found->second.front(), frame});
+    found->second.pop_front();
+  }
+  return shuffle;
 }
 
 }  // namespace wale

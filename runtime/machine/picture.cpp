@@ -1,6 +1,7 @@
 #include "wale/picture.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "runtime/machine/decoded_program.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
@@ -37,12 +38,24 @@ std::vector<float> registers_at(const Bank& bank, const Memory* memory, const Ha
   return registers;
 }
 
+/// Gives a hand its distance to the edge of a shape. Outside it is on the edge; 0 would be a rectangle.
+void put_at_edge(const Shape& shape, Hand& hand) {
+  const EdgeDistance edge = shape.edge(hand.position);
+  hand.edge = std::max(edge.metres, std::numeric_limits<float>::min());
+  hand.edge_slope = edge.slope;
+}
+
 float within_one(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }
 
 }  // namespace
 
 void surface_all(const Bank& bank, const Memory* memory, std::span<const glm::vec2> positions, std::span<float> heights,
                  std::span<glm::vec3> colours) {
+  surface_all(bank, memory, positions, Shape(), heights, colours);
+}
+
+void surface_all(const Bank& bank, const Memory* memory, std::span<const glm::vec2> positions, const Shape& shape,
+                 std::span<float> heights, std::span<glm::vec3> colours) {
   const DecodedProgram& program = bank.program().decoded();
   const PatchProgram& description = program.description;
   const Picture& picture = description.picture;
@@ -57,15 +70,17 @@ void surface_all(const Bank& bank, const Memory* memory, std::span<const glm::ve
     std::fill_n(block.row(operand(number)), lanes, registers[number]);
   }
   const BlockOperand relief = operand(picture.relief);
-  const BlockOperand x = operand(static_cast<RegisterNumber>(Input::x));
-  const BlockOperand y = operand(static_cast<RegisterNumber>(Input::y));
+  constexpr std::array places = {Input::x, Input::y, Input::shape_edge, Input::shape_edge_x, Input::shape_edge_y};
   const bool coloured = picture.colour && !colours.empty();
   std::array<Hand, lanes> hands;
   for (std::size_t first = 0; first < positions.size(); first += lanes) {
     const std::size_t count = std::min(lanes, positions.size() - first);
-    for (std::size_t lane = 0; lane < count; ++lane) hands[lane].position = positions[first + lane];
-    place_input(Input::x, std::span(hands).first(count), program.envelope, block.row(x));
-    place_input(Input::y, std::span(hands).first(count), program.envelope, block.row(y));
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      hands[lane].position = positions[first + lane];
+      if (!shape.is_rectangle()) put_at_edge(shape, hands[lane]);
+    }
+    for (const Input each : places)
+      place_input(each, std::span(hands).first(count), program.envelope, block.row(operand(static_cast<RegisterNumber>(each))));
     const FloatingPointMode mode;
     block.run(program.picture.code(), registers.data(), cells);
     for (std::size_t lane = 0; lane < count; ++lane) {

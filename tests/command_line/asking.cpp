@@ -12,7 +12,7 @@ namespace wale::command_line::asking_test {
 namespace {
 
 const std::vector<std::string> verbs{"check",  "explain", "format", "build",  "describe", "find",   "compare",
-                                     "levels", "feel",    "replay", "sample", "preview",  "sandpaper", "devices"};
+                                     "levels", "feel",    "replay", "sample", "preview",  "import", "export", "sandpaper", "devices"};
 
 TEST(Help, NamesTheStartForDesignersCuratorsAndProgrammers) {
   const Outcome help = wale({"--help"});

@@ -77,7 +77,7 @@ TEST(SurfaceImage, AHillIsBrightTowardsTheLight) {
                                            "exp(-dot(hand, hand) / (6 mm)^2))\n} }\n");
     ASSERT_TRUE(compiled.program);
     const wale::Bank bank(*compiled.program);
-    const QImage image = surface_image(bank, nullptr, {0.02f, 0.02f}, {40, 40}, Look::relief, Qt::lightGray);
+    const QImage image = surface_image(bank, nullptr, {0.02f, 0.02f}, {}, {40, 40}, Look::relief, Qt::lightGray);
     EXPECT_GT(sign * (qGray(image.pixel(13, 13)) - qGray(image.pixel(26, 26))), 40) << sign;
   }
 }

@@ -18,6 +18,7 @@ constexpr int picture_milliseconds = 16;
 constexpr double margin = 1.08;        // how much more than the workspace is shown
 constexpr double least_scale = 100, most_scale = 200000;
 constexpr double usual_side = 0.04;    // m, of a patch whose program is not known yet
+constexpr int view_rests_milliseconds = 150;
 constexpr int small = 12;              // pixels: smaller patches are drawn plain
 constexpr int largest_mask = 2048;     // pixels
 constexpr double arrow_per_newton = 0.01;  // m
@@ -58,6 +59,8 @@ Canvas::Canvas(Document& document, Feeling& feeling, Pictures& pictures, const N
   connect(&pictures_, &Pictures::drawn, this, &Canvas::changed);
   connect(&numbers_, &Numbers::renewed, this, &Canvas::changed);
   connect(&timer_, &QTimer::timeout, this, &Canvas::refresh);
+  moving_.setSingleShot(true);
+  connect(&moving_, &QTimer::timeout, this, &Canvas::changed);
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.start(picture_milliseconds);
 }
@@ -84,6 +87,12 @@ void Canvas::changed() {
   update();
 }
 
+void Canvas::view_changed() {
+  shows_all_ = false;
+  moving_.start(view_rests_milliseconds);
+  changed();
+}
+
 void Canvas::changeEvent(QEvent* event) {
   if (event->type() == QEvent::PaletteChange) changed();
   QWidget::changeEvent(event);
@@ -102,8 +111,7 @@ void Canvas::zoom(double factor, std::optional<QPointF> about) {
   const glm::dvec2 before = to_metres(fixed);
   scale_ = std::clamp(scale_ * factor, least_scale, most_scale);
   centre_ += before - to_metres(fixed);
-  shows_all_ = false;
-  changed();
+  view_changed();
 }
 
 void Canvas::show_all() {
@@ -205,7 +213,7 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
   const auto material = program ? nullptr : feeling_.material(placed.id);
   if (material) plain = QColor(230, 160, 160);
   if (program)
-    image = pictures_.find(*program, parameters_of(placed), glm::vec2(size_of(placed)), pixels, look_.surfaces, plain,
+    image = pictures_.find(*program, parameters_of(placed), glm::vec2(size_of(placed)), placed.patch.outline, pixels, look_.surfaces, plain,
                            is_chosen ? 2 : 1);
   if (is_plain) {
     if (image.isNull()) painter.fillRect(box, plain);
@@ -262,7 +270,7 @@ void Canvas::draw_still() {
   still_.fill(ground);
   QPainter painter(&still_);
   painter.setRenderHint(QPainter::Antialiasing);
-  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, !moving_.isActive());
   if (look_.grid && !look_.black) {
     // Lines of 1, 5, 10 mm and so on, no closer than 8 pixels.
     double step = 0.001;

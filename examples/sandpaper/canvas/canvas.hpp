@@ -102,6 +102,7 @@ class Canvas : public QWidget {
   QImage covered_part(const Placed& placed, QSize pixels);
   std::vector<float> parameters_of(const Placed& placed) const;
   void changed();
+  void view_changed();
   void tell_readers();  ///< that another patch is chosen
   std::optional<int> handle_at(QPointF pixels) const;
   std::array<QPointF, 8> handles() const;
@@ -123,6 +124,7 @@ class Canvas : public QWidget {
   QPixmap still_;
   bool still_is_old_ = true;
   QTimer timer_;
+  QTimer moving_;  // while the view moves, patches are drawn with less detail
   wale::Now now_;
   std::optional<std::uint64_t> touched_;
   std::optional<glm::dvec2> mouse_;  // m, while it is over the canvas

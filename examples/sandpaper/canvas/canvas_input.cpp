@@ -141,8 +141,7 @@ void Canvas::mouseMoveEvent(QMouseEvent* event) {
     case Drag::pan: {
       const QPointF by = at - pressed_at_;
       centre_ = centre_before_ - glm::dvec2(by.x(), -by.y()) / scale_;
-      shows_all_ = false;
-      changed();
+      view_changed();
       break;
     }
     case Drag::choose: dragged_to_ = at, update(); break;

@@ -19,11 +19,11 @@ int kept_side(int pixels) {
 
 Pictures::Pictures(QObject* parent) : QObject(parent), images_(kept_kilobytes) {}
 
-QImage Pictures::find(const wale::Program& program, const std::vector<float>& parameters, glm::vec2 size, QSize pixels,
-                      Look look, QColor plain, int urgency) {
+QImage Pictures::find(const wale::Program& program, const std::vector<float>& parameters, glm::vec2 size,
+                      const wale::Shape& shape, QSize pixels, Look look, QColor plain, int urgency) {
   const QSize kept(kept_side(pixels.width()), kept_side(pixels.height()));
-  const QString of_program =
-      QString("%1|%2|%3").arg(reinterpret_cast<quintptr>(&program.decoded())).arg(static_cast<int>(look)).arg(plain.rgb());
+  const QString of_program = QString("%1|%2|%3|%4").arg(reinterpret_cast<quintptr>(&program.decoded())).arg(static_cast<int>(look))
+                                 .arg(plain.rgb()).arg(reinterpret_cast<quintptr>(shape.identity()));
   QStringList parts = {of_program, QString::number(kept.width()), QString::number(kept.height()),
                        QString::number(std::bit_cast<quint32>(size.x)), QString::number(std::bit_cast<quint32>(size.y))};
   for (const float each : parameters) parts << QString::number(std::bit_cast<quint32>(each));
@@ -32,9 +32,9 @@ QImage Pictures::find(const wale::Program& program, const std::vector<float>& pa
   if (!asked_.contains(key)) {
     asked_[key] = true;
     thread_.post(urgency, of_program.toStdString() + parts[3].toStdString() + parts[4].toStdString(),
-                 [this, key, of_program, program, parameters, size, kept, look, plain] {
+                 [this, key, of_program, program, parameters, size, shape, kept, look, plain] {
       const wale::Bank bank(program, parameters, {size.x, size.y, 0});
-      const QImage image = surface_image(bank, nullptr, size, kept, look, plain);
+      const QImage image = surface_image(bank, nullptr, size, shape.stretched(size), kept, look, plain);
       QMetaObject::invokeMethod(this, [this, key, of_program, image] {
         images_.insert(key, new QImage(image), static_cast<int>(image.sizeInBytes() / 1024) + 1);
         last_[of_program] = key;

@@ -71,14 +71,15 @@ QColor colour_of(const std::string& made_of) {
   return QColor::fromHsv(static_cast<int>(hash % 360), 60, 215);
 }
 
-QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::vec2 size, QSize pixels, Look look, QColor plain) {
+QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::vec2 size, const wale::Shape& shape, QSize pixels, Look look,
+                     QColor plain) {
   QImage image(pixels.expandedTo({1, 1}), QImage::Format_RGB32);
   const std::vector<glm::vec2> places = places_of(size, image.size());
   std::vector<float> heights(places.size());
   std::vector<glm::vec3> colours;
   const wale::Picture& picture = bank.program().description().picture;
   if (picture.colour) colours.resize(places.size());
-  wale::surface_all(bank, memory, places, heights, colours);
+  wale::surface_all(bank, memory, places, shape, heights, colours);
   for (float& each : heights) each = finite(each);
   const auto [low, high] = std::ranges::minmax_element(heights);
   const float lowest = *low, range = *high - *low;

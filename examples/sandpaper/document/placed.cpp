@@ -85,6 +85,21 @@ std::string joined(const Parts& parts) {
   return text + ")";
 }
 
+/// A name of the language like another text, "oak", "oak_2", …
+std::string free_name(const std::string& like, const std::set<std::string>& taken) {
+  std::string base;
+  for (const char letter : like.substr(0, like.find('(')))
+    base += std::isalnum(static_cast<unsigned char>(letter)) ? letter : '_';
+  // The words of the language cannot be names, and a name does not begin with a digit.
+  static const std::set<std::string> reserved = {"if", "then", "else", "in", "on", "from", "and", "or", "not"};
+  while (!base.empty() && base.back() == '_') base.pop_back();
+  if (base.empty() || reserved.contains(base) || std::isdigit(static_cast<unsigned char>(base.front()))) base = "patch_" + base;
+  while (!base.empty() && base.back() == '_') base.pop_back();
+  std::string name = base;
+  for (int i = 2; taken.contains(name); ++i) name = base + "_" + std::to_string(i);
+  return name;
+}
+
 }  // namespace
 
 std::optional<std::string> with_argument(const std::string& made_of, const std::string& name, const std::string& value) {
@@ -128,20 +143,28 @@ const Placed* Contents::find(std::uint64_t id) const {
 }
 
 std::string Contents::new_name(const std::string& like) const {
-  std::string base;
-  for (const char letter : like.substr(0, like.find('(')))
-    base += std::isalnum(static_cast<unsigned char>(letter)) ? letter : '_';
-  // The words of the language cannot be names, and a name does not begin with a digit.
-  static const std::set<std::string> reserved = {"if", "then", "else", "in", "on", "from", "and", "or", "not"};
-  while (!base.empty() && base.back() == '_') base.pop_back();
-  if (base.empty() || reserved.contains(base) || std::isdigit(static_cast<unsigned char>(base.front()))) base = "patch_" + base;
-  while (!base.empty() && base.back() == '_') base.pop_back();
   std::set<std::string> taken;
   for (const PlacedRef& each : placed) taken.insert(each->patch.name);
-  std::string name = base;
-  for (int i = 2; taken.contains(name); ++i) name = base + "_" + std::to_string(i);
-  return name;
+  return free_name(like, taken);
 }
+
+std::set<std::string> Contents::declared() const {
+  std::set<std::string> taken = {name};
+  for (const std::string* text : {&head, &tail}) {
+    // In no comment and no text, a name stands behind the word that declares it.
+    std::string before;
+    for (const wale::ColouredWord& word : wale::coloured_words(*text)) {
+      if (word.kind == wale::WordKind::comment || word.kind == wale::WordKind::documentation) continue;
+      const std::string each = text->substr(word.begin, word.end - word.begin);
+      static const std::set<std::string> declaring = {"material", "workspace", "movie", "keys", "groups", "function", "let", "unit", "percept", "device"};
+      if (declaring.contains(before)) taken.insert(each);
+      before = each;
+    }
+  }
+  return taken;
+}
+
+std::string Contents::new_declared_name(const std::string& like) const { return free_name(like, declared()); }
 
 wale::Layout Contents::layout() const {
   wale::Layout layout{.name = name, .documentation = documentation, .trailing = trailing};

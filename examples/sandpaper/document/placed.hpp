@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 #include <wale/language_service.hpp>
@@ -40,6 +41,10 @@ struct Contents {
   std::string surroundings() const;
   /// A name for a new patch that no other has: "oak", "oak_2", …
   std::string new_name(const std::string& like) const;
+  /// The names that the file declares, besides those of patches.
+  std::set<std::string> declared() const;
+  /// A name for a new declaration that nothing in the file has.
+  std::string new_declared_name(const std::string& like) const;
   wale::Layout layout() const;
 };
 

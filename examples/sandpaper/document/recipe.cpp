@@ -78,19 +78,20 @@ std::vector<std::string> recipes_of(const std::string& page, const std::string& 
       recipes.back() += line.substr(std::min(indent, line.size())) + "\n";
     }
   }
-  static const std::regex picture(R"~("([\w-]+\.(png|jpg|tif|csv))")~");
-  for (std::string& recipe : recipes) {
-    std::string resolved, rest = recipe;
-    while (std::regex_search(rest, found, picture)) {
-      const std::filesystem::path path = std::filesystem::path(folder) / found[1].str();
-      std::error_code ignored;
-      resolved += found.prefix().str() +
-                  (std::filesystem::exists(path, ignored) ? "\"" + path.string() + "\"" : found[0].str());
-      rest = std::string(found.suffix());
-    }
-    recipe = resolved + rest;
-  }
+  for (std::string& recipe : recipes) recipe = with_paths(recipe, folder);
   return recipes;
+}
+
+std::string with_paths(const std::string& text, const std::string& folder) {
+  static const std::regex picture(R"~("([^"\\\n]+\.(png|jpg|jpeg|tif|tiff|pgm|csv))")~");
+  std::string resolved, rest = text;
+  for (std::smatch found; std::regex_search(rest, found, picture);) {
+    const std::filesystem::path path = std::filesystem::path(folder) / found[1].str();
+    std::error_code ignored;
+    resolved += found.prefix().str() + (std::filesystem::exists(path, ignored) ? "\"" + path.string() + "\"" : found[0].str());
+    rest = std::string(found.suffix());
+  }
+  return resolved + rest;
 }
 
 WithRecipe with_recipe(const wale::LanguageService& language, const Contents& contents, const std::string& recipe,

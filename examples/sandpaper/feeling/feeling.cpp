@@ -91,16 +91,29 @@ void Feeling::set_max_force(double newton) {
 
 void Feeling::set_on(bool on) {
   if (on == on_ || !stage_) return;
+  QString problem;
   if (on) {
     if (const auto begun = stage_->start(); !begun) {
       emit said(tr("Nothing can be felt: %1").arg(words_of(begun.error())));
       return;
     }
   } else if (const auto ended = stage_->stop(); !ended) {
-    emit said(words_of(ended.error()));
+    problem = words_of(ended.error());
+    emit said(problem);
   }
   on_ = on;
+  if (!on && is_recording()) {
+    const QString file = std::exchange(record_, {});
+    renew_stage();  // a stage that records has one run
+    emit recorded(file, problem);
+  }
   emit on_changed();
+}
+
+void Feeling::record(const QString& file) {
+  set_on(false);
+  record_ = file;
+  renew_stage();
 }
 
 void Feeling::renew_stage() {
@@ -108,6 +121,7 @@ void Feeling::renew_stage() {
   by_patch_.clear();
   wale::StageOptions options;
   if (profile_.force_newton > 0) options.max_force = max_force_;
+  if (is_recording()) options.record = wale::RecordTo{.file = record_.toStdString(), .hand = {}};
   stage_ = std::make_unique<wale::Stage>(*device_, options);
   for (auto& [id, felt] : felt_) felt.patch.reset(), felt.program.reset(), felt.material.reset();
   follow(Contents(contents_));

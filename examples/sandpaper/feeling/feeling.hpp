@@ -38,6 +38,10 @@ class Feeling : public QObject {
   void set_max_force(double newton);
   double max_force() const { return max_force_; }
 
+  /// Records the next time that force is on into a file, which must not exist yet; `recorded` follows when force is off.
+  void record(const QString& file);
+  bool is_recording() const { return !record_.isEmpty(); }
+
   /// Begins to push, or takes all force away at once.
   void set_on(bool on);
   bool is_on() const { return on_; }
@@ -72,6 +76,8 @@ class Feeling : public QObject {
   void on_changed();
   void device_changed();
   void programs_changed();
+  /// A recording is in its file; `problem` says why it may not be.
+  void recorded(const QString& file, const QString& problem);
   /// Something that a person should know, in a sentence.
   void said(const QString& words);
 
@@ -98,6 +104,7 @@ class Feeling : public QObject {
   MouseHand* mouse_ = nullptr;
   double max_force_ = 0;
   bool on_ = false;
+  QString record_;  // where the run is recorded to; mostly empty
   std::unique_ptr<wale::Stage> stage_;  // after the device, which must outlive it
   Contents contents_;
   std::map<std::uint64_t, Felt> felt_;

@@ -38,7 +38,7 @@ QVariant PaletteModel::thumbnail(const wale::CatalogueEntry& entry) const {
   QImage image;
   if (const auto material = programs_.find(nothing_around, {}, entry.spelling, thumbnail_urgency); material && material->program) {
     const wale::Program& program = *material->program;
-    image = pictures_.find(program, program.default_parameters(), thumbnail_size, {thumbnail_side, thumbnail_side}, Look::relief,
+    image = pictures_.find(program, program.default_parameters(), thumbnail_size, {}, {thumbnail_side, thumbnail_side}, Look::relief,
                            colour_of(entry.spelling), thumbnail_urgency);
   }
   if (image.isNull()) {

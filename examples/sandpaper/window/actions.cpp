@@ -58,8 +58,7 @@ void MainWindow::make_file_menu() {
   add(menu, "save", tr("&Save"), QKeySequence::Save, [this] { save(); });
   add(menu, "save_as", tr("Save &as …"), QKeySequence::SaveAs, [this] { save_as(); });
   menu->addSeparator();
-  add(menu, "export_picture", tr("Export a &picture …"), {}, [this] { export_picture(); });
-  add(menu, "export_program", tr("Export the patch p&rogram …"), {}, [this] { export_program(); });
+  exchange_->add_to(*menu, *this);
   menu->addSeparator();
   add(menu, "quit", tr("&Quit"), QKeySequence::Quit, [this] { close(); });
 }

@@ -2,11 +2,8 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QInputDialog>
-#include <QSaveFile>
 #include <QSettings>
 #include <algorithm>
-#include <wale/patch_program.hpp>
 
 #include "document/recipe.hpp"
 #include "window/main_window.hpp"
@@ -61,29 +58,6 @@ void MainWindow::feel_if_trusted() {
   if (is_trusted) feeling_.set_on(true);
 }
 
-void MainWindow::export_picture() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Export a picture"), {}, tr("Pictures (*.png)"));
-  if (file.isEmpty()) return;
-  const QString name = file.endsWith(".png") ? file : file + ".png";
-  announcement_->say(canvas_->grab().save(name) ? tr("Exported %1").arg(name) : tr("%1 cannot be written").arg(name));
-}
-
-void MainWindow::export_program() {
-  const auto shown = sliders_->shown();
-  const wale::Program* program = shown ? feeling_.program(*shown) : nullptr;
-  if (!program) return announcement_->say(tr("Choose the patch whose program is to be exported"));
-  QString name = QFileDialog::getSaveFileName(this, tr("Export a patch program"), {}, tr("Patch programs (*.wpp)"));
-  if (name.isEmpty()) return;
-  if (!name.endsWith(".wpp")) name += ".wpp";
-  const auto bytes = wale::write_patch_program(program->description());
-  QSaveFile file(name);
-  const bool written = file.open(QIODevice::WriteOnly) &&
-                       file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size())) ==
-                           static_cast<qint64>(bytes.size()) &&
-                       file.commit();
-  announcement_->say(written ? tr("Exported %1").arg(name) : tr("%1 cannot be written: %2").arg(name, file.errorString()));
-}
-
 void MainWindow::place_material(const QString& spelling, glm::dvec2 at) {
   wale::LaidOutPatch patch{.made_of = spelling.toStdString(), .at = at, .size = glm::dvec2(0.04, 0.04)};
   patch.name = spelling.section('.', -1).toStdString();
@@ -111,16 +85,17 @@ void MainWindow::place_recipe(const QString& recipe, glm::dvec2 at) {
 
 void MainWindow::place_picture(const QString& path, glm::dvec2 at) {
   // The picture itself is not opened here: only the compiler's decoder, which has no rights, reads a stranger's file.
-  bool ok = false;
-  const double scale = QInputDialog::getDouble(this, tr("A picture as a surface"),
-                                               tr("%1\nHow many millimetres is one of its pixels?").arg(QFileInfo(path).fileName()),
-                                               0.2, 0.001, 10, 3, &ok);
-  if (!ok) return;
+  question_->ask(tr("%1\nHow many millimetres is one of its pixels?").arg(QFileInfo(path).fileName()),
+                 {{tr("&pixel"), tr("mm"), 0.2, 0.001, 10, 3}}, tr("Place it"),
+                 [this, path, at](const std::vector<double>& answers) { place_picture(path, at, answers.front()); });
+}
+
+void MainWindow::place_picture(const QString& path, glm::dvec2 at, double scale) {
   const QString file = document_.file().isEmpty() ? path : QDir(QFileInfo(document_.file()).path()).relativeFilePath(path);
   QString quoted = file;
   quoted.replace('\\', "\\\\").replace('"', "\\\"");
   Contents next = document_.contents();
-  const QString name = QString::fromStdString(next.new_name(QFileInfo(path).completeBaseName().toStdString()));
+  const QString name = QString::fromStdString(next.new_declared_name(QFileInfo(path).completeBaseName().toStdString()));
   next.head += QString("material %1 {\n  physical {\n    let picture = relief(\"%2\", scale: %3 mm/px, height: 1 mm)\n"
                        "    height surface = picture(hand)\n    force = lateral(surface, amplitude: 1 N)\n"
                        "    show relief(surface)\n  }\n}\n\n")

@@ -39,6 +39,8 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
       autosave_(document_),
       canvas_(new Canvas(document_, feeling_, pictures_, numbers_)),
       announcement_(new Announcement),
+      question_(new Question),
+      work_(new LongWork),
       description_(new DescriptionPanel(language)),
       editor_(new TextEditor(document_, language)) {
   setObjectName("sandpaper");
@@ -48,11 +50,18 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   layout->addWidget(announcement_);
+  layout->addWidget(question_);
+  layout->addWidget(work_);
+  exchange_ = new Exchange(library_, language_, document_, feeling_, *canvas_, *editor_, *question_, *work_);
+  exchange_->setParent(this);
   pages_of_work_ = new QStackedWidget;
   pages_of_work_->addWidget(canvas_);
   layout->addWidget(pages_of_work_, 1);
   setCentralWidget(middle);
   make_panels();
+  exchange_->set_shown([this] { return sliders_->shown(); });
+  connect(exchange_, &Exchange::said, announcement_, &Announcement::say);
+  connect(exchange_, &Exchange::refused, this, &MainWindow::announce);
   make_safety_bar();
   make_file_menu();
   make_edit_menu();
@@ -84,7 +93,7 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   });
   connect(canvas_, &Canvas::material_dropped, this, &MainWindow::place_material);
   connect(canvas_, &Canvas::recipe_dropped, this, &MainWindow::place_recipe);
-  connect(canvas_, &Canvas::picture_dropped, this, &MainWindow::place_picture);
+  connect(canvas_, &Canvas::picture_dropped, this, qOverload<const QString&, glm::dvec2>(&MainWindow::place_picture));
   connect(canvas_, &Canvas::file_dropped, this, [this](const QString& file) {
     when_saved(tr("open another file"), [this, file] { open(file); });
   });
@@ -115,6 +124,7 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
 MainWindow::~MainWindow() {
   qApp->removeEventFilter(this);
   feeling_.set_on(false);
+  delete exchange_;  // it uses the lines of the window
   // The panels use the parts of the window, which end before its children.
   presenting_.end("the window was closed");
   delete participant_;

@@ -21,6 +21,7 @@
 #include "presenting/session_panel.hpp"
 #include "window/announcement.hpp"
 #include "window/autosave.hpp"
+#include "window/exchange.hpp"
 
 namespace sandpaper {
 
@@ -40,7 +41,8 @@ class MainWindow : public QMainWindow {
   Feeling& feeling() { return feeling_; }
   Presenting& presenting() { return presenting_; }
   Canvas& canvas() { return *canvas_; }
-  bool is_busy() const { return programs_.is_busy() || pictures_.is_busy() || description_->is_busy() ||
+  Exchange& exchange() { return *exchange_; }
+  bool is_busy() const { return work_->is_busy() || programs_.is_busy() || pictures_.is_busy() || description_->is_busy() ||
                                 advising_.isActive() || advisor_.waiting() > 0; }
   /// The action with that object name; null if there is none.
   QAction* action(const QString& name) const { return findChild<QAction*>(name); }
@@ -85,11 +87,10 @@ class MainWindow : public QMainWindow {
   /// Goes on at once if nothing is unsaved; else offers to save first, without a box.
   void when_saved(const QString& what, const std::function<void()>& then);
   void open_asked();
-  void export_picture();
-  void export_program();
   void place_material(const QString& spelling, glm::dvec2 at);
   void place_recipe(const QString& recipe, glm::dvec2 at);
-  void place_picture(const QString& file, glm::dvec2 at);
+  void place_picture(const QString& file, glm::dvec2 at);  ///< asks for its scale
+  void place_picture(const QString& file, glm::dvec2 at, double millimetres_per_pixel);
   void feel_if_trusted();
 
   const wale::Library& library_;
@@ -105,6 +106,8 @@ class MainWindow : public QMainWindow {
 
   Canvas* canvas_;
   Announcement* announcement_;
+  Question* question_;
+  LongWork* work_;
   PalettePanel* palette_ = nullptr;
   SliderPanel* sliders_ = nullptr;
   DescriptionPanel* description_ = nullptr;
@@ -120,6 +123,8 @@ class MainWindow : public QMainWindow {
   SessionPanel* session_panel_ = nullptr;
   QByteArray panels_before_;  // which were open before a sort in this window
   ParticipantWindow* participant_ = nullptr;
+  Canvas* participant_ = nullptr;
+  Exchange* exchange_ = nullptr;
   QTimer plotting_, advising_;
   qint64 last_typed_ = 0;
   long lost_ = 0;  // ticks of this run without a device

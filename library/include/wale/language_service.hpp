@@ -71,6 +71,7 @@ struct LaidOutPatch {
   std::string name;
   std::string made_of;             ///< as written: "denim(roughness: 0.3)"
   glm::dvec2 at{0};                ///< m from the workspace's centre, of the patch's centre
+  bool at_is_written = false;      ///< also where it is the workspace's centre, which needs not be written
   std::optional<glm::dvec2> size;  ///< m, if it is written
   std::string shape;               ///< as written: "ellipse", "mask(\"river.png\", scale: 0.5 mm/px)"; empty without one
   Shape outline;                   ///< what that is; `outline.size()` is its own size, of an ellipse that of a circle of 1 m

@@ -86,6 +86,11 @@ Result<ThesisShuffle> read_thesis_shuffle(std::string_view text, const std::stri
 /// The text of such a file, with newlines. Error: `malformed_value` for one that would not be read as the same value.
 Result<std::string> write_thesis_shuffle(const ThesisShuffle& shuffle);
 
+/// The shuffle that gives the frames of a movie another order; of frames that are there several times, the first comes
+/// from the first place. The caller fills in `movie`, `date` and `time`. Error: `malformed_value` where the two do not have
+/// the same frames.
+Result<ThesisShuffle> shuffle_of(const ThesisMovie& movie, const ThesisMovie& shuffled);
+
 /// What a file of the thesis holds, as far as its name and its bytes tell.
 enum class ThesisFileKind {
   surface,    ///< its name ends in ".depth": an array of heights

@@ -9,6 +9,7 @@
 
 #include "wale/memory.hpp"
 #include "wale/program.hpp"
+#include "wale/shape.hpp"
 
 namespace wale {
 
@@ -20,6 +21,11 @@ namespace wale {
 /// colours are not wanted. A program without colours leaves `colours` unchanged.
 void surface_all(const Bank& bank, const Memory* memory, std::span<const glm::vec2> positions, std::span<float> heights,
                  std::span<glm::vec3> colours = {});
+
+/// The same of a patch with a shape of the bank's size: where the surface ends with the patch (`patch_fade`), it ends at
+/// the shape's own edge. Positions outside it are those of its edge.
+void surface_all(const Bank& bank, const Memory* memory, std::span<const glm::vec2> positions, const Shape& shape,
+                 std::span<float> heights, std::span<glm::vec3> colours = {});
 
 /// A shape that the picture shows now. `MarkKind` gives the meaning of `values`, in m, rad and s; unused ones are 0.
 /// They may be any float, infinities and not-a-number included.
