@@ -36,13 +36,13 @@ struct SectionKind {
 };
 
 /// Known sections in the order in which they stand in a file.
-inline constexpr std::array<SectionKind, 21> section_kinds = {
+inline constexpr std::array<SectionKind, 22> section_kinds = {
     {{"NAME", true, true},   {"REGS", true, true},   {"CONS", true, true},   {"PARM", true, true},
      {"SETU", true, true},   {"PEAK", true, true},   {"STAT", true, false},  {"GRID", true, false},
      {"TICK", true, true},   {"OUTP", true, true},   {"PICT", true, true},   {"FRAM", false, false},
      {"TABL", true, true},   {"PTCH", true, true},   {"DEVI", true, true},   {"VIBR", true, false},
-     {"PERC", false, false}, {"EVID", false, false}, {"FATE", false, false}, {"LAYR", false, false},
-     {"PLAC", false, false}}};
+     {"PERC", false, false}, {"EVID", false, false}, {"FATE", false, false}, {"CLAI", false, false},
+     {"LAYR", false, false}, {"PLAC", false, false}}};
 
 constexpr std::size_t align(std::size_t size) { return (size + alignment - 1) / alignment * alignment; }
 

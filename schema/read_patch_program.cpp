@@ -39,6 +39,7 @@ void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) 
   if (kind == "PERC") program.percepts = read_percepts(in);
   if (kind == "EVID") read_bases(in, program.percepts);
   if (kind == "FATE") program.fates = read_fates(in);
+  if (kind == "CLAI") program.claims = read_claims(in);
   if (kind == "LAYR") program.layers = read_layers(in);
   if (kind == "PLAC") program.places = read_places(in, program);
   in.finish();

@@ -23,6 +23,7 @@ std::vector<HeightTable> read_tables(ByteReader& in);
 // read_told_sections.cpp: what the program says of itself
 std::vector<PerceptRecord> read_percepts(ByteReader& in);
 /// Reads the basis of each percept; they have been read before.
+std::vector<LevelClaim> read_claims(ByteReader& in);
 void read_bases(ByteReader& in, std::vector<PerceptRecord>& percepts);
 std::vector<FateRecord> read_fates(ByteReader& in);
 Layers read_layers(ByteReader& in);

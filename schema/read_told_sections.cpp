@@ -93,6 +93,16 @@ void read_bases(ByteReader& in, std::vector<PerceptRecord>& percepts) {
   }
 }
 
+std::vector<LevelClaim> read_claims(ByteReader& in) {
+  std::vector<LevelClaim> claims(in.count(5, "claims"));
+  for (LevelClaim& claim : claims) {
+    claim.percept = in.text("a percept's name");
+    claim.evidence = read_evidence(in, "a level");
+  }
+  if (claims.empty()) in.damaged(" is empty; a file without claims leaves it out");
+  return claims;
+}
+
 std::vector<FateRecord> read_fates(ByteReader& in) {
   std::vector<FateRecord> fates(in.count(18, "fates"));
   for (FateRecord& fate : fates) {

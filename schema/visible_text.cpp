@@ -70,6 +70,7 @@ void make_visible(PatchProgram& program) {
       make_visible(*text);
   for (FateRecord& each : program.fates)
     for (std::string* text : {&each.name, &each.reason}) make_visible(*text);
+  for (LevelClaim& each : program.claims) make_visible(each.percept);
   for (auto& [key, values] : program.layers.representative) {
     make_visible(key);
     for (std::string& value : values) make_visible(value);

@@ -118,6 +118,14 @@ void write_fates(ByteWriter& out, std::span<const FateRecord> fates) {
   }
 }
 
+void write_claims(ByteWriter& out, std::span<const LevelClaim> claims) {
+  out.u32(claims.size());
+  for (const LevelClaim& claim : claims) {
+    out.text(claim.percept);
+    out.u8(static_cast<std::uint8_t>(claim.evidence));
+  }
+}
+
 void write_bases(ByteWriter& out, std::span<const PerceptRecord> percepts) {
   out.u32(percepts.size());
   for (const PerceptRecord& percept : percepts) {
@@ -242,6 +250,7 @@ std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& 
   if (kind == "PERC" && !program.percepts.empty()) write_percepts(out, program.percepts);
   if (kind == "EVID" && !program.percepts.empty()) write_bases(out, program.percepts);
   if (kind == "FATE" && !program.fates.empty()) write_fates(out, program.fates);
+  if (kind == "CLAI" && !program.claims.empty()) write_claims(out, program.claims);
   if (kind == "LAYR" && program.layers != Layers{}) write_layers(out, program.layers);
   if (kind == "PLAC" && program.places != SourcePlaces{}) write_places(out, program.places);
   return std::move(out.result());

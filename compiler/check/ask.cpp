@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compiler/expression/check_name.hpp"
+#include "compiler/modules/declare_evidence.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {
@@ -163,6 +164,12 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
                     "a tolerance is a difference of levels, from 0 to 1",
                     Advice("write, for example, `0.6 ± 0.1`").fact("low", 0).fact("high", 1));
     asked.tolerance = *tolerance;
+  }
+  if (node.evidence) {
+    asked.evidence = grade_named(node.evidence->text);
+    if (!asked.evidence)
+      report(Code::wrong_type, node.evidence->span, fmt::format("a level is not `{}`", node.evidence->text),
+             Advice(fmt::format("write how well it is known: {}", grade_words())));
   }
   if (meant.reversed) asked.level = 1 - asked.level;
   const auto taken_over = std::ranges::find(percepts, asked.name, &AskedPercept::name);

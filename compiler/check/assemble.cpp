@@ -203,6 +203,7 @@ class Assembler {
           percept->level = meant.reversed && !is_named ? 1 - *level : *level;
           percept->span = span;
           percept->made_at.reset();
+          percept->evidence.reset();
           percept->blended = false;
         }
         continue;

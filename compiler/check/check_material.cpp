@@ -1,12 +1,15 @@
 #include "compiler/check/check_material.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 
 #include "compiler/check/blend.hpp"
 #include "compiler/check/check_statements.hpp"
 #include "compiler/check/check_usage.hpp"
+#include "compiler/modules/representative.hpp"
 
 namespace wale {
 
@@ -121,41 +124,29 @@ class MaterialChecker {
 
   void check_representative(const AssembledMaterial* assembled) {
     bool has_kind = false;
+    std::map<std::string, Span> set;
     for (const auto& setting : node_.representative) {
       const auto& key = setting.key.text;
       if (key == "like") continue;  // `assemble` reads it
-      if (key != "title" && key != "called" && key != "kind" && key != "feels") {
+      if (!is_representative_setting(key)) {
         report(Code::unknown_setting, setting.key.span, fmt::format("a representative block has no setting `{}`", key),
-               did_you_mean(setting.key.span, key, {"title", "called", "kind", "feels", "like"},
-                            "it has: title, called, kind, feels, like"));
+               did_you_mean(setting.key.span, key, representative_settings(),
+                            fmt::format("it has: {}", fmt::join(representative_settings(), ", "))));
         continue;
       }
       has_kind = has_kind || key == "kind";
-      const auto first = std::ranges::find(node_.representative, key, [](const auto& each) { return each.key.text; });
-      if (&*first != &setting)
-        report(Code::declared_twice, setting.key.span, fmt::format("`{}` is set twice", key),
-               Advice("put everything into one").see(first->key.span, "set here first"));
-      material_.layers.representative.emplace_back(key, texts_of(setting, tree_));
+      RepresentativeEntry entry = representative_entry(setting, tree_, surroundings_.diagnostics);
+      const auto [first, is_new] = set.emplace(entry.key, setting.key.span);
+      if (!is_new)
+        report(Code::declared_twice, setting.key.span, fmt::format("`{}` is set twice", entry.key),
+               Advice("put everything into one").see(first->second, "set here first"));
+      material_.layers.representative.emplace_back(std::move(entry.key), std::move(entry.values));
     }
-    if (!has_kind && assembled && assembled->kind)
-      material_.layers.representative.emplace_back("kind", texts_of(*assembled->kind, *assembled->kind_tree));
-  }
-
-  std::vector<std::string> texts_of(const Setting& setting, const SyntaxTree& tree) {
-    const bool kind = setting.key.text == "kind";
-    std::vector<std::string> texts;
-    for (const auto& item : setting.items) {
-      const auto* literal = item.value ? std::get_if<TextLiteral>(&tree.expr(*item.value)) : nullptr;
-      if (kind && item.words.size() == 1 && !item.value)
-        texts.emplace_back(item.words[0].text);
-      else if (!kind && literal)
-        texts.emplace_back(literal->text);
-      else
-        report(Code::wrong_type, item.span,
-               fmt::format("`{}` takes {}", setting.key.text, kind ? "a word" : "texts in quotes"),
-               kind ? "write, for example, `kind fabric.woven`" : fmt::format("write `{} \"…\"`", setting.key.text));
+    if (!has_kind && assembled && assembled->kind) {
+      RepresentativeEntry kind =
+          representative_entry(*assembled->kind, *assembled->kind_tree, surroundings_.diagnostics);
+      material_.layers.representative.emplace_back(std::move(kind.key), std::move(kind.values));
     }
-    return texts;
   }
 
   void report(Code code, Span span, std::string message, Advice advice) {

@@ -29,6 +29,7 @@ struct DescribedPercept {
   std::string carrier;
 
   std::optional<double> asked;  ///< the level asked for; empty if the author did not ask for one
+  std::optional<Evidence> claimed;  ///< how well the author knows that level; empty if not stated, or at another level
   double aimed = 0;             ///< the carrier's size that it was solved for, in `unit`
   bool blended = false;         ///< a blend asks for it: mixed from the levels of its components
   bool solved = false;          ///< its size was found from the level; otherwise the author wrote it

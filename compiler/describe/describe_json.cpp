@@ -126,6 +126,7 @@ nlohmann::ordered_json to_json(const DescribedPercept& percept, const std::vecto
   using Json = nlohmann::ordered_json;
   Json entry;
   entry["asked"] = percept.asked ? Json(figure(*percept.asked)) : Json(nullptr);
+  entry["asked_evidence"] = percept.claimed ? Json(evidence_word(*percept.claimed)) : Json(nullptr);
   entry["level"] = figure(percept.level);
   entry["evidence"] = evidence_word(percept.evidence());
   entry["evidence_of"] = {{"slope", evidence_word(percept.slope)},
@@ -284,7 +285,7 @@ nlohmann::ordered_json to_json(const Description& description) {
   json["device"] = description.device.name;
   auto& representative = json["representative"] = nlohmann::ordered_json::object();
   for (const auto& [key, values] : description.layers.representative) {
-    if (key == "called" || key == "feels")
+    if (key.starts_with("called") || key == "feels" || key == "source" || key == "replaces")
       representative[key] = values;
     else
       representative[key] = values.empty() ? "" : values.front();

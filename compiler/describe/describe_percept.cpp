@@ -22,6 +22,17 @@ std::optional<double> asked_of(const Bank& bank, const PerceptRecord& record, co
   return fate == program.fates.end() ? std::nullopt : std::optional<double>(fate->asked);
 }
 
+/// How well the author knows the level that was asked for; nothing if a slider has moved it, or if it is not stated.
+std::optional<Evidence> claimed_of(const PatchProgram& program, const std::string& percept,
+                                   const std::optional<double>& asked) {
+  constexpr double moved = 1e-6;
+  const auto claim = std::ranges::find(program.claims, percept, &LevelClaim::percept);
+  const auto fate = std::ranges::find_if(
+      program.fates, [&](const FateRecord& each) { return each.percept && each.name == percept; });
+  if (claim == program.claims.end() || fate == program.fates.end() || !asked) return std::nullopt;
+  return std::abs(*asked - fate->asked) > moved ? std::nullopt : std::optional(claim->evidence);
+}
+
 /// `given` is the largest output of the device.
 DescribedPercept recorded_percept(const Bank& bank, std::size_t index, const ForceReading& found, double given,
                                   const Declarations& declarations) {
@@ -30,6 +41,7 @@ DescribedPercept recorded_percept(const Bank& bank, std::size_t index, const For
   const PerceptReading told = percept_reading(bank, index, found, declarations);
   DescribedPercept percept;
   percept.asked = asked_of(bank, record, told);
+  percept.claimed = claimed_of(program, record.name, percept.asked);
   percept.aimed = told.aimed;
   percept.blended = record.blended, percept.solved = record.parameter || record.blended;
   percept.realisation = record.realisation;

@@ -93,7 +93,7 @@ std::vector<std::string> reading_lines(const DescribedPercept& percept, const De
 
 std::string asked_line(const DescribedPercept& percept) {
   if (!percept.asked) return "nothing";
-  return readable("{:.2f}{}", *percept.asked,
+  return readable("{:.2f}{}{}", *percept.asked, percept.claimed ? readable(" ({})", evidence_word(*percept.claimed)) : "",
                   percept.blended  ? ", by the levels of its components"
                   : percept.solved ? ""
                                    : ", and the author wrote the force");

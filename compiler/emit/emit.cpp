@@ -50,6 +50,7 @@ class Emitter {
     program_.device = material_.device;
     if (!material_.limited) program_.device.force_newton = unlimited_newton;
     program_.fates = material_.fates;
+    program_.claims = material_.claims;
     program_.layers = material_.layers;
 
     section_steps_.reserve(lowered_.percepts.size() + 8);

@@ -27,6 +27,7 @@ struct AskedPercept {
   double level = 0;
   double tolerance = 0;  ///< in both directions
   Span span;
+  std::optional<Evidence> evidence{};  ///< how well the author knows the level; empty if not stated
   std::string by{};               ///< the map that the author chose; empty if none
   std::optional<Span> by_span{};  ///< of that name
   std::optional<Span> made_at{};  ///< the `between` that computed the level; diagnostics of the level point there

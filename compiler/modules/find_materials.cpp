@@ -54,8 +54,11 @@ std::optional<Occurrence> occurrence_of(const std::string& sought, const Indexed
     if (!nearest || std::tie(it.inexact, it.by) < std::tie(nearest->inexact, nearest->by)) nearest = std::move(it);
   };
   look(FoundBy::name, material.name);
+  for (const std::string& text : material.replaces) look(FoundBy::replaces, text);
   look(FoundBy::title, material.title);
   for (const std::string& text : material.called) look(FoundBy::called, text);
+  for (const auto& [language, names] : material.called_in)
+    for (const std::string& text : names) look(FoundBy::called, text);
   look(FoundBy::kind, material.kind);
   for (const std::string& text : material.feels) look(FoundBy::feels, text);
   look(FoundBy::documentation, material.documentation);
@@ -67,6 +70,7 @@ std::optional<Occurrence> occurrence_of(const std::string& sought, const Indexed
 std::string_view in_words(FoundBy by) {
   switch (by) {
     case FoundBy::name: return "name";
+    case FoundBy::replaces: return "replaces";
     case FoundBy::title: return "title";
     case FoundBy::called: return "called";
     case FoundBy::kind: return "kind";
@@ -113,6 +117,9 @@ std::vector<std::string> findable_words(const LibraryIndex& index) {
   for (const IndexedMaterial& material : index.materials()) {
     for (const std::string* text : {&material.name, &material.title, &material.kind}) enter(*text);
     for (const std::string& text : material.called) enter(text);
+    for (const std::string& text : material.replaces) enter(text);
+    for (const auto& [language, names] : material.called_in)
+      for (const std::string& text : names) enter(text);
     for (const std::string& text : material.feels) enter(text);
   }
   return {words.begin(), words.end()};

@@ -9,7 +9,7 @@
 namespace wale {
 
 /// The kind of text by which a material was found, the best first.
-enum class FoundBy { name, title, called, kind, feels, documentation };
+enum class FoundBy { name, replaces, title, called, kind, feels, documentation };
 
 /// Its word: "name", "called".
 std::string_view in_words(FoundBy by);

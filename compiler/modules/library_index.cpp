@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 
+#include "compiler/modules/representative.hpp"
 #include "compiler/parse/overloaded.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/embedded_files.hpp"
@@ -119,8 +120,18 @@ void LibraryIndex::add(const std::string& module, const std::string& file, const
     for (const Setting& setting : material->representative) {
       std::vector<std::string> texts = texts_in(setting, tree);
       const std::string_view key = setting.key.text;
-      if (key == "called")
-        entry.called = std::move(texts);
+      if (key == "called") {
+        const std::string_view language = language_of(setting);
+        if (language.empty())
+          entry.called = std::move(texts);
+        else
+          entry.called_in.emplace_back(language, std::move(texts));
+      } else if (key == "replaces")
+        entry.replaces = std::move(texts);
+      else if (key == "source")
+        entry.sources = std::move(texts);
+      else if (key == "licence" && !texts.empty())
+        entry.licence = std::move(texts.front());
       else if (key == "feels")
         entry.feels = std::move(texts);
       else if (key == "title" && !texts.empty())
@@ -146,8 +157,13 @@ std::vector<const IndexedMaterial*> LibraryIndex::meant_by(std::string_view text
   };
   const auto same = [&](const std::string& word) { return same_but_for_capitals(word, text); };
   if (take([&](const IndexedMaterial& each) { return each.name == text; })) return found;
-  if (take([&](const IndexedMaterial& each) { return same(each.title) || std::ranges::any_of(each.called, same); }))
+  if (take([&](const IndexedMaterial& each) { return std::ranges::find(each.replaces, text) != each.replaces.end(); }))
     return found;
+  const auto is_called = [&](const IndexedMaterial& each) {
+    return same(each.title) || std::ranges::any_of(each.called, same) ||
+           std::ranges::any_of(each.called_in, [&](const auto& names) { return std::ranges::any_of(names.second, same); });
+  };
+  if (take(is_called)) return found;
   if (take([&](const IndexedMaterial& each) { return each.kind == text; })) return found;
   take([&](const IndexedMaterial& each) { return each.module == text || each.module + "." + each.name == text; });
   return found;
@@ -158,6 +174,8 @@ std::vector<std::string> LibraryIndex::spellings() const {
   for (const IndexedMaterial& each : materials_) {
     all.insert(each.name);
     all.insert(each.called.begin(), each.called.end());
+    all.insert(each.replaces.begin(), each.replaces.end());
+    for (const auto& [language, names] : each.called_in) all.insert(names.begin(), names.end());
     if (!each.title.empty()) all.insert(each.title);
     if (!each.kind.empty()) all.insert(each.kind);
   }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compiler/parse/syntax_tree.hpp"
@@ -24,6 +25,11 @@ struct IndexedMaterial {
   std::string file;    ///< the same file as messages show it: "library/fabric/denim.wale"
   std::string title, kind;
   std::vector<std::string> called, feels;
+  /// Names in other languages: ("de", {"Cord", "Kord"}).
+  std::vector<std::pair<std::string, std::vector<std::string>>> called_in;
+  std::vector<std::string> replaces;  ///< names of materials that this one supersedes
+  std::vector<std::string> sources;   ///< where its figures come from
+  std::string licence;                ///< as SPDX names it: "CC0-1.0"; empty: that of its library
   std::vector<std::string> asks;  ///< the percepts that it asks for, by the names that it uses
   std::string documentation;  ///< text of its `///` comment
   Origin origin = Origin::own;
@@ -57,8 +63,8 @@ class LibraryIndex {
   /// The first export with that name, or null.
   const ExportedName* exported(std::string_view name) const;
 
-  /// The materials that a text may mean: those with that name. If there are none, those with that title or `called`
-  /// text (capitals do not matter); if there are none, those of that kind; if there are none, those of that module,
+  /// The materials that a text may mean: those with that name. If there are none, those that replace a material of that
+  /// name; if there are none, those with that title or `called` text in any language (capitals do not matter); if there are none, those of that kind; if there are none, those of that module,
   /// "fabric.denim", or the one named with its module, "sandpaper.chapter4.Viscous". The empty text means none.
   std::vector<const IndexedMaterial*> meant_by(std::string_view text) const;
 

@@ -22,6 +22,8 @@ std::optional<NearMaterial> nearest_name(std::string_view text, const IndexedMat
   hold_against(material.name);
   hold_against(material.title);
   for (const std::string& name : material.called) hold_against(name);
+  for (const auto& [language, names] : material.called_in)
+    for (const std::string& name : names) hold_against(name);
   if (text.find('.') == std::string_view::npos) return near;
   hold_against(material.module);
   hold_against(material.module + "." + material.name);

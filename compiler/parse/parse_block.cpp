@@ -240,8 +240,9 @@ PerceptStatement Parser::percept_statement() {
              fmt::format("write `{} {}`", percept.name.text, spelling(next)), drop_here());
     advance();
   }
-  const bool alone =
-      ends_statement(at_ + 1) || kind(at_ + 1) == TokenKind::plus_minus || kind(at_ + 1) == TokenKind::comma;
+  in_setting_ = true;
+  const bool alone = ends_statement(at_ + 1) || kind(at_ + 1) == TokenKind::plus_minus ||
+                     kind(at_ + 1) == TokenKind::comma || is_evidence(at_ + 1);
   const bool ends_behind = ends_statement(at_ + 2) || kind(at_ + 2) == TokenKind::plus_minus;
   if (at(TokenKind::name) && alone) {
     percept.level_name = take_word();
@@ -259,9 +260,19 @@ PerceptStatement Parser::percept_statement() {
   } else {
     percept.value = expression();
   }
+  const auto evidence = [&] {
+    while (is_evidence(at_)) {
+      if (percept.evidence)
+        once("the evidence of a level", [&] { advance(); });
+      else
+        percept.evidence = take_word();
+    }
+  };
+  evidence();
   if (at(TokenKind::plus_minus)) {
     advance();
     percept.tolerance = expression();
+    evidence();
     while (at(TokenKind::plus_minus)) once("a tolerance", [&] { advance(), expression(); });
   }
   if (at(TokenKind::comma) && is_word(at_ + 1, "by") && kind(at_ + 2) == TokenKind::name) {

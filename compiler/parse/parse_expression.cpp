@@ -218,8 +218,12 @@ bool Parser::is_suffix_name(std::size_t index) const {
   if (is_like(index)) return false;
   const TokenKind next = kind(index + 1);
   if (!ends_statement(index + 1) && (next == TokenKind::left_parenthesis || next == TokenKind::colon)) return false;
-  const auto is_this = [&](std::string_view word) { return is_word(index, word); };
-  return !in_setting_ || std::none_of(std::begin(evidence_words), std::end(evidence_words), is_this);
+  return !in_setting_ || !is_evidence(index);
+}
+
+bool Parser::is_evidence(std::size_t index) const {
+  return !ends_statement(index) &&
+         std::ranges::any_of(evidence_words, [&](std::string_view word) { return is_word(index, word); });
 }
 
 /// Reads one of the names after a number: `N`, `/ s`, `m^2`, `s^-1`. `/ x^2.5` is an ordinary division and not read.

@@ -187,6 +187,8 @@ class Parser {
   bool at(TokenKind kind) const { return here().kind == kind && !ends_statement(at_); }
   bool followed_by(TokenKind next) const { return kind(at_ + 1) == next && !ends_statement(at_ + 1); }
   bool is_word(std::size_t index, std::string_view word) const;
+  /// Whether a word there says how well a figure is known, as in `0.35 estimated`.
+  bool is_evidence(std::size_t index) const;
   bool ends_statement(std::size_t index) const {
     const StatementEnd ends = token(index).ends_statement;
     return ends != StatementEnd::no && (ends == StatementEnd::yes || open_parentheses_.empty());
@@ -272,7 +274,7 @@ class Parser {
   std::size_t statements_ = 0;             ///< in settings
   std::vector<std::string_view> remembered_;  ///< states and memories of the material that is being read
   bool lost_ = false;                         ///< outside all declarations, which has been reported
-  bool in_setting_ = false;                   ///< words of evidence end a unit: `0.3 kg assumed`
+  bool in_setting_ = false;                   ///< words of evidence end a unit: `0.3 kg assumed`, `roughness 0.3 estimated`
   bool in_force_ = false;                     ///< `limit` ends a unit: `k * 5 mm limit 2 N`
   bool in_range_ = false;   ///< `soft`, `cell` and `to` end a unit: `in 1 mm .. 5 mm soft 2 mm .. 3 mm`
   bool in_placed_ = false;  ///< in the block of a patch of a workspace: `patch NAME =` begins the next patch

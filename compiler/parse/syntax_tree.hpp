@@ -172,7 +172,8 @@ struct PerceptStatement {
   std::optional<ExprId> value;
   std::optional<Word> level_name;
   std::optional<ExprId> tolerance;
-  std::optional<Word> by;  ///< the chosen map, `, by minsky1995.figure19`
+  std::optional<Word> evidence;  ///< how well the level is known, `estimated`
+  std::optional<Word> by;        ///< the chosen map, `, by minsky1995.figure19`
   Span span;
 };
 

@@ -249,6 +249,7 @@ class Solver {
   /// them.
   void tell_fates(const PerceptSolver& percepts) {
     for (const auto& asked : material_.percepts) {
+      if (asked.evidence) solved_.claims.push_back({asked.name, *asked.evidence});
       const auto lost = lost_.find(asked.name);
       if (lost == lost_.end())
         solved_.fates.push_back(percepts.fate(asked));

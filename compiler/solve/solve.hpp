@@ -54,6 +54,7 @@ struct SolvedMaterial {
   std::vector<SolvedWrite> writes;
   std::vector<CheckedMark> marks;
   std::vector<SolvedPercept> percepts;
+  std::vector<LevelClaim> claims;  ///< of the percepts asked for whose author says how well the level is known
   std::vector<FateRecord> fates;  ///< those of the percepts asked for, in their order, then those of the physics
   DeviceProfile device;
   /// Whether a force ends at the device's limit. Without it the shape of a force is read, and not what the device gives

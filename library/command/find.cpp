@@ -87,7 +87,7 @@ Error why_nothing_is_found(const LibraryIndex& index, const std::vector<std::str
 
 /// The text by which a material was found, if its line does not show it already.
 std::string found_in(const FoundMaterial& found) {
-  if (found.by == FoundBy::called || found.by == FoundBy::feels)
+  if (found.by == FoundBy::called || found.by == FoundBy::feels || found.by == FoundBy::replaces)
     return fmt::format("{} \"{}\"", in_words(found.by), visible_text(found.text));
   return found.by == FoundBy::documentation ? "in its documentation" : "";
 }
@@ -111,12 +111,22 @@ std::string found_text(const std::vector<FoundMaterial>& found) {
   return text;
 }
 
+nlohmann::ordered_json names_by_language(const IndexedMaterial& material) {
+  auto all = nlohmann::ordered_json::object();
+  for (const auto& [language, names] : material.called_in) all[language] = names;
+  return all;
+}
+
 std::string found_json(const std::vector<FoundMaterial>& found) {
   auto all = nlohmann::ordered_json::array();
   for (const FoundMaterial& each : found)
     all.push_back({{"name", each.material->name},
                    {"title", each.material->title},
                    {"called", each.material->called},
+                   {"called_in", names_by_language(*each.material)},
+                   {"replaces", each.material->replaces},
+                   {"sources", each.material->sources},
+                   {"licence", each.material->licence},
                    {"kind", each.material->kind},
                    {"feels", each.material->feels},
                    {"documentation", each.material->documentation},

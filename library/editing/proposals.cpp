@@ -19,7 +19,7 @@ const std::map<std::string_view, Words>& blocks() {
       {"material", {"perceptual", "physical", "representative"}},
       {"physical", {"active", "force", "height", "let", "memory", "next", "param", "patch", "show", "state"}},
       {"perceptual", {"essential"}},
-      {"representative", {"called", "feels", "kind", "like", "source", "title"}},
+      {"representative", {"called", "feels", "kind", "licence", "like", "replaces", "source", "title"}},
       {"workspace", {"patch", "patches"}},
       {"placing", {"at", "mark", "rim", "shape", "size"}},
   };

@@ -256,6 +256,38 @@ TEST(Describing, KeepsWordsOfFeels) {
             (std::vector<std::string>{"pleasant", "like ball bearings"}));
 }
 
+TEST(Describing, SaysHowWellALevelIsKnownAndWhatACatalogueKeeps) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "m.wale",
+      "wale 1\n\nmaterial cord {\n  representative {\n    called \"cord\"\n    called de \"Cord\", \"Kord\"\n"
+      "    source \"a ruler\", \"a book\"\n    licence \"CC-BY-4.0\"\n    replaces old_cord, older_cord\n  }\n"
+      "  perceptual { roughness medium \u00b1 0.1 estimated }\n"
+      "  physical { force = lateral(grating(x, period: 2.5 mm)) }\n}\nmaterial finer = cord(roughness: 0.3)\n"
+      "material alike { representative { like cord } }\n");
+  const auto json = wale({"describe", file, "--json"}).json();
+  const auto& said = json.at("representative");
+  EXPECT_EQ(said.at("called de"), (std::vector<std::string>{"Cord", "Kord"}));
+  EXPECT_EQ(said.at("source"), (std::vector<std::string>{"a ruler", "a book"}));
+  EXPECT_EQ(said.at("licence"), "CC-BY-4.0");
+  EXPECT_EQ(said.at("replaces"), (std::vector<std::string>{"old_cord", "older_cord"}));
+  EXPECT_EQ(json.at("percepts").at("roughness").at("asked_evidence"), "estimated");
+  EXPECT_TRUE(contains(wale({"describe", file}).out, "(estimated)"));
+  // The program alone knows it too, and at another level nobody has said anything.
+  ASSERT_EQ(wale({"build", file, "--material", "cord", "-o", folder / "cord.wpp"}).status, 0);
+  EXPECT_EQ(wale({"describe", folder / "cord.wpp", "--json"}).json().at("percepts").at("roughness").at("asked_evidence"),
+            "estimated");
+  EXPECT_EQ(wale({"describe", file, "--set", "roughness=0.2", "--json"}).json().at("percepts").at("roughness").at(
+                "asked_evidence"),
+            nullptr);
+  const auto evidence_of = [&](const char* material) {
+    return wale({"describe", file, "--material", material, "--json"}).json().at("percepts").at("roughness").at(
+        "asked_evidence");
+  };
+  EXPECT_EQ(evidence_of("finer"), nullptr);
+  EXPECT_EQ(evidence_of("alike"), "estimated");
+}
+
 TEST(Feeling, WithNoMoreForceThanTheUserAllows) {
   const auto felt = [](const std::string& most) {
     return wale({"feel", corduroy, "--virtual-time", "--seconds", "2", "--max-force", most, "--json"});

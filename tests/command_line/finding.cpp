@@ -1,6 +1,8 @@
 // `wale find`: materials of libraries by words.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/command_line/running.hpp"
 
 namespace wale::command_line::finding_test {
@@ -28,6 +30,23 @@ TEST(Find, ShowsTheFileAndTheMatchingText) {
   for (const char* part :
        {"marbles ", "Glass marbles", "glass.loose", "glass/marbles.wale", "feels \"like ball bearings\""})
     EXPECT_TRUE(contains(outcome.out, part)) << part << outcome.out;
+}
+
+TEST(Find, KnowsOtherLanguagesAndWhatAMaterialReplaces) {
+  const TemporaryFolder folder;
+  folder.write("cord.wale",
+               "wale 1\nmaterial cord {\n  representative { called de \"Breitcord\"; called fr \"velours large\"\n"
+               "    replaces old_cord }\n  perceptual { roughness 0.4 }\n}\n");
+  for (const auto& [sought, by, text] :
+       {std::array{"breitcord", "called", "Breitcord"}, {"velours large", "called", "velours large"},
+        {"old_cord", "replaces", "old_cord"}}) {
+    const auto found = wale({"find", "--library", folder / ".", sought, "--json"}).json();
+    ASSERT_EQ(found.size(), 1u) << sought;
+    EXPECT_EQ(found[0].at("name"), "cord");
+    EXPECT_EQ(found[0].at("found_by"), by);
+    EXPECT_EQ(found[0].at("found_in"), text);
+    EXPECT_EQ(wale({"describe", "--library", folder / ".", sought, "--json"}).json().at("material"), "cord") << sought;
+  }
 }
 
 TEST(Find, SearchesTheShippedLibraryToo) {

@@ -147,6 +147,7 @@ inline PatchProgram program() {
   p.layers.representative = {{"title", {"Bench grating"}}, {"called", {"grating", "r\xc3\xa4ndel"}}, {"kind", {}}};
   p.layers.perceptual = "roughness 0.6";
   p.layers.physical = "force = lateral(sin(x))";
+  p.claims = {{"roughness", Evidence::transferred}};
   p.layers.documentation = "A grating for the bench.";
   p.places.files = {"bench.wale", "std.grain"};
   p.places.sections = {{{4, 0, 7}}, {{4, 0, 8}}, {{1, 0, 9}}, {{5, 0, 8}, {2, 1, 70000}},

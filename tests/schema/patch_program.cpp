@@ -51,7 +51,7 @@ TEST(PatchProgram, FileIsLaidOutAsDocumented) {
   for (const auto& section : wpp::sections_of(bytes)) kinds += section.kind + (section.flags != 0 ? "! " : "? ");
   EXPECT_EQ(
       kinds,
-      "NAME! REGS! CONS! PARM! SETU! PEAK! STAT! GRID! TICK! OUTP! PICT! FRAM? TABL! PTCH! DEVI! PERC? EVID? FATE? LAYR? "
+      "NAME! REGS! CONS! PARM! SETU! PEAK! STAT! GRID! TICK! OUTP! PICT! FRAM? TABL! PTCH! DEVI! PERC? EVID? FATE? CLAI? LAYR? "
       "PLAC? ");
 }
 

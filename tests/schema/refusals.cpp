@@ -154,7 +154,7 @@ TEST(Refusals, ContentThatEndsEarlyOrLate) {
 
 TEST(Refusals, CountsBeyondTheFile) {
   for (const std::string kind : {"CONS", "PARM", "SETU", "PEAK", "STAT", "GRID", "TICK", "OUTP", "FRAM", "TABL", "PERC",
-                                 "FATE", "LAYR", "PLAC"}) {
+                                 "FATE", "CLAI", "LAYR", "PLAC"}) {
     for (const std::uint32_t count : {0xffffffffu, 0x20000000u, 100000u}) {
       const std::string reason = refusal_of_content(kind, [count](Bytes& b) { wpp::put(b, 0, count, 4); });
       EXPECT_EQ(reason.substr(0, 20), "section " + kind + " claims ") << reason;
@@ -248,6 +248,10 @@ TEST(Refusals, EmptySectionsThatAreLeftOut) {
             "section FRAM is empty; a file without marks leaves it out");
   EXPECT_EQ(refusal_of_content("PERC", [](Bytes& b) { b = Bytes(4); }),
             "section PERC is empty; a file without percepts leaves it out");
+  EXPECT_EQ(refusal_of_content("CLAI", [](Bytes& b) { b.back() = std::byte{9}; }),
+            "section CLAI has evidence grade 9 for a level, which this Wale does not know");
+  EXPECT_EQ(refusal_of_content("CLAI", [](Bytes& b) { b = Bytes(4); }),
+            "section CLAI is empty; a file without claims leaves it out");
   EXPECT_EQ(refusal_of_content("FATE", [](Bytes& b) { b = Bytes(4); }),
             "section FATE is empty; a file without fates leaves it out");
   EXPECT_EQ(refusal_of_content("LAYR", [](Bytes& b) { b = Bytes(16); }),

@@ -123,7 +123,6 @@ class MainWindow : public QMainWindow {
   SessionPanel* session_panel_ = nullptr;
   QByteArray panels_before_;  // which were open before a sort in this window
   ParticipantWindow* participant_ = nullptr;
-  Canvas* participant_ = nullptr;
   Exchange* exchange_ = nullptr;
   QTimer plotting_, advising_;
   qint64 last_typed_ = 0;

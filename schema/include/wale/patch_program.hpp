@@ -292,6 +292,14 @@ struct FateRecord {
   friend bool operator==(const FateRecord&, const FateRecord&) = default;
 };
 
+/// How well the author of a material knows a level that he asks for.
+struct LevelClaim {
+  std::string percept;  ///< "roughness"
+  Evidence evidence = Evidence::estimated;
+
+  friend bool operator==(const LevelClaim&, const LevelClaim&) = default;
+};
+
 /// The layers as their author wrote them: kept for people and catalogues, never executed.
 struct Layers {
   std::vector<std::pair<std::string, std::vector<std::string>>> representative;  ///< ("called", {"corduroy", ...})
@@ -361,6 +369,7 @@ struct PatchProgram {
   DeviceProfile device;
   std::vector<PerceptRecord> percepts;
   std::vector<FateRecord> fates;  ///< of the percepts in the order asked for, then of the physics; never executed
+  std::vector<LevelClaim> claims;  ///< of some of the percepts asked for, in that order; never executed
   Layers layers;
   SourcePlaces places;  ///< empty if the compiler did not record them
 
