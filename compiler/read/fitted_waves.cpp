@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t few_places_a_part = 16;        // of a period, to move a wave by ...
 constexpr std::size_t places_a_part = 48;            // ... and at last, to put it where it is
-constexpr std::size_t places_together = 3000;        // to move several waves by
+constexpr std::size_t places_together = 1500;        // to move several waves by ...
+constexpr std::size_t places_of_line = 3000;         // ... and to fit a line beside them
 constexpr double slow_periods = 12;                  // over the patch
 constexpr double few_periods_together = 25;          // over the patch, so that two waves look alike
 constexpr double least_taken = 0.02;                 // of what is left, by one more wave
@@ -242,7 +243,7 @@ void FittedWaves::fit_trend(StillForces& rest) {
 
 void FittedWaves::settle_trend() {
   if (found_.waves.empty() || found_.lattice) return;
-  StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_together));
+  StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_of_line));
   some.forces = rest_at(some.places, std::move(some.forces));
   std::vector<glm::dvec2> waves;
   for (const FoundWave& each : found_.waves) {
