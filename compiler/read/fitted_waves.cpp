@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t few_places_a_part = 16;        // of a period, to move a wave by ...
 constexpr std::size_t places_a_part = 48;            // ... and at last, to put it where it is
-constexpr std::size_t places_together = 3000;        // to move several waves by
+constexpr std::size_t places_together = 1500;        // to move several waves by ...
+constexpr std::size_t places_of_line = 3000;         // ... and to fit a line beside them
 constexpr double slow_periods = 12;                  // over the patch
 constexpr double few_periods_together = 25;          // over the patch, so that two waves look alike
 constexpr double least_taken = 0.02;                 // of what is left, by one more wave
@@ -42,12 +43,19 @@ FittedWaves::FittedWaves(const StillForces& whole, const std::vector<Feature>& f
 
 std::vector<glm::dvec2> FittedWaves::rest_at(const std::vector<glm::dvec2>& places,
                                              std::vector<glm::dvec2> forces) const {
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    forces[i] -= found_.trend.at(places[i]);
-    if (!features_.empty()) forces[i] = beside(features_, places[i], forces[i]);
-    for (const FoundWave& each : found_.waves) forces[i] -= each.wave.at(places[i]);
-  }
+  for (std::size_t i = 0; i < places.size(); ++i) forces[i] -= found_.trend.at(places[i]);
+  if (!features_.empty())
+    for (std::size_t i = 0; i < places.size(); ++i) forces[i] = beside(features_, places[i], forces[i]);
+  for (const FoundWave& each : found_.waves) each.wave.add_to(places, forces, -1);
   return forces;
+}
+
+void FittedWaves::update_rest_after(const LinearForce& trend) {
+  // Where a feature jumps the rest is nothing, whatever the trend.
+  if (!features_.empty()) return update_rest();
+  const LinearForce more{trend.mean - found_.trend.mean, trend.by_x - found_.trend.by_x,
+                         trend.by_y - found_.trend.by_y};
+  for (std::size_t i = 0; i < found_.rest.size(); ++i) found_.rest[i] += more.at(whole_.places[i]);
 }
 
 bool FittedWaves::take_off(glm::dvec2 waves, const Fundamental& fundamental) {
@@ -61,8 +69,9 @@ bool FittedWaves::take_off(glm::dvec2 waves, const Fundamental& fundamental) {
   join_harmonics();
   StillForces some = every(3);
   some.forces = rest_at(some.places, std::move(some.forces));
+  const LinearForce trend = found_.trend;
   fit_trend(some);
-  update_rest();
+  update_rest_after(trend);
   settle_shared_harmonics();
   part_slow_waves();
   for (FoundWave& each : found_.waves) shorten_if_longer(each);
@@ -117,8 +126,7 @@ void FittedWaves::join_harmonics() {
       if (number == 0 || found_.waves[coarse].parts.size() > 1 || found_.waves[fine].parts.size() > 1) continue;
       FoundWave &one = found_.waves[coarse], &other = found_.waves[fine];
       std::vector<glm::dvec2> forces = found_.rest;
-      for (std::size_t i = 0; i < forces.size(); ++i)
-        forces[i] += one.wave.at(whole_.places[i]) + other.wave.at(whole_.places[i]);
+      for (const FoundWave* each : {&one, &other}) each->wave.add_to(whole_.places, forces, 1);
       const std::size_t bins =
           most_bins(std::max(one.wave.profile.size(), parts_of_a_wave * number), forces.size() / 4);
       FoldedWave both = folded(whole_.places, forces, one.wave.waves, bins);
@@ -164,7 +172,7 @@ void FittedWaves::part_slow_waves() {
   StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_together));
   some.forces = rest_at(some.places, std::move(some.forces));
   for (std::size_t i = 0; i < some.places.size(); ++i) some.forces[i] += found_.trend.at(some.places[i]);
-  for (const FoundWave& each : found_.waves) add_wave(each.wave, 1, some);
+  for (const FoundWave& each : found_.waves) each.wave.add_to(some.places, some.forces, 1);
   HarmonicFit fit = fit_harmonics(some.places, some.forces, waves, whole_.size, bins);
   // A few harmonics that are free to move fill any waveform a little better.
   const bool parts_one = waves.size() > found_.waves.size();
@@ -195,10 +203,10 @@ void FittedWaves::fit_together(bool slow) {
     fit_trend(some);
     for (FoundWave& each : found_.waves) {
       const std::size_t bins = each.wave.profile.size();
-      add_wave(each.wave, 1, some);
+      each.wave.add_to(some.places, some.forces, 1);
       const glm::dvec2 waves = better_fitting(some.places, some.forces, each.wave.waves, bins / 4);
       each.wave = folded(some.places, some.forces, waves, bins);
-      add_wave(each.wave, -1, some);
+      each.wave.add_to(some.places, some.forces, -1);
     }
     if (!slow && mean_square(some.forces) < negligible_rest * all_) turn = std::max(turn, turns - 2);
   }
@@ -206,13 +214,7 @@ void FittedWaves::fit_together(bool slow) {
   for (FoundWave& each : found_.waves) fold_anew(each, each.wave.waves, each.wave.profile.size());
 }
 
-void FittedWaves::add_wave(const FoldedWave& wave, double times, StillForces& still) {
-  for (std::size_t i = 0; i < still.places.size(); ++i) still.forces[i] += times * wave.at(still.places[i]);
-}
-
-void FittedWaves::add_to_rest(const FoldedWave& wave, double times) {
-  for (std::size_t i = 0; i < whole_.places.size(); ++i) found_.rest[i] += times * wave.at(whole_.places[i]);
-}
+void FittedWaves::add_to_rest(const FoldedWave& wave, double times) { wave.add_to(whole_.places, found_.rest, times); }
 
 StillForces FittedWaves::every(std::size_t step) const {
   StillForces some{whole_.side, whole_.centre, whole_.size, {}, {}};
@@ -230,7 +232,7 @@ void FittedWaves::fit_trend(StillForces& rest) {
     // Beyond the harmonics that are fitted with it.
     for (const std::size_t part : each.parts)
       if (part > harmonics_beside) slow.push_back(static_cast<double>(part) * each.wave.waves);
-    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += each.wave.at(rest.places[i]);
+    each.wave.add_to(rest.places, forces, 1);
   }
   const LinearForce before = found_.trend;
   found_.trend = slow.empty() ? linear_force(rest.places, forces) : linear_beside(rest.places, forces, slow);
@@ -241,18 +243,18 @@ void FittedWaves::fit_trend(StillForces& rest) {
 
 void FittedWaves::settle_trend() {
   if (found_.waves.empty() || found_.lattice) return;
-  StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_together));
+  StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_of_line));
   some.forces = rest_at(some.places, std::move(some.forces));
   std::vector<glm::dvec2> waves;
   for (const FoundWave& each : found_.waves) {
-    add_wave(each.wave, 1, some);
+    each.wave.add_to(some.places, some.forces, 1);
     for (const std::size_t part : each.parts) waves.push_back(static_cast<double>(part) * each.wave.waves);
   }
   for (std::size_t i = 0; i < some.places.size(); ++i) some.forces[i] += found_.trend.at(some.places[i]);
   const FoundWaves before = found_;
   const double left = mean_square(found_.rest);
   found_.trend = line_beside_waves(some.places, some.forces, waves, whole_.size);
-  update_rest();
+  update_rest_after(before.trend);
   for (FoundWave& each : found_.waves) fold_anew(each, each.wave.waves, each.wave.profile.size());
   if (!(mean_square(found_.rest) < left)) found_ = before;
 }

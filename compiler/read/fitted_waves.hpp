@@ -35,10 +35,11 @@ class FittedWaves {
 
  private:
   void update_rest() { found_.rest = rest_at(whole_.places, whole_.forces); }
+  /// The same where the trend alone has changed, which was this one.
+  void update_rest_after(const LinearForce& trend);
   bool is_slow(glm::dvec2 waves) const;
   /// Every so-many-th place of the whole. They lie anywhere in their cells, so that no choice among them aliases.
   StillForces every(std::size_t step) const;
-  static void add_wave(const FoldedWave& wave, double times, StillForces& still);
   void add_to_rest(const FoldedWave& wave, double times);
 
   /// The linear part of what the waves leave. Slow waves are fitted with it: a few periods look a little like a slope.

@@ -18,7 +18,8 @@ struct FoldedWave {
   double explained = 0;
 
   double period() const;  ///< m
-  glm::dvec2 at(glm::dvec2 place) const;
+  /// Adds its force, so many times, to those at some places.
+  void add_to(std::span<const glm::dvec2> places, std::span<glm::dvec2> forces, double times) const;
 };
 
 /// The share of the forces' mean square (about their mean) that a wave of any waveform explains, with `bins` parts of a

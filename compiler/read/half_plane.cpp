@@ -124,18 +124,6 @@ FaceFit fit_face(glm::dvec2 axis, std::span<const glm::dvec2> places, std::span<
   return fit;
 }
 
-/// Every so-many-th, so that about `most` are left.
-std::vector<glm::dvec2> thinned(std::span<const glm::dvec2> all, std::size_t most) {
-  std::vector<glm::dvec2> some;
-  // The next prime does not stay within some columns of the lattice.
-  constexpr std::array<std::size_t, 5> primes = {1, 3, 7, 11, 13};
-  std::size_t every = primes.back();
-  for (const std::size_t prime : primes)
-    if (prime * most >= all.size() * 3 / 4) every = std::min(every, prime);
-  for (std::size_t i = 0; i < all.size(); i += every) some.push_back(all[i]);
-  return some;
-}
-
 /// N^2: the part of a mean square that changes from one of these means to the next, as a texture's.
 double jitter_of(std::span<const glm::dvec2> even) {
   double sum = 0;
@@ -162,7 +150,7 @@ std::optional<HalfPlane> find_half_plane(std::span<const glm::dvec2> even_places
   const double jitter = std::min(jitter_of(rest), 0.1 * by_line);
   const double most_left = unexplained * by_line + 1.5 * jitter;
   if (std::min(coarse.left, jumping.left) > most_left) return std::nullopt;
-  const std::vector<glm::dvec2> some_places = thinned(places, places_fitted), some = thinned(forces, places_fitted);
+  const std::vector<glm::dvec2> some_places = some_of(places, places_fitted), some = some_of(forces, places_fitted);
   FaceFit fine = fit_face(coarse.left < HUGE_VAL ? coarse.face.inward : *axis, some_places, some, false);
   const FaceFit with_jump = fit_face(fine.left < HUGE_VAL ? fine.face.inward : *axis, some_places, some, true);
   // What jumps otherwise than against a hand that goes in is an edge.

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "compiler/read/fold_kernels.hpp"
+
 namespace wale {
 namespace {
 
@@ -55,16 +57,33 @@ class HarmonicFitter {
   /// Fits the line and the harmonics of these waves.
   void fit(std::span<const glm::dvec2> waves) {
     columns_.resize(forces_.rows(), static_cast<Eigen::Index>(3 + 2 * harmonics_.size()));
+    columns_.col(0).setOnes();
     for (Eigen::Index i = 0; i < forces_.rows(); ++i) {
       const glm::dvec2 place = places_[static_cast<std::size_t>(i)];
-      columns_(i, 0) = 1, columns_(i, 1) = place.x / size_.x, columns_(i, 2) = place.y / size_.y;
+      columns_(i, 1) = place.x / size_.x, columns_(i, 2) = place.y / size_.y;
+    }
+    Eigen::ArrayXd cosine(forces_.rows()), sine(forces_.rows()), real, imaginary, real_before;
+    for (std::size_t wave = 0; wave < waves.size(); ++wave) {
+      cosines_and_sines(places_, waves[wave], {cosine.data(), places_.size()}, {sine.data(), places_.size()});
+      // The harmonics are powers of the first one.
+      int number = 0;
       for (std::size_t each = 0; each < harmonics_.size(); ++each) {
-        const double turns_there = harmonics_[each].number * glm::dot(waves[harmonics_[each].wave], place);
-        const double angle = 2 * std::numbers::pi * (turns_there - std::floor(turns_there));
-        columns_(i, column(each)) = std::cos(angle), columns_(i, column(each) + 1) = std::sin(angle);
+        if (harmonics_[each].wave != wave) continue;
+        for (; number < harmonics_[each].number; ++number) {
+          if (number == 0) {
+            real = cosine, imaginary = sine;
+            continue;
+          }
+          real_before = real;
+          real = real * cosine - imaginary * sine;
+          imaginary = real_before * sine + imaginary * cosine;
+        }
+        columns_.col(column(each)) = real, columns_.col(column(each) + 1) = imaginary;
       }
     }
-    products_.compute(columns_.transpose() * columns_);
+    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(columns_.cols(), columns_.cols());
+    products.selfadjointView<Eigen::Lower>().rankUpdate(columns_.transpose());
+    products_.compute(products);
     factors_ = products_.solve(columns_.transpose() * forces_);
     rest_ = forces_ - columns_ * factors_;
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compiler/read/bend.hpp"
+#include "compiler/read/logistic.hpp"
 
 namespace wale {
 namespace {
@@ -26,12 +27,27 @@ glm::dvec2 turned(glm::dvec2 way, double by) {
 }
 double shift(double by) { return std::clamp(by, -most_shift, most_shift); }
 
-/// How far a step has risen at some distance beyond its line.
+/// How far a step has risen at some distance beyond its line, as a hyperbolic tangent does.
 double risen(double distance, double width) {
-  // Beyond so many widths a hyperbolic tangent is one, to the last bit.
-  constexpr double far = 22;
-  if (!(width > 0) || std::abs(distance) > far * width) return distance > 0 ? 1 : 0;
-  return 0.5 * (1 + std::tanh(distance / width));
+  if (!(width > 0)) return distance > 0 ? 1 : 0;
+  return logistic_of(2 / width * distance);
+}
+
+/// Takes a step off some forces.
+void take_off(const StaticStep& step, std::span<const glm::dvec2> places, std::vector<glm::dvec2>& forces) {
+  constexpr std::size_t at_once = 256;
+  std::array<double, at_once> up;
+  for (std::size_t first = 0; first < places.size(); first += at_once) {
+    const std::size_t count = std::min(at_once, places.size() - first);
+    for (std::size_t i = 0; i < count; ++i) up[i] = glm::dot(places[first + i], step.way) - step.offset;
+    if (step.width > 0) {
+      for (std::size_t i = 0; i < count; ++i) up[i] *= 2 / step.width;
+      logistic_of(up.data(), count, up.data());
+    } else {
+      for (std::size_t i = 0; i < count; ++i) up[i] = up[i] > 0 ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < count; ++i) forces[first + i] -= up[i] * step.change;
+  }
 }
 
 }  // namespace
@@ -77,7 +93,10 @@ glm::dvec2 ObstacleFit::at(glm::dvec2 place) const {
 std::vector<glm::dvec2> ObstacleFit::rest(std::span<const glm::dvec2> places,
                                           std::span<const glm::dvec2> forces) const {
   std::vector<glm::dvec2> left(forces.begin(), forces.end());
-  for (std::size_t i = 0; i < left.size(); ++i) left[i] -= at(places[i]);
+  ObstacleFit others = *this;
+  others.found.steps.clear();
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] -= others.at(places[i]);
+  for (const StaticStep& each : found.steps) take_off(each, places, left);
   return left;
 }
 

@@ -31,12 +31,13 @@ constexpr double mended = 0.2;                           // of a wall's stiffnes
 constexpr double alike_ways = 0.94;                      // cosine: two walls that stand so may be a curve ...
 constexpr double left_by_a_curve = 1e-5;                 // ... which leaves more than this of what a line leaves ...
 constexpr double hidden_curve = 1e-4;                    // ... unless there is so much noise
-constexpr double alone = 0.12, nearly_alone = 0.1;        // of what is left: explained by one more, and left by it then
+constexpr double alone = 0.12, nearly_alone = 0.1;       // of what is left: explained by one more, and left by it then
 constexpr double less_than_others = 0.9;                 // of what other kinds leave
 constexpr double widest_step = 5e-3;                     // m
 constexpr double apart_at_least = 4e-3;                  // m between two steps
 constexpr double opposed_ways = -0.9;                    // cosine
-constexpr std::size_t places_fitted_at = 6400;
+constexpr std::size_t places_fitted_at = 3000, places_fitted_roughly = 1500;
+constexpr double times_too_much = 3;         // times what may be left, where obstacles are fitted at few places
 constexpr std::size_t every_bend = 6;        // that is tried, before it is fitted
 constexpr double first_width = 1.5e-3;       // m: of a step, before it is fitted
 constexpr double first_period_share = 0.25;  // of half the patch: between the centres that are tried for round walls
@@ -267,21 +268,6 @@ bool is_sound(const ObstacleFit& fit, std::span<const glm::dvec2> places) {
   return true;
 }
 
-/// Every so-many-th.
-std::vector<glm::dvec2> some_of(std::span<const glm::dvec2> all, std::size_t most) {
-  std::size_t every = 1;
-  // The next prime does not stay within some columns of the lattice.
-  for (const std::size_t prime : {std::size_t{3}, std::size_t{7}, std::size_t{11}, std::size_t{13}})
-    if (all.size() > most * every * 4 / 3) every = prime;
-  std::vector<glm::dvec2> some;
-  for (std::size_t i = 0; i < all.size(); i += every) some.push_back(all[i]);
-  return some;
-}
-
-}  // namespace
-
-namespace {
-
 /// Finds obstacles of some kinds, one after another.
 class ObstacleSearch {
  public:
@@ -373,11 +359,7 @@ class ObstacleSearch {
     if (fit.found.empty() || left > far_from_all * by_line_) return std::nullopt;
     auto all = accepted(std::move(fit));
     // In the means over cells that a step crosses, some of it is left, where one more seems to be.
-    const auto jumps = [](const StaticStep& each) { return each.width < first_width; };
-    for (; !all && !fewer.empty(); fewer.pop_back()) {
-      all = accepted(std::move(fewer.back()));
-      if (all && !std::ranges::all_of(all->found.steps, jumps)) all.reset();
-    }
+    for (; !all && !fewer.empty(); fewer.pop_back()) all = accepted(std::move(fewer.back()), true);
     return all;
   }
 
@@ -416,24 +398,36 @@ class ObstacleSearch {
     return left;
   }
 
-  /// Fits obstacles exactly; nothing if they leave too much, or are none.
-  std::optional<ObstacleFit> accepted(ObstacleFit fit) const {
+  static bool jumps(const StaticStep& step) { return step.width < first_width; }
+
+  /// Fits obstacles exactly; nothing if they leave too much, or are none, or one of the steps does not jump that
+  /// should.
+  std::optional<ObstacleFit> accepted(ObstacleFit fit, bool all_jump = false) const {
     join_preloads(fit.found);
-    const std::vector<glm::dvec2> places = some_of(whole_.places, places_fitted_at),
-                                  forces = some_of(forces_, places_fitted_at);
-    fit.improve(places, forces, steps_at_places);
-    // How much is left tells two walls from a curve.
-    if (bends_twice(fit.found)) fit.improve(places, forces, steps_at_places);
-    if (!fit.found.steps.empty()) {
-      ObstacleFit sharp = fit;
-      for (StaticStep& each : sharp.found.steps) each.width = 0;
-      // What jumps is put in its place with all else.
-      for (int turn = 0; turn < 2; ++turn) sharp.improve(places, forces, steps_at_places);
-      if (mean_square(sharp.rest(places, forces)) < mean_square(fit.rest(places, forces))) fit = std::move(sharp);
-    }
+    // What leaves far too much at few places does so at more.
+    fit_exactly(fit, places_fitted_roughly);
+    if (unexplained(fit) > times_too_much * left_unexplained * by_line_ || !is_sound(fit, whole_.places)) return {};
+    if (all_jump && !std::ranges::all_of(fit.found.steps, jumps)) return {};
+    fit_exactly(fit, places_fitted_at);
     if (!explains(fit) || !is_sound(fit, whole_.places) || !fit.fills_its_circles(whole_.places, forces_)) return {};
     if (bends_twice(fit.found) && unexplained(fit, hidden_curve) > left_by_a_curve * by_line_) return {};
     return fit;
+  }
+
+  /// Moves obstacles to where they fit best at so many places, and makes steps jump if that is better.
+  void fit_exactly(ObstacleFit& fit, std::size_t most) const {
+    const std::vector<glm::dvec2> places = some_of(whole_.places, most), forces = some_of(forces_, most);
+    double left = fit.improve(places, forces, steps_at_places);
+    // How much is left tells two walls from a curve.
+    if (bends_twice(fit.found)) left = fit.improve(places, forces, steps_at_places);
+    const auto may_jump = [](const StaticStep& each) { return each.width > 0 && jumps(each); };
+    if (std::ranges::none_of(fit.found.steps, may_jump)) return;
+    ObstacleFit sharp = fit;
+    for (StaticStep& each : sharp.found.steps) each.width = 0;
+    // What jumps is put in its place with all else.
+    double left_sharp = HUGE_VAL;
+    for (int turn = 0; turn < 2; ++turn) left_sharp = sharp.improve(places, forces, steps_at_places);
+    if (left_sharp < left) fit = std::move(sharp);
   }
 
   /// N^2: what a model leaves beyond a texture's noise, which counts up to some share of what a line leaves.

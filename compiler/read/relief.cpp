@@ -46,6 +46,12 @@ class ReliefReader {
     return std::ranges::any_of(whole_.forces, [&](glm::dvec2 force) { return limit.reached_by(force); });
   }
 
+  /// Whether the limit cuts so much off that it may be of a trend.
+  bool may_be_cut_off() const {
+    return is_enough_cut(static_cast<std::size_t>(
+        std::ranges::count_if(whole_.forces, [&](glm::dvec2 force) { return limit_.reached_by(force); })));
+  }
+
   const StillForces& whole() const { return whole_; }
 
   /// Reads a law whose trends are cut off at some size (N), while all else beside them is felt; `felt` are the forces
@@ -137,6 +143,12 @@ class ReliefReader {
     drop_small_trend();
   }
 
+  /// Whether a trend counts as cut off at so many places.
+  bool is_enough_cut(std::size_t places) const {
+    const double least = limit_.any_way > limit_.along_axis ? least_cut : least_cut_by_author;
+    return static_cast<double>(places) > least * static_cast<double>(whole_.forces.size());
+  }
+
   /// A texture is felt less where the limit takes a part of it, and not at all where a trend alone is beyond.
   bool felt_at(std::size_t i) const { return !limit_.reached_by(whole_.forces[i] - relief_[i]); }
   glm::dvec2 felt(std::size_t i) const {
@@ -163,9 +175,7 @@ class ReliefReader {
     const LinearForce& line = found_.trend;
     const bool slopes =
         glm::length(line.by_x) * whole_.size.x + glm::length(line.by_y) * whole_.size.y > limit_.least();
-    const double least = limit_.any_way > limit_.along_axis ? least_cut : least_cut_by_author;
-    found_.cut_off =
-        static_cast<double>(cut) > least * static_cast<double>(relief_.size()) && (cut < relief_.size() || slopes);
+    found_.cut_off = is_enough_cut(cut) && (cut < relief_.size() || slopes);
     found_.cut_at = found_.cut_off ? found_.largest : 0;
   }
 
@@ -179,7 +189,7 @@ class ReliefReader {
         slow.push_back({each.wave.waves, harmonics_worth(each)});
         continue;
       }
-      for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= each.wave.at(whole_.places[i]);
+      each.wave.add_to(whole_.places, forces, -1);
     }
     found_.obstacles = fitted_beside(found_.obstacles, slow, whole_.places, forces);
     features = features_of(found_.obstacles, whole_.places);
@@ -207,7 +217,8 @@ class ReliefReader {
   void find_plain_trend(const std::vector<glm::dvec2>& beyond) {
     const std::vector<glm::dvec2> bent = cell_means(whole_.side, beyond);
     if (mean_square(bent) < 0.5 * mean_square(beyond)) return;
-    if (are_obstacles(whole_.forces)) {
+    no_obstacles_in_whole_ = !are_obstacles(whole_.forces);
+    if (!no_obstacles_in_whole_) {
       // Steps that repeat are a wave.
       if (found_.obstacles.steps.size() < 2) return;
       const FoundWaves waves = find_waves(field_, whole_);
@@ -257,7 +268,9 @@ class ReliefReader {
     std::vector<glm::dvec2> beyond = whole_.forces;
     for (std::size_t i = 0; i < beyond.size(); ++i) beyond[i] -= waves_.trend.at(whole_.places[i]);
     const bool even = mean_square(cell_means(whole_.side, waves_.rest)) > 0.5 * left;
-    if (even && left > little * mean_square(beyond) && are_obstacles(forces)) {
+    // Without a wave these are the forces in which none were found before.
+    const bool new_forces = !no_obstacles_in_whole_ || !waves_.waves.empty();
+    if (even && new_forces && left > little * mean_square(beyond) && are_obstacles(forces)) {
       waves_ = find_waves(field_, whole_, found_.features);
       if (waves_.waves.empty() || waves_.local) return;
       refine(found_.features);
@@ -324,6 +337,7 @@ class ReliefReader {
   ForceLimit limit_;
   const std::vector<glm::dvec2>* whole_felt_ = nullptr;  // N, at the same places: of a law that is not felt whole
   StaticForce found_;
+  bool no_obstacles_in_whole_ = false;  // they were looked for in all of the force
   FoundWaves waves_;
   std::vector<glm::dvec2> relief_;  // N, at the places of the whole
 };
@@ -389,6 +403,7 @@ StaticForce static_force(const Bank& bank) {
       ReliefReader without(whole, bank.size(), limit);
       if (times == 1 && without.reaches(limit * unlimited->scale)) continue;
       if (auto beside = beside_limited_parts(bank, reader.whole(), without.whole().forces)) return *std::move(beside);
+      if (!without.may_be_cut_off()) return reader.read();
       StaticForce found = without.read();
       return found.cut_off ? found : reader.read();
     }

@@ -258,8 +258,7 @@ class ReliefFigures {
     // Features that are trends have been taken off; they are no noise.
     std::vector<glm::dvec2> forces = from_.forces;
     if (!from_.waves.local && !from_.waves.lattice)
-      for (std::size_t i = 0; i < forces.size(); ++i)
-        for (const FoundWave& each : from_.waves.waves) forces[i] -= each.wave.at(from_.whole.places[i]);
+      for (const FoundWave& each : from_.waves.waves) each.wave.add_to(from_.whole.places, forces, -1);
     StillForces window = from_.whole;
     double coarser = HUGE_VAL;
     const double longest = std::max(from_.whole.size.x, from_.whole.size.y);
@@ -283,11 +282,9 @@ class ReliefFigures {
                        room = 0.5 * (from_.whole.size - size);
       window = still_forces(from_.field, glm::clamp(busiest_place(from_.whole, from_.forces), -room, room), size, 128);
       forces = window.forces;
-      for (std::size_t i = 0; i < forces.size(); ++i) {
-        forces[i] -= from_.trend.at(window.places[i]);
-        if (!from_.waves.local && !from_.waves.lattice)
-          for (const FoundWave& each : from_.waves.waves) forces[i] -= each.wave.at(window.places[i]);
-      }
+      for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= from_.trend.at(window.places[i]);
+      if (!from_.waves.local && !from_.waves.lattice)
+        for (const FoundWave& each : from_.waves.waves) each.wave.add_to(window.places, forces, -1);
     }
   }
 

@@ -74,6 +74,16 @@ std::vector<glm::dvec2> cell_means(std::size_t side, std::span<const glm::dvec2>
   return means;
 }
 
+std::vector<glm::dvec2> some_of(std::span<const glm::dvec2> all, std::size_t most) {
+  std::size_t every = 1;
+  // The next prime does not stay within some columns of the lattice.
+  for (const std::size_t prime : {std::size_t{3}, std::size_t{7}, std::size_t{11}, std::size_t{13}})
+    if (all.size() > most * every * 4 / 3) every = prime;
+  std::vector<glm::dvec2> some;
+  for (std::size_t i = 0; i < all.size(); i += every) some.push_back(all[i]);
+  return some;
+}
+
 LinearForce linear_force(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
   LinearForce found;
   glm::dvec2 middle{0};

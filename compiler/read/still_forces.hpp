@@ -34,6 +34,9 @@ std::vector<glm::dvec2> forces_at(const Bank& bank, std::span<const glm::dvec2> 
 /// texture.
 std::vector<glm::dvec2> cell_means(std::size_t side, std::span<const glm::dvec2> values);
 
+/// Every so-many-th of the values at a lattice's places, so that about `most` are left.
+std::vector<glm::dvec2> some_of(std::span<const glm::dvec2> all, std::size_t most);
+
 /// A linear field: the force at the origin, and its change along each axis (N/m).
 struct LinearForce {
   glm::dvec2 mean{0}, by_x{0}, by_y{0};

@@ -143,56 +143,8 @@ std::vector<float> parameters_of(const Bank& bank) {
   return parameters;
 }
 
-}  // namespace
-
-std::vector<PartLimit> part_limits(const Bank& bank) {
-  const PatchProgram& program = bank.program().description();
-  std::vector<PartLimit> found;
-  if (program.vibrates()) return found;
-  const auto whole = author_limit(program);
-  for (std::size_t i = 0; i < program.tick.size(); ++i) {
-    if (!is(program.tick[i], Operation::minimum)) continue;
-    auto limit = limit_made_at(bank, i);
-    if (limit && (!whole || std::ranges::find(limit->multiply, whole->multiply[0]) == limit->multiply.end()))
-      found.push_back(*std::move(limit));
-  }
-  return found;
-}
-
-std::optional<Unlimited> without_part_limits(const Bank& bank, std::span<const PartLimit> parts) {
-  PatchProgram program = bank.program().description();
-  for (const PartLimit& part : parts)
-    for (std::size_t i = 0; i < part.multiply.size(); ++i) {
-      Instruction& smaller = program.tick[part.multiply[i]];
-      (smaller.a == part.factor ? smaller.a : smaller.b) = part.one;
-      Instruction& limit = program.tick[part.limit[i]];
-      limit = {static_cast<std::uint8_t>(Operation::multiply), limit.destination, limit.a, part.one, 0};
-    }
-  Result<Program> loaded = Program::load(std::move(program));
-  if (!loaded) return std::nullopt;
-  return without_limit(Bank(*loaded, parameters_of(bank), bank.size()));
-}
-
-glm::dvec2 ForceLimit::cut(glm::dvec2 force) const {
-  const double size = glm::length(force);
-  if (size > any_way) force *= any_way / size;
-  return glm::clamp(force, -along_axis, along_axis);
-}
-
-bool ForceLimit::reached_by(glm::dvec2 force) const {
-  return at_limit(force, along_axis) || glm::length(force) >= just_below * any_way;
-}
-
-ForceLimit limit_of(const Bank& bank) {
-  const PatchProgram& program = bank.program().description();
-  ForceLimit limit{.along_axis = program.device.most()};
-  if (program.vibrates()) return limit;
-  if (const auto author = author_limit(program)) limit.any_way = bank.registers()[author->ceiling];
-  return limit;
-}
-
-std::optional<Unlimited> without_limit(const Bank& bank, int times) {
-  PatchProgram program = bank.program().description();
+/// Changes a program so that no limit of all of its force is reached. It keeps the parameters of `bank`.
+std::optional<Unlimited> without_limit(PatchProgram program, const Bank& bank, int times) {
   if (program.vibrates()) return std::nullopt;
   // A force over a second's ticks is so small that no limit reaches it, and the number of ticks is there as an input.
   const auto seconds = static_cast<RegisterNumber>(Input::seconds_per_tick);
@@ -225,6 +177,56 @@ std::optional<Unlimited> without_limit(const Bank& bank, int times) {
   Result<Program> loaded = Program::load(std::move(program));
   if (!loaded) return std::nullopt;
   return Unlimited{Bank(*loaded, parameters, bank.size()), ticks};
+}
+
+}  // namespace
+
+std::vector<PartLimit> part_limits(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  std::vector<PartLimit> found;
+  if (program.vibrates()) return found;
+  const auto whole = author_limit(program);
+  for (std::size_t i = 0; i < program.tick.size(); ++i) {
+    if (!is(program.tick[i], Operation::minimum)) continue;
+    auto limit = limit_made_at(bank, i);
+    if (limit && (!whole || std::ranges::find(limit->multiply, whole->multiply[0]) == limit->multiply.end()))
+      found.push_back(*std::move(limit));
+  }
+  return found;
+}
+
+std::optional<Unlimited> without_part_limits(const Bank& bank, std::span<const PartLimit> parts) {
+  PatchProgram program = bank.program().description();
+  for (const PartLimit& part : parts)
+    for (std::size_t i = 0; i < part.multiply.size(); ++i) {
+      Instruction& smaller = program.tick[part.multiply[i]];
+      (smaller.a == part.factor ? smaller.a : smaller.b) = part.one;
+      Instruction& limit = program.tick[part.limit[i]];
+      limit = {static_cast<std::uint8_t>(Operation::multiply), limit.destination, limit.a, part.one, 0};
+    }
+  return without_limit(std::move(program), bank, 1);
+}
+
+glm::dvec2 ForceLimit::cut(glm::dvec2 force) const {
+  const double size = glm::length(force);
+  if (size > any_way) force *= any_way / size;
+  return glm::clamp(force, -along_axis, along_axis);
+}
+
+bool ForceLimit::reached_by(glm::dvec2 force) const {
+  return at_limit(force, along_axis) || glm::length(force) >= just_below * any_way;
+}
+
+ForceLimit limit_of(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  ForceLimit limit{.along_axis = program.device.most()};
+  if (program.vibrates()) return limit;
+  if (const auto author = author_limit(program)) limit.any_way = bank.registers()[author->ceiling];
+  return limit;
+}
+
+std::optional<Unlimited> without_limit(const Bank& bank, int times) {
+  return without_limit(bank.program().description(), bank, times);
 }
 
 bool at_limit(glm::dvec2 force, double most) {

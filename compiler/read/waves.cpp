@@ -82,6 +82,8 @@ class WaveSearch {
              next_wave(*window, *forces, spectrum, level)) {
         if (found_.local) return fitted_.finished();
         if (mean_square(found_.rest) < negligible_rest * fitted_.all()) return fitted_.finished();
+        // Nothing more is searched in it.
+        if (found_.waves.size() == most_waves_found && found_.waves.size() >= 2) break;
         if (level > 0) rest_there = fitted_.rest_at(window->places, window->forces);
         spectrum = WindowSpectrum(*window, *forces);
         again |= level > 0;
@@ -217,8 +219,7 @@ class WaveSearch {
       for (const glm::dvec2 peak : spectrum.peaks(6, 5))
         peaks.push_back(in_phase(left.places, left.forces, whole_.centre, whole_.size, peak));
     StillForces all = left;
-    for (std::size_t i = 0; i < all.places.size(); ++i)
-      for (const FoundWave& each : found_.waves) all.forces[i] += each.wave.at(all.places[i]);
+    for (const FoundWave& each : found_.waves) each.wave.add_to(all.places, all.forces, 1);
     Lattice best;
     double fewest = HUGE_VAL;
     for (std::size_t i = 0; i < std::min<std::size_t>(peaks.size(), 2); ++i)
@@ -240,8 +241,7 @@ class WaveSearch {
     if (best.share < least_lattice || best.share < 1 - mean_square(found_.rest) / fitted_.all() + 0.01) return false;
     // Narrow wires need finer parts than the search does.
     std::vector<glm::dvec2> forces = found_.rest;
-    for (std::size_t i = 0; i < forces.size(); ++i)
-      for (const FoundWave& each : found_.waves) forces[i] += each.wave.at(whole_.places[i]);
+    for (const FoundWave& each : found_.waves) each.wave.add_to(whole_.places, forces, 1);
     for (int turn = 0; turn < 2; ++turn)
       for (glm::dvec2* each : {&best.one, &best.other}) *each = better_fitting(whole_.places, forces, *each, 24);
     best.share =
