@@ -87,7 +87,9 @@ RepresentativeEntry representative_entry(const Setting& setting, const SyntaxTre
                          meant.takes == Takes::word    ? "a word"
                          : meant.takes == Takes::words ? "names of materials"
                                                        : "texts in quotes"),
-             fmt::format("write, for example, `{}`", meant.example));
+             literal && !item.trailing.empty() && is_representative_setting(item.trailing.front().text)
+                 ? fmt::format("write `;` or a new line before `{}`", item.trailing.front().text)
+                 : fmt::format("write, for example, `{}`", meant.example));
     if (i > 0 && takes_one) {
       refuse(item.span, fmt::format("`{}` takes one {}", setting.key.text, takes_words ? "word" : "text"),
              fmt::format("write, for example, `{}`", meant.example));

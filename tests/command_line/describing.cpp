@@ -265,7 +265,7 @@ TEST(Describing, SaysHowWellALevelIsKnownAndWhatACatalogueKeeps) {
       "  perceptual { roughness medium \u00b1 0.1 estimated }\n"
       "  physical { force = lateral(grating(x, period: 2.5 mm)) }\n}\nmaterial finer = cord(roughness: 0.3)\n"
       "material alike { representative { like cord } }\n");
-  const auto json = wale({"describe", file, "--json"}).json();
+  const auto json = wale({"describe", file, "--material", "cord", "--json"}).json();
   const auto& said = json.at("representative");
   EXPECT_EQ(said.at("called de"), (std::vector<std::string>{"Cord", "Kord"}));
   EXPECT_EQ(said.at("source"), (std::vector<std::string>{"a ruler", "a book"}));
@@ -277,7 +277,7 @@ TEST(Describing, SaysHowWellALevelIsKnownAndWhatACatalogueKeeps) {
   ASSERT_EQ(wale({"build", file, "--material", "cord", "-o", folder / "cord.wpp"}).status, 0);
   EXPECT_EQ(wale({"describe", folder / "cord.wpp", "--json"}).json().at("percepts").at("roughness").at("asked_evidence"),
             "estimated");
-  EXPECT_EQ(wale({"describe", file, "--set", "roughness=0.2", "--json"}).json().at("percepts").at("roughness").at(
+  EXPECT_EQ(wale({"describe", file, "--material", "cord", "--set", "roughness=0.2", "--json"}).json().at("percepts").at("roughness").at(
                 "asked_evidence"),
             nullptr);
   const auto evidence_of = [&](const char* material) {

@@ -18,7 +18,7 @@ namespace {
 std::string masked(const std::string& force) {
   return R"(wale 1
 material masked {
-  representative { called "masked" kind test }
+  representative { called "masked"; kind test }
   physical {
     patch 60 mm, 60 mm
     param amplitude = 1 N in 0 N .. 3 N "of the texture"

@@ -140,7 +140,7 @@ TEST(Refusals, SectionKindsAndFlags) {
   EXPECT_EQ(refusal_of_sections([](auto& s) { s.clear(); }), "section NAME is missing");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 0; }),
             "section TICK is marked as skippable, expected required");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { s[18].flags = 1; }),
+  EXPECT_EQ(refusal_of_sections([](auto& s) { s[19].flags = 1; }),
             "section LAYR is marked as required, expected skippable");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 3; }),
             "section TICK has flags that this Wale does not know");
