@@ -142,7 +142,8 @@ TEST_F(DrivenWindow, WhatIsTypedIsFelt) {
     return program && program->description().parameters.front().value == 2;
   }));
   EXPECT_TRUE(window->feeling().is_on());
-  EXPECT_NEAR(rub(-40, 20, 15), 2.0, 0.2);
+  // While the machine is busy, a hand that jumps may meet what the guards add.
+  EXPECT_TRUE(wait_until([&] { return std::abs(rub(-40, 20, 15) - 2.0) < 0.2; }));
 }
 
 TEST_F(DrivenWindow, ABrokenFileOpensWithItsTextAndLosesNothing) {
