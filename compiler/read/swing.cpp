@@ -298,10 +298,6 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
   return share;
 }
 
-}  // namespace
-
-namespace {
-
 /// Tells of a swing that dies away or grows how it does so, its size over all of the time, and its rate while it is
 /// there. A sway is one only if it was found; a vibration may be over too soon for that.
 void tell_course(const Bank& bank, const std::vector<std::vector<Force>>& felt, bool fast, Swing& swing) {

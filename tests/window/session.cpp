@@ -142,7 +142,7 @@ TEST_F(DrivenWindow, WhatIsTypedIsFelt) {
     return program && program->description().parameters.front().value == 2;
   }));
   EXPECT_TRUE(window->feeling().is_on());
-  // While the machine is busy, a hand that jumps may meet what the guards add.
+  // On a busy machine the hand jumps, and the passivity observer may add its damping to one look.
   EXPECT_TRUE(wait_until([&] { return std::abs(rub(-40, 20, 15) - 2.0) < 0.2; }));
 }
 

@@ -3,8 +3,8 @@
 #include <QAccessible>
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <utility>
+
+#include "canvas/item_access.hpp"
 
 namespace sandpaper {
 namespace {
@@ -12,20 +12,11 @@ namespace {
 constexpr double one_move = 0.001;  // m
 
 /// One patch.
-class PatchAccess : public QAccessibleInterface, public QAccessibleActionInterface {
+class PatchAccess : public ItemAccess {
  public:
-  PatchAccess(const CanvasAccess& owner, QWidget* canvas, std::uint64_t id) : owner_(owner), canvas_(canvas), id_(id) {}
+  PatchAccess(const CanvasAccess& owner, QWidget* canvas, std::uint64_t id) : ItemAccess(canvas), owner_(owner), id_(id) {}
 
-  bool isValid() const override { return !canvas_.isNull() && placed(); }
-  QObject* object() const override { return nullptr; }
-  QWindow* window() const override { return canvas_ ? canvas_->window()->windowHandle() : nullptr; }
-  QAccessibleInterface* parent() const override { return canvas_ ? QAccessible::queryAccessibleInterface(canvas_) : nullptr; }
-  QAccessibleInterface* child(int) const override { return nullptr; }
-  QAccessibleInterface* childAt(int, int) const override { return nullptr; }
-  int childCount() const override { return 0; }
-  int indexOfChild(const QAccessibleInterface*) const override { return -1; }
-  QAccessible::Role role() const override { return QAccessible::ListItem; }
-  void setText(QAccessible::Text, const QString&) override {}
+  bool isValid() const override { return has_list() && placed(); }
 
   QString text(QAccessible::Text kind) const override {
     const Placed* patch = isValid() ? placed() : nullptr;
@@ -44,42 +35,13 @@ class PatchAccess : public QAccessibleInterface, public QAccessibleActionInterfa
     }
   }
 
-  QRect rect() const override {
-    const Placed* patch = isValid() ? placed() : nullptr;
-    return patch ? owner_.canvas().box_of(*patch).toAlignedRect().translated(canvas_->mapToGlobal(QPoint(0, 0))) : QRect();
-  }
-
-  QAccessible::State state() const override {
-    QAccessible::State state;
-    if (!isValid()) {
-      state.invalid = true;
-      return state;
-    }
-    state.selectable = state.focusable = true;
-    state.selected = state.focused = owner_.document().chosen().contains(id_);
-    return state;
-  }
-
-  void* interface_cast(QAccessible::InterfaceType type) override {
-    return type == QAccessible::ActionInterface ? static_cast<QAccessibleActionInterface*>(this) : nullptr;
-  }
-  QStringList actionNames() const override {
-    QStringList names;
-    for (const auto& [name, act] : actions()) names << name;
-    return names;
-  }
-  QStringList keyBindingsForAction(const QString&) const override { return {}; }
-  void doAction(const QString& wanted) override {
-    if (!isValid()) return;
-    for (const auto& [name, act] : actions())
-      if (name == wanted) return act();
-  }
-
  private:
   const Placed* placed() const { return owner_.document().contents().find(id_); }
 
-  std::vector<std::pair<QString, std::function<void()>>> actions() const {
-    if (owner_.canvas().is_fixed()) return {};  // the participant's window only shows
+  QRectF box() const override { return owner_.canvas().box_of(*placed()); }
+  bool is_chosen() const override { return owner_.document().chosen().contains(id_); }
+  Actions actions() const override {
+    if (!isValid() || owner_.canvas().is_fixed()) return {};  // the participant's window only shows
     Document& document = owner_.document();
     const auto move = [&document, id = id_](glm::dvec2 by) {
       document.change_placed(Canvas::tr("Move"), {id}, [by](Placed& placed) {
@@ -97,7 +59,6 @@ class PatchAccess : public QAccessibleInterface, public QAccessibleActionInterfa
   }
 
   const CanvasAccess& owner_;
-  QPointer<QWidget> canvas_;
   std::uint64_t id_;
 };
 

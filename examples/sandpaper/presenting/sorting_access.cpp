@@ -4,25 +4,17 @@
 #include <QPointer>
 #include <map>
 
+#include "canvas/item_access.hpp"
 #include "presenting/sorting_table.hpp"
 
 namespace sandpaper {
 namespace {
 
-class KeyAccess : public QAccessibleInterface, public QAccessibleActionInterface {
+class KeyAccess : public ItemAccess {
  public:
-  KeyAccess(SortingTable& table, int index) : table_(&table), index_(index) {}
+  KeyAccess(SortingTable& table, int index) : ItemAccess(&table), table_(&table), index_(index) {}
 
   bool isValid() const override { return key() != nullptr; }
-  QObject* object() const override { return nullptr; }
-  QWindow* window() const override { return table_ ? table_->window()->windowHandle() : nullptr; }
-  QAccessibleInterface* parent() const override { return table_ ? QAccessible::queryAccessibleInterface(table_) : nullptr; }
-  QAccessibleInterface* child(int) const override { return nullptr; }
-  QAccessibleInterface* childAt(int, int) const override { return nullptr; }
-  int childCount() const override { return 0; }
-  int indexOfChild(const QAccessibleInterface*) const override { return -1; }
-  QAccessible::Role role() const override { return QAccessible::ListItem; }
-  void setText(QAccessible::Text, const QString&) override {}
 
   QString text(QAccessible::Text kind) const override {
     const SortingKey* it = key();
@@ -38,40 +30,19 @@ class KeyAccess : public QAccessibleInterface, public QAccessibleActionInterface
       default: return {};
     }
   }
-  QRect rect() const override {
-    return isValid() ? table_->box_of(*key()).toAlignedRect().translated(table_->mapToGlobal(QPoint(0, 0))) : QRect();
-  }
-  QAccessible::State state() const override {
-    QAccessible::State state;
-    state.invalid = !isValid();
-    state.selectable = state.focusable = isValid();
-    state.selected = state.focused = isValid() && table_->sorting().chosen() == key();
-    return state;
-  }
-  void* interface_cast(QAccessible::InterfaceType type) override {
-    return type == QAccessible::ActionInterface ? static_cast<QAccessibleActionInterface*>(this) : nullptr;
-  }
-  QStringList actionNames() const override {
-    QStringList names;
-    for (const auto& [name, act] : actions()) names << name;
-    return names;
-  }
-  QStringList keyBindingsForAction(const QString&) const override { return {}; }
-  void doAction(const QString& wanted) override {
-    for (const auto& [name, act] : actions())
-      if (name == wanted) return act();
-  }
 
  private:
   const SortingKey* key() const {
     if (!table_ || index_ >= static_cast<int>(table_->sorting().keys().size())) return nullptr;
     return &table_->sorting().keys()[static_cast<std::size_t>(index_)];
   }
-  std::vector<std::pair<QString, std::function<void()>>> actions() const {
+  QRectF box() const override { return table_->box_of(*key()); }
+  bool is_chosen() const override { return table_->sorting().chosen() == key(); }
+  Actions actions() const override {
     if (!isValid()) return {};
     Sorting& sorting = table_->sorting();
     const auto index = static_cast<std::size_t>(index_);
-    std::vector<std::pair<QString, std::function<void()>>> all = {
+    Actions all = {
         {pressAction(), [&sorting, index] { sorting.choose(index); }},
         {SortingTable::tr("new pile"), [&sorting, index] { sorting.put(index, sorting.new_pile()); }},
         {SortingTable::tr("take out"), [&sorting, index] { sorting.put(index, 0); }}};
