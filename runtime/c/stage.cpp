@@ -132,12 +132,10 @@ WaleCode wale_stage_run(WaleStage* stage, const WaleRunOptions* options, WaleRun
     wale::RunOptions read{.seconds = given->seconds, .virtual_time = *virtual_time};
     if (given->kept_seconds != 0) read.kept_seconds = given->kept_seconds;
     read.stop = &stage->interrupted;
-    const wale::DeviceProfile profile = stage->profile;
-    const double most = stage->most;
     stage->interrupted = false;
     auto done = stage->stage.run(read);  // `stage` may be gone now
     if (!done) return std::move(done).error();
-    hand_out_run(*std::move(done), profile, most, run);
+    hand_out_run(*std::move(done), run);
     return {};
   });
 }
@@ -159,7 +157,7 @@ WaleCode wale_stage_stop(WaleStage* stage, WaleRun** run, WaleError** error) {
     if (auto given = is_stage(stage); !given) return given;
     auto done = stage->stage.stop();
     if (!done) return std::move(done).error();
-    hand_out_run(*std::move(done), stage->profile, stage->most, run);
+    hand_out_run(*std::move(done), run);
     return {};
   });
 }

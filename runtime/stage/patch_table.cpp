@@ -383,6 +383,16 @@ PatchTable::Felt PatchTable::felt(PatchName name) const {
   return {slot->memory, slot->bank, placed, slot->withdrawn};
 }
 
+std::vector<PatchTable::Published> PatchTable::published(const std::unordered_set<std::uint32_t>& changes) const {
+  std::vector<Published> all;
+  for (std::uint32_t number = 0; number < slots_.size(); ++number) {
+    const Slot& slot = slots_[number];
+    if (slot.wanted && slot.felt && changes.contains(static_cast<std::uint32_t>(slot.change)))
+      all.push_back({{number, slot.generation}, slot.felt->key(), slot.change});
+  }
+  return all;
+}
+
 void PatchTable::touch(PatchName name, bool renew) {
   if (Slot* const slot = find(name)) {
     slot->touched = true;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -98,6 +99,14 @@ class PatchTable {
     std::uint32_t withdrawn = 0;  ///< otherwise: since this revision it does not
   };
   Felt felt(PatchName name) const;
+  /// A patch as it was published last.
+  struct Published {
+    PatchName name;
+    BankKey key;
+    std::uint64_t change = 0;  ///< as in `PlacedPatch`
+  };
+  /// Those patches that are wanted, were published in the present run, and had one of these numbers of a change then.
+  std::vector<Published> published(const std::unordered_set<std::uint32_t>& changes) const;
 
   /// For replay: the patch counts as changed although it may be the same; with `renew` it gets a new memory that
   /// succeeds the old one; with `loose` it has the trivial bound.

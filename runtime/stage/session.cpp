@@ -5,8 +5,10 @@
 #include <chrono>
 #include <cmath>
 #include <system_error>
+#include <unordered_set>
 
 #include "runtime/stage/devices_in_use.hpp"
+#include "runtime/stage/patches_in_run.hpp"
 #include "runtime/stage/scheduling.hpp"
 #include "schema/name_text.hpp"
 
@@ -320,8 +322,12 @@ Result<RunResult> Session::play() {
     return std::move(served).error();
   player_->finish();
   result_.ticks_run = player_->served();
+  std::unordered_set<std::uint32_t> changes;
+  for (const TickRecord& tick : result_.record.ticks)
+    if (tick.inside) changes.insert(tick.change);
   {
     const std::lock_guard lock(stage_->mutex);
+    result_.patches = std::make_shared<const PatchesInRun>(stage_, stage_->table.published(changes));
     if (stage_->recorder) {
       stage_->recorder->end();
       result_.record_problem = stage_->recorder->ended_early();

@@ -74,6 +74,10 @@ struct StageState : std::enable_shared_from_this<StageState> {
   Result<Bank> bank(PatchName name) const;
   Result<Snapshot> snapshot(PatchName name);
   Now now() const noexcept;
+
+  /// The stage of a handle.
+  static const std::weak_ptr<StageState>& of(const Patch& patch) { return patch.stage_; }
+  static PatchName name_of(const Patch& patch) { return {patch.number_, patch.generation_}; }
 };
 
 /// A stage that a call may use. Errors: `gone` for null; `wrong_moment` in a child of `fork`, whose parent has made it.
