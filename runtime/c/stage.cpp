@@ -74,6 +74,9 @@ WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, 
     auto read = read_stage_options(options);
     if (!read) return std::move(read).error();
     const std::shared_ptr<SharedDevice> shared = device->shared;
+    if (!shared->home.is_here())
+      return about_argument("device", "it is the parent process's, and this is a child of its fork",
+                            "open it again in the child", wale::Code::wrong_moment);
     if (shared->has_stage.exchange(true))
       return about_argument("device", "another stage has the device", "free that stage first",
                             wale::Code::wrong_moment);

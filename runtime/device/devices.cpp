@@ -186,7 +186,9 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
     const Result<DeviceProfile> profile =
         choice->declared ? Result<DeviceProfile>(choice->declared->profile) : profile_named(name, *trusted);
     if (!profile) return profile.error();
-    return simulation(*profile, options);
+    auto simulated = simulation(*profile, options);
+    if (!simulated) return simulated;
+    return std::make_unique<DeviceAtHome>(*std::move(simulated));
   }
   if (choice->plugged->driver->is_felt && !options.trusted && has_owners_file())
     return Error{Code::untrusted_device,

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <unordered_set>
 
+#include "runtime/device/device_at_home.hpp"
 #include "runtime/stage/devices_in_use.hpp"
 #include "runtime/stage/patches_in_run.hpp"
 #include "runtime/stage/scheduling.hpp"
@@ -121,6 +122,9 @@ Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stag
   if (stage->running) return refuse(another_run());
   if (!may_be_empty && stage->table.size() == 0)
     return refuse(wrong_moment("stage", "nothing is on the stage", "add a patch first"));
+  if (const auto* const opened = dynamic_cast<const DeviceAtHome*>(&device); opened != nullptr && !opened->is_here())
+    return refuse(wrong_moment("device", "the device is the parent process's, and this is a child of its fork",
+                               "open it again in the child"));
   if (!take_device(device))
     return refuse(wrong_moment("device", "another stage runs on this device",
                                "wait for the end of its run or stop it, or give this stage a device of its own"));

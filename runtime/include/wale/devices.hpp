@@ -86,6 +86,8 @@ struct OpenOptions {
 /// device that can hurt is opened. Unplugged and plugged in again it goes on by itself. May take a second; from any
 /// thread, not from a real-time one.
 ///
+/// In a child of `fork` an opened device is lost and exerts nothing, also a simulated one: a stage does not run on it.
+///
 /// Errors: `unknown_device` for a spelling that means nothing; `absent_device` if it is not plugged in;
 /// `unusable_device` and other obstacles; `other_device` if it is not that of `built_for`; `untrusted_device` if its
 /// owner declares devices and `trusted` has no value; `no_keeper`; `malformed_value` for an option out of its range.

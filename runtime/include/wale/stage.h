@@ -47,7 +47,7 @@ typedef struct WalePatchOptions {
 } WalePatchOptions;
 
 /* `device` is kept by the stage; a device serves one stage at a time. `options` may be NULL.
-   Errors: malformed_value; wrong_moment if another stage has the device. */
+   Errors: malformed_value; wrong_moment if another stage has the device, or in a child of fork, whose parent has opened it. */
 WALE_API WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, WaleStage** stage,
                                     WaleError** error);
 /* Without a device, for a loop of one's own (wale/loop.h). Of a pad the profile must be that of wale_profile or

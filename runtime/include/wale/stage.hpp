@@ -124,7 +124,8 @@ class Stage {
   /// - `malformed_value`: the time is not positive, the record would keep more than 2^24 ticks, the largest force is
   ///   not positive, or the priority is not in 1 .. 99;
   /// - `wrong_moment`: nothing is on the stage, it has no device, or another run is under way on it, or one that
-  ///   `start` began waits for its `stop`, or another stage runs on its device;
+  ///   `start` began waits for its `stop`, or another stage runs on its device, or the device was opened by the parent
+  ///   of this process;
   /// - `unusable_device`: the device's profile lacks a figure that a loop needs;
   /// - `unwritable_file`: the recording cannot be made;
   /// - `short_of_resources`: the system gives no thread.
