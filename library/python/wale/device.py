@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wale._abi import Arguments, Handle, call, described, ffi, lib, made, read, sized
+from wale._abi import Arguments, Handle, call, described, ffi, lib, made, number, pair, read, sized
+from wale._arrays import numbers
 from wale.codes import DeviceKind
 from wale.errors import Error
 
@@ -58,7 +59,7 @@ def profile_of(of: Any) -> Profile:
 def profile(name: str) -> Profile:
     """The figures of a shipped device by the name of its profile."""
     arguments, of = Arguments(), sized("WaleProfile")
-    call(lib.wale_profile, arguments.text(name), of)
+    call(lib.wale_profile, arguments.text(name, "name"), of)
     return profile_of(of)
 
 
@@ -151,6 +152,9 @@ class Motion:
         return Motion("trace", points=points)
 
 
+_kinds = ("rest", "lateral", "circular", "press", "trace")
+
+
 class Device(Handle):
     """An opened joystick or pad. A stage that has it keeps it, so it may be closed at any time."""
 
@@ -168,19 +172,26 @@ def device_options(arguments: Arguments, *, built_for: str, transport: str, keep
                    max_force: float, priority: int, disregard_owner: bool, hand: Hand | None,
                    motion: Motion | None) -> Any:
     """A WaleDeviceOptions."""
-    options = arguments.struct("WaleDeviceOptions", built_for=built_for, transport=transport, keeper=os.fspath(keeper),
-                               max_force=max_force, priority=priority, disregard_owner=int(disregard_owner))
+    options = arguments.struct("WaleDeviceOptions", built_for=built_for, transport=transport, keeper=keeper,
+                               max_force=max_force, priority=priority, disregard_owner=disregard_owner)
     if hand is not None:
-        options.hand_mass, options.hand_damping, options.hand_stiffness = hand.mass, hand.damping, hand.stiffness
+        if not isinstance(hand, Hand):
+            raise TypeError(f"hand: expected a Hand, found {hand!r}")
+        options.hand_mass, options.hand_damping = number(hand.mass, "mass"), number(hand.damping, "damping")
+        options.hand_stiffness = number(hand.stiffness, "stiffness")
     if motion is not None:
+        if not isinstance(motion, Motion):
+            raise TypeError(f"motion: expected a Motion, found {motion!r}")
+        if motion.kind not in _kinds:
+            raise ValueError(f"motion: expected one of {', '.join(_kinds)}, found {motion.kind!r}")
         options.motion = getattr(lib, "WALE_MOTION_" + motion.kind)
-        options.amplitude, options.frequency = motion.amplitude, motion.frequency
-        options.centre_x, options.centre_y = motion.centre
-        options.direction_x, options.direction_y = motion.direction
+        options.amplitude, options.frequency = number(motion.amplitude, "amplitude"), number(motion.frequency, "frequency")
+        options.centre_x, options.centre_y = pair(motion.centre, "centre")
+        options.direction_x, options.direction_y = pair(motion.direction, "direction")
         if motion.points is not None:
-            rows = np.ascontiguousarray(motion.points, dtype=np.float64)
+            rows = numbers(motion.points, np.float64, "points")
             if rows.ndim != 2 or rows.shape[1] != 3:
-                raise ValueError("expected rows of time, x and y")
+                raise ValueError("points: expected rows of time, x and y")
             arguments.keep(rows)
             options.points, options.count = ffi.cast("double*", rows.ctypes.data), len(rows)
     return options
@@ -197,4 +208,4 @@ def open_device(spelling: str = "auto", *, built_for: str = "", transport: str =
     arguments = Arguments()
     options = device_options(arguments, built_for=built_for, transport=transport, keeper=keeper, max_force=max_force,
                              priority=priority, disregard_owner=disregard_owner, hand=hand, motion=motion)
-    return Device(made(lib.wale_device_open, "WaleDevice", arguments.text(spelling), options))
+    return Device(made(lib.wale_device_open, "WaleDevice", arguments.text(spelling, "spelling"), options))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wale._abi import Arguments, Handle, call, described, ffi, lib, made, or_none, read, sized
+from wale._abi import Arguments, Handle, call, described, ffi, held, lib, made, or_none, read, sized
 from wale._arrays import dtype_of, pointer
 from wale.errors import Error
 
@@ -117,7 +117,9 @@ class Run(Handle):
         """
         options = Arguments().struct("WaleMeasureOptions", settling=settling, stuck_seconds=stuck_seconds,
                                      stuck_counts=stuck_counts, least_crossings=least_crossings)
-        felt = made(lib.wale_felt_measure, "WaleFelt", self._pointer, patch._pointer, options)
+        from wale.stage import Patch  # which needs this module
+
+        felt = made(lib.wale_felt_measure, "WaleFelt", self._pointer, held(patch, Patch, "patch"), options)
         return _felt_of(ffi.gc(felt, lib.wale_felt_free))
 
 
