@@ -339,12 +339,11 @@ Result<std::unique_ptr<Device>> Library::open_device(std::string_view spelling, 
     if (!trusted) return std::move(trusted.error());
     options.trusted = *std::move(trusted);
   }
-  const Rest* rest = std::get_if<Rest>(&options.motion);
   const HandModel& hand = options.hand;
   if (hand.mass == 0 && hand.damping == 0 && hand.stiffness == 0) {
     const SimulatedPerson person = *this->person();
     options.hand = person.hand;
-    if (rest != nullptr && rest->position == Rest{}.position) options.motion = person.lateral;
+    if (!options.motion) options.motion = person.lateral;
   }
   return wale::open_device(spelling, options);
 }

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "runtime/device/device_at_home.hpp"
+#include "runtime/device/limited_device.hpp"
 #include "runtime/device/match_device.hpp"
 #include "runtime/device/open_device.hpp"
 #include "schema/name_text.hpp"
@@ -96,15 +97,17 @@ Result<> is_sound(const OpenOptions& options) {
                    "expected finite numbers that are not negative",
                    "give kg, N s/m and N/m; all 0 is no hand",
                    {.name = "hand"}};
-  if (const char* wrong = wrong_in(options.motion))
+  const char* const wrong = options.motion ? wrong_in(*options.motion) : nullptr;
+  if (wrong != nullptr)
     return Error{Code::malformed_value, wrong, "give m, Hz and s; a direction has length 1", {.name = "motion"}};
   return {};
 }
 
 Result<std::unique_ptr<Device>> simulation(const DeviceProfile& profile, const OpenOptions& options) {
+  const Motion motion = options.motion.value_or(Rest());
   std::unique_ptr<Device> device;
   if (profile.shaker) {
-    device = std::make_unique<SimulatedPad>(profile, options.motion);
+    device = std::make_unique<SimulatedPad>(profile, motion);
     return device;
   }
   if (!(profile.mass + options.hand.mass > 0))
@@ -112,7 +115,13 @@ Result<std::unique_ptr<Device>> simulation(const DeviceProfile& profile, const O
                  "`" + profile.name + "` has no mass of its own, so it cannot move without a hand",
                  "give the hand a mass",
                  {.name = "hand"}};
-  device = std::make_unique<SimulatedJoystick>(profile, options.hand, options.motion);
+  const HandModel& hand = options.hand;
+  if (options.motion && hand.mass == 0 && hand.damping == 0 && hand.stiffness == 0)
+    return Error{Code::malformed_value,
+                 "there is a motion, and no hand that makes it",
+                 "give a hand, as 0.55 kg, 6.5 N s/m and 135 N/m, or open it by the library, which brings one",
+                 {.name = "hand"}};
+  device = std::make_unique<SimulatedJoystick>(profile, options.hand, motion);
   return device;
 }
 
@@ -188,7 +197,9 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
     if (!profile) return profile.error();
     auto simulated = simulation(*profile, options);
     if (!simulated) return simulated;
-    return std::make_unique<DeviceAtHome>(*std::move(simulated));
+    std::unique_ptr<Device> device = *std::move(simulated);
+    if (options.max_force < HUGE_VAL) device = std::make_unique<LimitedDevice>(std::move(device), options.max_force);
+    return std::make_unique<DeviceAtHome>(std::move(device));
   }
   if (choice->plugged->driver->is_felt && !options.trusted && has_owners_file())
     return Error{Code::untrusted_device,

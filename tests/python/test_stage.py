@@ -31,6 +31,10 @@ def test_devices(library: wale.Library) -> None:
         assert code_of(lambda: wale.open_device("simulated:sandpaper", **wrong)) == wale.Code.malformed_value
     with pytest.raises(ValueError):
         wale.open_device("simulated:sandpaper", motion=wale.Motion.trace([0, 1]))
+    assert code_of(lambda: wale.open_device("simulated:sandpaper", motion=wale.Motion.rest())) == wale.Code.malformed_value
+    with wale.Stage(library.open_device("simulated", motion=wale.Motion.rest())) as still:
+        still.add(library.level("roughness", 0.5))
+        assert np.abs(still.run(1, virtual_time=True).ticks["position"]).max() < 1e-3
     hand = wale.Hand(0.5)
     for motion in [wale.Motion.rest(), wale.Motion.circular(0.01, 1), wale.Motion.press(0.01, 1),
                    wale.Motion.trace([[0, 0, 0], [1, 0.01, 0]])]:

@@ -106,7 +106,10 @@ def devices() -> Sequence[DeviceInfo]:
 
 @dataclass(frozen=True)
 class Hand:
-    """A simulated person's hand and arm: a mass (kg) on a spring (N/m) and a damper (N s/m)."""
+    """A simulated person's hand and arm: a mass (kg) on a spring (N/m) and a damper (N s/m).
+
+    Spring and damper pull to where the motion aims. A hand with neither is only a mass.
+    """
 
     mass: float
     damping: float = 0.0
@@ -127,7 +130,7 @@ class Motion:
     @staticmethod
     def rest(position: tuple[float, float] = (0.0, 0.0)) -> "Motion":
         """A place, m."""
-        return Motion("rest", centre=position)
+        return Motion("hold", centre=position)
 
     @staticmethod
     def lateral(amplitude: float, frequency: float, *, centre: tuple[float, float] = (0.0, 0.0),
@@ -152,7 +155,7 @@ class Motion:
         return Motion("trace", points=points)
 
 
-_kinds = ("rest", "lateral", "circular", "press", "trace")
+_kinds = ("rest", "hold", "lateral", "circular", "press", "trace")
 
 
 class Device(Handle):
@@ -202,8 +205,9 @@ def open_device(spelling: str = "auto", *, built_for: str = "", transport: str =
                 disregard_owner: bool = False, hand: Hand | None = None, motion: Motion | None = None) -> Device:
     """Opens a device as `--device` of the command line spells it, without the declarations of its owner.
 
-    `max_force`: N at the handle, 0: no other limit than its own. `hand` and `motion` hold a simulated one.
-    `Library.open_device` knows the owner's declarations and brings a hand.
+    `max_force`: N at the handle, 0: no other limit than its own. `hand` and `motion` are those of a person at a simulated
+    one, which nothing holds without a hand; a motion without one is an error. `Library.open_device` knows the owner's
+    declarations and brings a hand.
     """
     arguments = Arguments()
     options = device_options(arguments, built_for=built_for, transport=transport, keeper=keeper, max_force=max_force,
