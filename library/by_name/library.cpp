@@ -109,7 +109,7 @@ struct Library::Parts {
   Result<> is_sound(const CompileOptions& options) const {
     if (missing) return *missing;
     if (!options.device.empty())
-      if (auto name = is_name_text("device", options.device); !name) return name;
+      if (auto name = is_name_text("device", options.device, "write the name of a device's profile, as in \"sandpaper\""); !name) return name;
     if (!options.material.empty())
       if (auto name = is_name_text("material", options.material); !name) return name;
     if (!options.name.empty()) return is_name_text("name", options.name);

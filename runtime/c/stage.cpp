@@ -7,6 +7,7 @@
 #include "runtime/c/run.hpp"
 #include "runtime/c/shape.hpp"
 #include "runtime/c/sized.hpp"
+#include "runtime/stage/stage_state.hpp"
 
 WaleStage::~WaleStage() {
   { const wale::Stage ended(std::move(stage)); }
@@ -36,7 +37,7 @@ Result<StageOptions> read_stage_options(const WaleStageOptions* options) {
   auto file = read_path("record", given->record);
   if (!file) return std::move(file).error();
   auto hand = read_text("record_hand", given->record_hand);
-  if (hand && !hand->empty()) hand = read_name("record_hand", given->record_hand);
+  if (hand && !hand->empty()) hand = read_name("record_hand", given->record_hand, record_hand_mend);
   if (!hand) return std::move(hand).error();
   if (!file->empty()) read.record = {.file = *std::move(file), .hand = *std::move(hand)};
   return read;

@@ -57,6 +57,11 @@ void PatchTable::release(PatchName name) {
   free_.push_back(name.number);
 }
 
+bool PatchTable::is_reserved(PatchName name) const {
+  const Slot* const slot = find(name);
+  return slot != nullptr && slot->reserved;
+}
+
 void PatchTable::free_slot(std::uint32_t number) {
   Slot& slot = slots_[number];
   slot.felt.reset();

@@ -47,6 +47,8 @@ class PatchTable {
   /// A name for a patch that is wanted later. Nobody else gets it until it is released.
   PatchName reserve();
   void release(PatchName name);
+  /// Whether it is a name for a patch that is wanted later.
+  bool is_reserved(PatchName name) const;
   /// The patch as it is wanted, or null if there is none.
   const Placement* wanted(PatchName name) const;
   std::size_t size() const { return count_; }

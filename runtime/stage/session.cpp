@@ -177,7 +177,7 @@ Result<> Session::begin_recording() {
   const std::optional<RecordTo>& to = stage_->options.record;
   if (!to) return {};
   if (!to->hand.empty())
-    if (auto text = is_name_text("record_hand", to->hand); !text) return text;
+    if (auto text = is_name_text("record_hand", to->hand, record_hand_mend); !text) return text;
   const RecordingHeader header{.device = stage_->profile,
                                .most_newton = stage_->options.max_force,
                                .virtual_time = clock_ == Clock::unreal,

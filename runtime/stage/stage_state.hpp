@@ -24,6 +24,9 @@ Error stage_was_moved();
 Error another_run();
 Error patch_is_gone();
 
+/// What to do about a `RecordTo::hand` that is no line of text.
+inline constexpr const char* record_hand_mend = "write what moves the handle in one line, as in \"simulated, lateral\"";
+
 /// What a stage, its handles and its runs share. It lives as long as the stage or a run of it.
 struct StageState : std::enable_shared_from_this<StageState> {
   StageState(std::unique_ptr<Device> own, Device* others, const DeviceProfile& of, StageOptions how);

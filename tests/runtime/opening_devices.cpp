@@ -128,6 +128,7 @@ TEST(OpeningDevices, RefusesWhatMakesNoSense) {
     EXPECT_EQ(code_of(open_device("simulated", {.priority = priority, .hand = hand})), Code::malformed_value);
   EXPECT_EQ(code_of(open_device("simulated", {.hand = {.mass = -10}})), Code::malformed_value);
   EXPECT_EQ(open_device("falcom").error().place.name, "spelling");
+  EXPECT_NE(open_device("").error().mend.find("simulated"), std::string::npos) << "and no name of a material";
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ class Stage(Handle):
     """Patches on a device's workspace, and the loop that lets the hand feel the front-most one under it.
 
     `priority`: 1 .. 99, SCHED_FIFO for the loop if it is permitted. `max_force`: N, 0: only the device's own limit.
-    `record`: a file for the run's recording; it must not exist yet.
+    `record`: a file for the run's recording; it must not exist yet. Its path counts from the current folder now.
     """
 
     def __init__(self, device: Device | Profile, *, priority: int = 0, lock_memory: bool = False,

@@ -29,7 +29,8 @@ typedef struct WaleStageOptions {
   int32_t low_latency;  /* 1: keeps processors out of deep sleep during a run, for the whole system */
   int32_t reserved;     /* 0 */
   double max_force;     /* N (of a pad m/s^2), the largest that the user allows; 0: only the device's own limit */
-  WaleText record;      /* records the run in this file, which must not exist yet; empty: does not. It is mapped, and
+  WaleText record;      /* records the run in this file, which must not exist yet; empty: does not. Its path counts from the
+                           current folder of the process when the stage is made. It is mapped, and
                            read-only to others until the run ends; who truncates it in spite of that, as the superuser
                            may, ends this process (SIGBUS) */
   WaleText record_hand; /* what moves the handle, kept in the recording: "simulated, lateral"; one line, may be empty */

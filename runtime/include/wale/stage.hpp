@@ -22,7 +22,7 @@ inline constexpr int usual_priority = 80;
 
 /// A recording to make of a run.
 struct RecordTo {
-  std::string file;  ///< must not exist yet; usually NAME.wrec
+  std::string file;  ///< must not exist yet; usually NAME.wrec; counts from the current folder when the stage is made
   /// What moves the handle, kept in the recording: "simulated, lateral"; one line of UTF-8, or empty. Otherwise the
   /// run gives `invalid_encoding` or `malformed_value`.
   std::string hand;
