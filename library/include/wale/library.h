@@ -57,7 +57,10 @@ WALE_API void wale_library_free(WaleLibrary* library);
    All: unknown_device for a device that nothing declares (an error in the owner's devices.wale is then among the others); invalid_encoding for an argument that is not UTF-8;
    malformed_value for a name that is empty, blank or of several lines. */
 
-/* A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL.
+/* A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL. Materials
+   in the current folder of the process take precedence over the shipped ones, and so do those of the whole project if a file
+   wale.project lies in that folder or above it, and those of `folders`: `taken` of WaleProgramDetails says so. The name thus
+   may mean another material in another folder; wale_library_open does not depend on it.
    Errors: unknown_name, for a kind ("fabric") with three of its materials as nearest; ambiguous_material. */
 WALE_API WaleCode wale_library_find(WaleLibrary* library, WaleText name, const WaleCompileOptions* options,
                                     WaleProgram** program, WaleError** error);
@@ -95,7 +98,8 @@ WALE_API WaleCode wale_library_compile_later(WaleLibrary* library, WaleText text
 WALE_API WaleCode wale_library_open_later(WaleLibrary* library, WaleText path, const WaleCompileOptions* options,
                                           WaleFuture** future, WaleError** error);
 
-/* Whether it is ready: 1, or 0. It does not wait. 0 for NULL. */
+/* Whether it is ready: 1, or 0. It does not wait. 0 for NULL; 1 for one that was taken, and in a child of fork for one of its
+   parent: wale_future_take then says why there is nothing to take. */
 WALE_API int32_t wale_future_poll(const WaleFuture* future);
 /* Waits until it is ready, for `seconds` at most (0 or less, or not-a-number: not at all; infinite: for as long as it takes).
    Returns as wale_future_poll. */

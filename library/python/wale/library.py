@@ -54,7 +54,11 @@ class Library(Handle):
         return made(function, kind, self._pointer, *wanted, arguments.struct("WaleCompileOptions", **options))
 
     def find(self, name: str, *, device: str = "", material: str = "") -> Program:
-        """A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim")."""
+        """A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim").
+
+        Materials in the current folder take precedence over the shipped ones, and so do those of the whole project if a
+        file `wale.project` lies in that folder or above it, and those of `folders`: `Program.taken` says so.
+        """
         return Program(self._make(lib.wale_library_find, {"name": name}, "WaleProgram", device=device, material=material))
 
     def level(self, percept: str, level: str | float, *, device: str = "") -> Program:

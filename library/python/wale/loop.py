@@ -18,7 +18,8 @@ class Loop(Handle):
         """Serves one tick: the force (N; of a pad its amplitude and frequency) to command.
 
         `counts`: of the encoder, from the workspace's centre. `interaction`: N, of the hand on the handle, if the device
-        measures it. `periods` have passed since the last step.
+        measures it. `periods` have passed since the last step: the loop looks at no clock, and gives no force once where they
+        say that more than 20 ms were missed.
         """
         of = self._reading
         try:

@@ -44,7 +44,8 @@ struct StageOptions {
   /// system; needs permission, and costs power).
   bool low_latency = false;
   double max_force = HUGE_VAL;  ///< N, the largest force that the user allows (on a pad m/s^2); positive
-  /// Records the run in this file, tick by tick as it happens. It must not exist yet, so a stage that records has one
+  /// Records the run in this file, tick by tick as it happens. Until the run ends the file is read-only (0444), and one
+  /// whose process was killed stays so. It must not exist yet, so a stage that records has one
   /// run: another one is refused while the file is there.
   std::optional<RecordTo> record = {};
 };
@@ -149,7 +150,8 @@ class Stage {
   void on_contact(std::function<void(const ContactEvent&)> receive);
   /// Calls the receiver for all contacts since the last poll, in their order, on the calling thread. Two threads that
   /// poll take turns; a `poll` within a receiver does nothing and returns 0. Returns how many contacts were dropped
-  /// because `most_contacts_waiting` were waiting.
+  /// because `most_contacts_waiting` were waiting. What a receiver throws comes out of `poll`; the contact that it was
+  /// called for is gone, and the others wait for the next `poll`.
   std::size_t poll();
 
  private:
