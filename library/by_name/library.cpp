@@ -162,7 +162,8 @@ struct Library::Parts {
 
   Result<CompiledWorkspace> laid(NamedFile named, const WorkspaceOptions& options) const {
     auto compiled = workspace_of_file(std::move(named), request({.device = options.device}), options);
-    if (!compiled && compiled.error().code == Code::unknown_device && compiled.error().place.name == "device" && owners_problem())
+    const bool is_unknown = !compiled && compiled.error().code == Code::unknown_device;
+    if (is_unknown && compiled.error().place.name == "device" && owners_problem())
       return unknown_device(options.device, device_names());
     return compiled;
   }
@@ -226,10 +227,10 @@ Result<Compiled> Library::level(const std::string& percept, const std::string& l
                  "write, for example, \"coarse\" or \"0.6\"", argument};
   SourceSet sources;
   Diagnostics diagnostics;
-  // It is all that is asked for, so a device that cannot render it is refused.
   const auto resolver = file_resolver({}, nullptr, parts_->sandbox, request.devices);
-  const SourceId source =
-      sources.add("level", "wale 1\nmaterial " + percept + "_level { perceptual { essential " + percept + " " + level + " } }\n");
+  // `essential`: it is all that is asked for, so a device that cannot render it is refused.
+  const SourceId source = sources.add("level", "wale 1\nmaterial " + percept + "_level { perceptual { essential " + percept +
+                                                   " " + level + " } }\n");
   auto program = wale::compile(sources, source, "", request.device, *resolver, diagnostics);
   if (!program) {
     Error error = about(first_error(diagnostics, sources), argument);
