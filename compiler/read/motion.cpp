@@ -168,6 +168,18 @@ void tell_no_law(OpposingForce& found) {
   found.friction_axis = found.damping_axis = {0, 0}, found.friction_grows = found.friction_cut = false;
 }
 
+/// Where motion makes a force that swings, or goes by what is remembered of the place, the mean of it over some strokes is
+/// chance. A law of that mean is none.
+void drop_law_by_chance(OpposingForce& found, const Bank& bank, const std::vector<Stroke>& strokes,
+                        const Outside& outside) {
+  const PatchProgram& program = bank.program().description();
+  if (!found.explained || !remembers_anything(program) || !program.grids.empty()) return;
+  if (found.friction == 0 && found.damping == 0) return;
+  if (steadiness_of(bank, strokes, outside).told_by_mean()) return;
+  tell_no_law(found);
+  found.explained = true, found.exponent = found.scatter = 0;
+}
+
 /// What changes with time is told by the law of its mean, if it has one.
 void tell_changes(OpposingForce& found, const DragByTime& drag) {
   found.changes_in_time = true, found.least_in_time = drag.least, found.most_in_time = drag.most;
@@ -230,6 +242,7 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
     found.friction_across = found.friction, found.damping_across = found.damping, found.aside = mean.aside;
     if (!tell_long_ways(found, ways, least_reach(strokes, program.device.rate))) tell_differences(found, differences);
     if (in_time.changes) tell_changes(found, in_time);
+    drop_law_by_chance(found, bank, strokes, outside);
     found.along = std::move(by_axis);
     return found;
   }
@@ -271,6 +284,7 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   if (oblique || !tell_long_ways(found, ways, least_reach(strokes, program.device.rate)))
     tell_differences(found, differences);
   if (in_time.changes) tell_changes(found, in_time);
+  drop_law_by_chance(found, bank, strokes, outside);
   found.along = std::move(by_axis);
   return found;
 }
