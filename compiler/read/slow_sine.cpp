@@ -11,12 +11,12 @@
 namespace wale {
 namespace {
 
-constexpr double fewest_periods = 0.95, most_periods = 3;  // over the patch
+constexpr double fewest_of_a_sine = 0.95, most_of_a_sine = 3;  // over the patch
 constexpr double bends_back = 0.5;     // of how the force bends, that goes against the force itself
-constexpr double exactly = 1e-6;       // of what a line leaves: no other law comes so near to a sine
-constexpr std::size_t places_fitted = 1500;
+constexpr double as_a_sine = 1e-6;       // of what a line leaves: no other law comes so near to a sine
+constexpr std::size_t places_of_a_sine = 1500;
 constexpr int steps_of_fit = 20;
-constexpr std::size_t places_a_mean = 4;  // along each axis
+constexpr std::size_t cells_of_a_mean = 4;  // along each axis
 
 /// A sine and its second derivatives are in one proportion everywhere, whatever its phase: minus the square of its wave.
 /// This is how one of them goes with the force beside a line.
@@ -33,7 +33,7 @@ Bending bending_of(const Eigen::MatrixXd& force_and_line, const Eigen::VectorXd&
 
 /// The wave to begin with, by how means over small cells bend; nothing if they do not bend as a sine does.
 std::optional<glm::dvec2> first_wave(const StillForces& whole) {
-  const auto side = static_cast<Eigen::Index>(whole.side / places_a_mean);
+  const auto side = static_cast<Eigen::Index>(whole.side / cells_of_a_mean);
   const std::vector<glm::dvec2> forces = cell_means(whole.side, whole.forces), places = cell_means(whole.side, whole.places);
   const LinearForce line = linear_force(places, forces);
   double xx = 0, xy = 0, yy = 0;
@@ -66,7 +66,7 @@ std::optional<glm::dvec2> first_wave(const StillForces& whole) {
   const double same_way = bending_of(known, by_xy).by_force < 0 ? 1 : -1;
   const glm::dvec2 waves = glm::dvec2(x, same_way * y) / (2 * std::numbers::pi);
   const double periods = glm::length(waves * whole.size);
-  if (!(periods > 0.5 * fewest_periods) || periods > 1.5 * most_periods) return std::nullopt;
+  if (!(periods > 0.5 * fewest_of_a_sine) || periods > 1.5 * most_of_a_sine) return std::nullopt;
   return waves;
 }
 
@@ -75,16 +75,16 @@ std::optional<glm::dvec2> first_wave(const StillForces& whole) {
 std::optional<glm::dvec2> slow_sine(const StillForces& whole) {
   const auto first = first_wave(whole);
   if (!first) return std::nullopt;
-  const std::vector<glm::dvec2> places = some_of(whole.places, places_fitted), forces = some_of(whole.forces, places_fitted);
+  const std::vector<glm::dvec2> places = some_of(whole.places, places_of_a_sine), forces = some_of(whole.forces, places_of_a_sine);
   ObstacleFit fit;
   fit.even = linear_force(places, forces);
   const double by_line = mean_square(fit.rest(places, forces));
   // The parts of the sine are found with it: at first it has none, and its wave does not matter.
   fit.waves.push_back({*first, {{{glm::dvec2(0), glm::dvec2(0)}}}});
-  if (!(fit.improve(places, forces, steps_of_fit) < exactly * by_line)) return std::nullopt;
+  if (!(fit.improve(places, forces, steps_of_fit) < as_a_sine * by_line)) return std::nullopt;
   const glm::dvec2 waves = fit.waves.front().waves;
   const double periods = glm::length(waves * whole.size);
-  return periods >= fewest_periods && periods <= most_periods ? std::optional(waves) : std::nullopt;
+  return periods >= fewest_of_a_sine && periods <= most_of_a_sine ? std::optional(waves) : std::nullopt;
 }
 
 }  // namespace wale
