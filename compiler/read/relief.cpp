@@ -95,7 +95,7 @@ class ReliefReader {
       return found_;
     }
     find_plain_trend(beyond);
-    waves_ = find_waves(field_, whole_, found_.features, slow_sine_);
+    waves_ = find_waves(field_, whole_, found_.features, slow_sine_ ? std::optional(slow_sine_->waves) : std::nullopt);
     if (!found_.features.empty() && !waves_.waves.empty() && !waves_.local) {
       refine(found_.features);
       waves_ = find_waves(field_, whole_, found_.features);
@@ -134,7 +134,8 @@ class ReliefReader {
 
   void take_trend_off() {
     find_trend();
-    found_.trend = waves_.trend;
+    // Over hardly more than a period a waveform that is folded takes a little of the line.
+    found_.trend = slow_sine_ && found_.features.empty() && waves_.waves.size() == 1 ? slow_sine_->line : waves_.trend;
     // The relief is what no trend explains. Hills belong to it.
     std::vector<Feature> trends;
     for (const Feature& each : found_.features)
@@ -342,7 +343,7 @@ class ReliefReader {
   const std::vector<glm::dvec2>* whole_felt_ = nullptr;  // N, at the same places: of a law that is not felt whole
   StaticForce found_;
   bool no_obstacles_in_whole_ = false;  // they were looked for in all of the force
-  std::optional<glm::dvec2> slow_sine_;  // periods over a metre
+  std::optional<SlowSine> slow_sine_;
   FoundWaves waves_;
   std::vector<glm::dvec2> relief_;  // N, at the places of the whole
 };

@@ -72,7 +72,7 @@ std::optional<glm::dvec2> first_wave(const StillForces& whole) {
 
 }  // namespace
 
-std::optional<glm::dvec2> slow_sine(const StillForces& whole) {
+std::optional<SlowSine> slow_sine(const StillForces& whole) {
   const auto first = first_wave(whole);
   if (!first) return std::nullopt;
   const std::vector<glm::dvec2> places = some_of(whole.places, places_of_a_sine), forces = some_of(whole.forces, places_of_a_sine);
@@ -84,7 +84,7 @@ std::optional<glm::dvec2> slow_sine(const StillForces& whole) {
   if (!(fit.improve(places, forces, steps_of_fit) < as_a_sine * by_line)) return std::nullopt;
   const glm::dvec2 waves = fit.waves.front().waves;
   const double periods = glm::length(waves * whole.size);
-  return periods >= fewest_of_a_sine && periods <= most_of_a_sine ? std::optional(waves) : std::nullopt;
+  return periods >= fewest_of_a_sine && periods <= most_of_a_sine ? std::optional(SlowSine{waves, fit.even}) : std::nullopt;
 }
 
 }  // namespace wale

@@ -6,8 +6,14 @@
 
 namespace wale {
 
-/// The wave of a sine that is too slow to be seen by its repeating, as periods over a metre: it goes on for one to a few
-/// periods over the patch, and with a line it tells the force as well as that is computed. Nothing if no sine does.
-std::optional<glm::dvec2> slow_sine(const StillForces& whole);
+/// A sine of one to a few periods over the patch, and the line beside it.
+struct SlowSine {
+  glm::dvec2 waves{0};  ///< periods over a metre
+  LinearForce line;
+};
+
+/// The sine, too slow to be seen by its repeating, that with a line tells the force as well as that is computed. Nothing if
+/// none does.
+std::optional<SlowSine> slow_sine(const StillForces& whole);
 
 }  // namespace wale
