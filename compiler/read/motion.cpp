@@ -240,9 +240,11 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   if (!whole.directed()) {
     OpposingForce found = law_of(strokes, along_strokes(strokes, opposed), program.device.most());
     found.friction_across = found.friction, found.damping_across = found.damping, found.aside = mean.aside;
-    if (!tell_long_ways(found, ways, least_reach(strokes, program.device.rate))) tell_differences(found, differences);
+    if (!tell_long_ways(found, ways, least_reach(strokes, program.device.rate))) {
+      tell_differences(found, differences);
+      if (settling == 0) drop_law_by_chance(found, bank, strokes, outside);
+    }
     if (in_time.changes) tell_changes(found, in_time);
-    drop_law_by_chance(found, bank, strokes, outside);
     found.along = std::move(by_axis);
     return found;
   }
@@ -281,10 +283,11 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   found.explained = one.explained && other.explained;
   found.limit = std::max(one.limit, other.limit);
   found.aside = mean.aside;
-  if (oblique || !tell_long_ways(found, ways, least_reach(strokes, program.device.rate)))
+  if (oblique || !tell_long_ways(found, ways, least_reach(strokes, program.device.rate))) {
     tell_differences(found, differences);
+    if (settling == 0) drop_law_by_chance(found, bank, strokes, outside);
+  }
   if (in_time.changes) tell_changes(found, in_time);
-  drop_law_by_chance(found, bank, strokes, outside);
   found.along = std::move(by_axis);
   return found;
 }

@@ -70,8 +70,9 @@ std::vector<glm::dvec2> pushed_either_way(const Bank& bank, const std::vector<St
 struct Steadiness {
   double mean = 0, beside = 0;
 
-  /// Whether the mean is more than what is beside it, so that it says how a hand is resisted.
-  bool told_by_mean() const { return mean >= beside; }
+  /// Whether the mean says how a hand is resisted. A soft bristle that turns about leaves as much beside it; what swings
+  /// leaves several times as much.
+  bool told_by_mean() const { return 4 * mean >= beside; }
 };
 /// Of a program that remembers, and no grids; on one line of strokes along each axis.
 Steadiness steadiness_of(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside);
