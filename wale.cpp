@@ -17,7 +17,7 @@ namespace wale::command {
 
 // Each is defined in FOLDER/command/VERB.cpp.
 extern const Verb build_verb, check_verb, compare_verb, describe_verb, devices_verb, explain_verb, export_verb, feel_verb,
-    find_verb, format_verb, import_verb, levels_verb, manual_verb, preview_verb, replay_verb, sample_verb, sandpaper_verb;
+    find_verb, format_verb, import_verb, levels_verb, library_check_verb, manual_verb, preview_verb, replay_verb, sample_verb, sandpaper_verb;
 
 }  // namespace wale::command
 
@@ -27,7 +27,7 @@ using namespace wale;
 using namespace wale::command;
 
 constexpr const Verb* verbs[] = {&check_verb,  &explain_verb, &format_verb, &build_verb, &describe_verb,
-                                 &find_verb,   &compare_verb, &levels_verb, &feel_verb,  &replay_verb,
+                                 &find_verb,   &compare_verb, &library_check_verb, &levels_verb, &feel_verb,  &replay_verb,
                                  &sample_verb, &preview_verb, &import_verb,  &export_verb, &sandpaper_verb,
                                  &devices_verb, &manual_verb};
 
@@ -42,7 +42,8 @@ constexpr const char* about =
 
   designers    write a material, then:   wale check my.wale;  wale describe my.wale;  wale feel my.wale
   curators     find, compare and trust:  wale find ribbed;  wale compare A.wale B.wale;  wale levels roughness;
-                                         wale describe --json FILE;  wale preview FILE -o OUT.png
+                                         wale describe --json FILE;  wale preview FILE -o OUT.png;
+                                         wale library check FILE
   programmers  take a program along:     wale build FILE -o OUT.wpp;  wale sample FILE --at "10.6 mm, 5 mm"
                                          examples/roughness_by_name asks for a roughness by name from C++
 
@@ -72,7 +73,7 @@ int run(int argc, char** argv) {
   }
 
   if (argc <= 1) {
-    print_error(app.help());
+    print_error(with_spelt_verbs(app, app.help()));
     return misused;
   }
   if (const auto misspelt = misspelt_verb(app, argv[1], argc > 2 ? argv[2] : "")) {
@@ -89,8 +90,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, err;
     const int refusal = app.exit(error, out, err);  // the codes of CLI11 itself are above 100
-    print_out(out.str());
-    print_error(err.str());
+    print_out(with_spelt_verbs(app, out.str()));
+    print_error(with_spelt_verbs(app, err.str()));
     return refusal == done || refusal == refused ? refusal : misused;
   }
   return status;

@@ -4,9 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string_view>
 
 #include "compiler/command/manual.hpp"
+#include "compiler/command/options.hpp"
+#include "compiler/command/words.hpp"
 
 namespace wale::command {
 namespace {
@@ -15,7 +18,7 @@ namespace {
 enum class Sought { nothing, file, material, folder, percept, device, place, code, kind };
 
 Sought sought_by(const CLI::App& verb, const CLI::Option& option) {
-  constexpr std::array<std::string_view, 4> of_files_alone = {"check", "format", "replay", "import"};
+  constexpr std::array<std::string_view, 5> of_files_alone = {"check", "format", "replay", "import", "library-check"};
   if (option.get_positional()) {
     const std::string name = option.get_name(true);
     if (name == "PERCEPT") return Sought::percept;
@@ -45,6 +48,25 @@ Sought sought_by_arguments(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options())
     if (option->get_positional()) return sought_by(verb, *option);
   return Sought::nothing;
+}
+
+/// Verbs of two words by their first: ("library", {"check"}).
+std::map<std::string, std::vector<std::string>> pairs_of_words(const CLI::App& all) {
+  std::map<std::string, std::vector<std::string>> pairs;
+  for (const CLI::App* verb : listed_verbs(all))
+    if (const std::size_t at = verb->get_name().find('-'); at != std::string::npos)
+      pairs[verb->get_name().substr(0, at)].push_back(verb->get_name().substr(at + 1));
+  return pairs;
+}
+
+/// The first words of all verbs, each once.
+std::vector<std::string> first_words(const CLI::App& all) {
+  std::vector<std::string> words;
+  for (const CLI::App* verb : listed_verbs(all)) {
+    const std::string first = verb->get_name().substr(0, verb->get_name().find('-'));
+    if (std::ranges::find(words, first) == words.end()) words.push_back(first);
+  }
+  return words;
 }
 
 const char* in_bash(Sought sought) {
@@ -134,10 +156,14 @@ std::vector<std::pair<std::string, std::vector<std::string>>> lists_of(const Com
 }  // namespace
 
 std::string bash_completion(const CLI::App& all, const CompletedNames& names) {
-  std::vector<std::string> verbs;
-  std::string cases;
+  const std::vector<std::string> verbs = first_words(all);
+  std::string cases, pairs;
+  for (const auto& [first, seconds] : pairs_of_words(all))
+    pairs += fmt::format(
+        "  if [[ $verb == {0} ]]; then\n    if ((COMP_CWORD == 2)); then _wale_words \"{1}\"; return; fi\n"
+        "    verb={0}-${{COMP_WORDS[2]}}\n  fi\n",
+        first, fmt::join(seconds, " "));
   for (const CLI::App* verb : listed_verbs(all)) {
-    verbs.push_back(verb->get_name());
     std::string values;
     for (const CLI::Option* option : verb->get_options()) {
       if (option->get_positional() || option->get_items_expected_max() == 0) continue;
@@ -164,14 +190,22 @@ _wale() {
   text += fmt::format(
       "  COMPREPLY=()\n  if ((COMP_CWORD == 1)); then\n    _wale_words \"{} --help --version\"\n    return\n  fi\n",
       fmt::join(verbs, " "));
-  return text + "  case ${COMP_WORDS[1]} in\n" + cases +
+  return text + "  local verb=${COMP_WORDS[1]}\n" + pairs + "  case $verb in\n" + cases +
          "  esac\n  _wale_words \"$options\"\n}\ncomplete -F _wale wale\n";
 }
 
 std::string zsh_completion(const CLI::App& all, const CompletedNames& names) {
-  std::string verbs, cases;
+  std::string verbs, cases, pairs;
+  for (const auto& [first, seconds] : pairs_of_words(all)) {
+    verbs += fmt::format("    '{}:{} {}'\n", first, first, fmt::join(seconds, fmt::format(", {} ", first)));
+    pairs += fmt::format(
+        "  if [[ $verb == {0} ]]; then\n    if (( CURRENT == 2 )); then\n      compadd {1}\n      return\n    fi\n"
+        "    verb={0}-$words[2]\n    shift words\n    (( CURRENT-- ))\n  fi\n",
+        first, fmt::join(seconds, " "));
+  }
   for (const CLI::App* verb : listed_verbs(all)) {
-    verbs += fmt::format("    '{}:{}'\n", verb->get_name(), zsh_text(verb->get_description()));
+    if (verb->get_name().find('-') == std::string::npos)
+      verbs += fmt::format("    '{}:{}'\n", verb->get_name(), zsh_text(verb->get_description()));
     cases += fmt::format("    {})\n      _arguments -s \\\n", verb->get_name());
     for (const CLI::Option* option : verb->get_options())
       if (!option->get_positional()) cases += zsh_option(*verb, *option);
@@ -206,8 +240,8 @@ _wale() {
   local verb=$words[2]
   shift words
   (( CURRENT-- ))
-  case $verb in
-)zsh" + cases +
+)zsh" + pairs + "  case $verb in\n" +
+         cases +
          "  esac\n}\n_wale \"$@\"\n";
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "compiler/command/manual.hpp"
+#include "compiler/command/words.hpp"
 
 namespace wale::command {
 namespace {
@@ -111,10 +112,10 @@ std::string manual_page(const CLI::App& all, const CLI::App* verb) {
     return text + options_of(all) + ".SH EXIT STATUS\n" + as_they_stand(all.get_footer());
   }
   std::string text = heading("wale-" + verb->get_name(), all, verb->get_description());
-  text += fmt::format(".SH SYNOPSIS\n\\fBwale {}\\fR [\\fIOPTIONS\\fR]", roff(verb->get_name()));
+  text += fmt::format(".SH SYNOPSIS\n\\fBwale {}\\fR [\\fIOPTIONS\\fR]", roff(spelt_verb(verb->get_name())));
   for (const CLI::Option* option : verb->get_options())
     if (option->get_positional()) text += " " + in_synopsis(*option);
-  text += "\n.SH DESCRIPTION\n\\fBwale " + roff(verb->get_name()) + "\\fR " + roff(verb->get_description()) + ".\n";
+  text += "\n.SH DESCRIPTION\n\\fBwale " + roff(spelt_verb(verb->get_name())) + "\\fR " + roff(verb->get_description()) + ".\n";
   text += arguments_of(*verb) + options_of(*verb);
   if (!verb->get_footer().empty()) text += ".SH EXAMPLES\n" + as_they_stand(verb->get_footer());
   return text + ".SH SEE ALSO\n\\fBwale\\fR(1)\n";

@@ -45,13 +45,42 @@ std::string mismatch_text(const CLI::App& verb, const std::string& last_word) {
                          : fmt::format("{}: expected {}, found nothing", last_word, last->get_type_name());
 }
 
+/// The second words of the verbs that begin with this one: "check" of `library check`.
+std::vector<std::string> second_words(const CLI::App& app, const std::string& first) {
+  std::vector<std::string> words;
+  for (const CLI::App* verb : listed_verbs(app))
+    if (verb->get_name().starts_with(first + "-")) words.push_back(verb->get_name().substr(first.size() + 1));
+  return words;
+}
+
 }  // namespace
+
+std::string spelt_verb(std::string name) {
+  std::ranges::replace(name, '-', ' ');
+  return name;
+}
+
+std::string with_spelt_verbs(const CLI::App& app, std::string text) {
+  for (const CLI::App* verb : listed_verbs(app)) {
+    const std::string& name = verb->get_name();
+    if (name.find('-') == std::string::npos) continue;
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + name.size()))
+      text.replace(at, name.size(), spelt_verb(name));
+  }
+  return text;
+}
 
 std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string& first, const std::string& second) {
   std::vector<std::string> verbs;
-  for (const CLI::App* known : listed_verbs(app)) verbs.push_back(known->get_name());
+  for (const CLI::App* known : listed_verbs(app)) verbs.push_back(spelt_verb(known->get_name()));
   for (const CLI::App* known : app.get_subcommands({}))  // also one that no help lists
-    if (known->get_name() == first) return std::nullopt;
+    if (known->get_name() == first || known->get_name() == first + "-" + second) return std::nullopt;
+  if (const auto seconds = second_words(app, first); !seconds.empty()) {
+    const auto near = second.empty() ? std::nullopt : nearest_spelling(second, seconds);
+    return near ? fmt::format("there is no verb `{} {}`; did you mean `{} {}`?", first, visible_text(second), first, *near)
+                : fmt::format("`{}` is the first word of verbs: {} {}", first, first,
+                              fmt::join(seconds, fmt::format(", {} ", first)));
+  }
   if (first == "-h" || first == "--help" || first == "--version") return std::nullopt;
   if (first.starts_with('-')) return unknown_option(app, first);
   if (first == "help") {
@@ -67,6 +96,11 @@ std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string&
 std::vector<std::string> words_of(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const std::vector<const CLI::App*> verbs = app.get_subcommands({});
+  if (words.size() > 1) {
+    const std::string both = words[0] + "-" + words[1];
+    if (std::ranges::any_of(verbs, [&](const CLI::App* each) { return each->get_name() == both; }))
+      words.erase(words.begin()), words.front() = both;
+  }
   const auto named = std::ranges::find(verbs, words.front(), [](const CLI::App* each) { return each->get_name(); });
   if (named == verbs.end()) return words;
   const CLI::App* verb = *named;
@@ -86,7 +120,7 @@ std::vector<std::string> words_of(const CLI::App& app, int argc, char** argv) {
 
 std::string misuse_text(const CLI::App* app, const CLI::Error& error, const std::string& last_word) {
   const auto verbs = app->get_subcommands();
-  const std::string verb = verbs.empty() ? "wale" : "wale " + verbs.front()->get_name();
+  const std::string verb = verbs.empty() ? "wale" : "wale " + spelt_verb(verbs.front()->get_name());
   std::string what = error.what();
   const auto is = [&](CLI::ExitCodes code) { return error.get_exit_code() == static_cast<int>(code); };
   // An unknown option is told before what is missing: it may be the misspelt name of just that, or of --help.

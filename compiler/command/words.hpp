@@ -13,6 +13,11 @@ namespace wale::command {
 
 // The words of a command line, and what is said of those that make no sense.
 
+/// How people write a verb: `library check` is declared as "library-check".
+std::string spelt_verb(std::string name);
+/// A text of CLI11's in which verbs of two words are spelt so.
+std::string with_spelt_verbs(const CLI::App& app, std::string text);
+
 /// The message for a misspelt verb or option at the beginning, which CLI11 would report as a missing verb. Returns
 /// nullopt if the first word is a verb or a known option. `second` is the word after it, which may be empty.
 std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string& first, const std::string& second);
