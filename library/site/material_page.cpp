@@ -305,10 +305,10 @@ Markup material_card(const SiteMaterial& material, const std::string& from) {
       levels.push_back(html("<span>{} {}</span>", each.name, with_decimals(*each.reads, 2)));
   return html(
       "<li class=\"card\"><a href=\"{}\"><img src=\"{}\" width=\"160\" height=\"160\" loading=\"lazy\" alt=\"\">"
-      "<strong>{}</strong></a><small>{}{}{}</small><small class=\"levels\">{}</small></li>\n",
+      "<strong>{}</strong></a><small>{}</small><small>{}</small><small class=\"levels\">{}</small></li>\n",
       way_to("material/" + material.page + ".html", from), way_to(material.small, from), material.shown(),
-      material.kind, material.kind.empty() ? "" : " · ",
-      material.of_velocity ? "force over velocity" : in_millimetres(material.side) + " shown", joined(levels, " "));
+      material.kind, material.of_velocity ? "force over velocity" : in_millimetres(material.side) + " wide",
+      joined(levels, " "));
 }
 
 SitePage material_page(const SiteMaterial& material, const MaterialSources& sources) {
@@ -348,8 +348,11 @@ Markup neighbours_markup(const std::vector<SiteNeighbour>& neighbours, const std
   for (const SiteNeighbour& each : neighbours) {
     const std::string far =
         std::isinf(each.most) ? fmt::format("{} or more", with_digits(each.least, 2)) : with_digits(each.least, 2);
-    const std::string why =
-        each.unknown.empty() ? "" : fmt::format("; no threshold is known for {}", fmt::join(each.unknown, ", "));
+    constexpr std::size_t most_named = 2;
+    std::string why;
+    for (std::size_t i = 0; i < std::min(most_named, each.unknown.size()); ++i)
+      why += (i == 0 ? "; no threshold is known for " : ", ") + each.unknown[i];
+    if (each.unknown.size() > most_named) why += fmt::format(" and {} more", each.unknown.size() - most_named);
     cards += html("<li class=\"card\"><a href=\"{}\"><img src=\"{}\" width=\"160\" height=\"160\" loading=\"lazy\" "
                   "alt=\"\"><strong>{}</strong></a><small>{} just noticeable differences{}</small></li>\n",
                   way_to("material/" + each.material->page + ".html", path), way_to(each.material->small, path),

@@ -56,7 +56,7 @@ std::vector<SiteFile> search_files(const std::vector<const SiteMaterial*>& mater
     if (is_new) kinds.push_back(material.kind);
     kind_of.push_back(number->second);
     cards.push_back({material.page, material.shown(), material.kind, material.small,
-                     material.of_velocity ? "force over velocity" : in_millimetres(material.side) + " shown", card_levels});
+                     material.of_velocity ? "force over velocity" : in_millimetres(material.side) + " wide", card_levels});
     if (cards.size() == cards_in_a_file || i + 1 == materials.size()) {
       files.push_back(data_file("cards-p" + std::to_string(i / cards_in_a_file), cards));
       cards = Json::array();

@@ -67,9 +67,10 @@ Result<std::vector<SiteInput>> inputs_of(const std::vector<std::string>& paths) 
   if (paths.empty()) {
     for (const EmbeddedFile& each : embedded_files())
       if (!each.common) {
-        const fs::path way = fs::path(each.name).lexically_relative("library");
+        fs::path way = fs::path(each.name).lexically_relative("library");
+        way.replace_extension();
         std::string module;
-        for (const fs::path& part : fs::path(way).replace_extension()) module += (module.empty() ? "" : ".") + part.string();
+        for (const fs::path& part : way) module += (module.empty() ? "" : ".") + part.string();
         inputs.push_back({std::string(each.name), module});
       }
     return inputs;

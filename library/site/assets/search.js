@@ -139,7 +139,7 @@
     return made("li", {class: "card"},
       made("a", {href: "material/" + page + ".html"},
         made("img", {src: picture, width: 160, height: 160, loading: "lazy", alt: ""}), made("strong", {}, title)),
-      made("small", {}, (of ? of + " · " : "") + extent),
+      made("small", {}, of), made("small", {}, extent),
       made("small", {class: "levels"},
         ...levels.slice(0, 3).map(([percept, level]) => made("span", {}, percept + " " + level.toFixed(2)))));
   }
