@@ -343,8 +343,9 @@ SitePage unknown_page(const Declarations& declarations, const DeclaredNames& nam
                       fmt::format("{}", fmt::join(device.unknown, ", ")));
   });
   for (const SiteMaterial* each : left_out)
-    kept_back += html("<li>{} <small>({})</small>: {}</li>\n", each->unlicensed ? each->name : each->shown(),
-                      each->file, each->trouble);
+    kept_back += html("<li>{} <small>({})</small>: {}</li>\n", each->name,
+                      each->module,
+                      each->unlicensed ? each->trouble : std::string("it has an error"));
   page.body = html("<h1>What is unknown</h1>\n<p>What no publication says and nobody measured. Whoever measures it can "
                    "contradict these pages.</p>\n<h2>Of materials</h2>\n");
   page.body += rows.empty() ? html("<p>Nothing.</p>\n") : html("<ul>{}</ul>\n", rows);

@@ -10,7 +10,7 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t on_a_page = 36;  // cards, whose pictures are loaded as one comes to them
+constexpr std::size_t on_a_page = 24;  // cards, whose pictures are loaded as one comes to them
 
 std::string list_path(const std::string& base, std::size_t page) {
   return page == 0 ? base + ".html" : base + "-p" + std::to_string(page + 1) + ".html";

@@ -64,7 +64,7 @@ Markup html(Template form, const Parts&... parts) {
 /// All of them, with `between` between each two.
 Markup joined(const std::vector<Markup>& parts, Template between);
 
-/// JSON as a script of data, which is read and never run. `json` is UTF-8.
+/// JSON as a script of data, which is read and never run. `json` is ASCII, so that nothing in it turns the page's text.
 Markup data_block(std::string json);
 
 /// JSON that stands in a script: no `<` in it, and no separator that older scripts take for the end of a line.

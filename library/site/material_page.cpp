@@ -9,7 +9,6 @@
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/drawing/axis.hpp"
 #include "compiler/prove/force_bound.hpp"
-#include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
 #include "library/site/site_folder.hpp"
 
@@ -92,9 +91,10 @@ Markup first_facts(const SiteMaterial& material, const MaterialSources& sources,
 Markup all_names(const SiteMaterial& material) {
   std::vector<Markup> words = {html("<code>{}</code>", material.name)};
   for (const EntryName& each : material.names)
-    words.push_back(each.language == "en" ? html("{}", each.text)
-                                          : html("<span lang=\"{}\">{}</span> <small>({})</small>", each.language,
-                                                 each.text, each.language));
+    if (each.text != material.name)
+      words.push_back(each.language == "en" ? html("{}", each.text)
+                                            : html("<span lang=\"{}\">{}</span> <small>({})</small>", each.language,
+                                                   each.text, each.language));
   for (const std::string& each : material.feels) words.push_back(html("{}", each));
   return html("<p class=\"names\">{}</p>\n", joined(words, " · "));
 }
@@ -111,9 +111,9 @@ Markup picture(const SiteMaterial& material, const MaterialSources& sources, con
   const Markup scale =
       figures.of_velocity ? Markup()
                           : html("<svg class=\"scale\" viewBox=\"0 0 100 6\" role=\"img\" aria-label=\"A bar of {} {}\">"
-                                 "<path d=\"M0.5 1v4M0.5 3h{:.2f}v-2v4\"/></svg><span>{} {}</span>",
+                                 "<path d=\"M0.5 1v4M0.5 3h{:.2f}v-2v4\"/><text x=\"{:.2f}\" y=\"4.6\">{} {}</text></svg>",
                                  shown_number(bar), length.unit, 100 * bar / (figures.side * length.per_si),
-                                 shown_number(bar), length.unit);
+                                 100 * bar / (figures.side * length.per_si) + 2.5, shown_number(bar), length.unit);
   const Markup hand =
       figures.touch.empty() || figures.of_velocity
           ? Markup()
@@ -320,11 +320,12 @@ SitePage material_page(const SiteMaterial& material, const MaterialSources& sour
   page.scripts = {"site.js", "touch.js"};
   page.head = html("<link rel=\"alternate\" type=\"application/ld+json\" href=\"{}\">\n{}",
                    way_to("material/" + material.page + ".json", page.path),
-                   data_block(json_text(material_dataset(material, sources, false))));
+                   data_block(material_dataset(material, sources, false)
+                                  .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)));
   const Description& told = *sources.description;
-  page.body = html("<article>\n<h1>{}</h1>\n{}<div class=\"lead\">\n{}<div>{}{}</div>\n</div>\n", material.shown(),
-                   all_names(material), picture(material, sources, page.path), first_facts(material, sources, page.path),
-                   about(material));
+  page.body = html("<article>\n<h1>{}</h1>\n{}<div class=\"lead\">\n<div>{}{}</div>\n{}</div>\n", material.shown(),
+                   all_names(material), first_facts(material, sources, page.path), about(material),
+                   picture(material, sources, page.path));
   page.body += percepts(sources, page.path);
   page.body += plots(sources, page.path);
   page.body += stability(told);

@@ -7,6 +7,7 @@
 #include "library/index/words.hpp"
 #include "library/site/gallery.hpp"
 #include "library/site/material_page.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
@@ -50,12 +51,12 @@ std::vector<SiteFile> search_files(const std::vector<const SiteMaterial*>& mater
       if (!each.reads) continue;
       const double level = std::round(*each.reads * 1e4) / 1e4;
       levels[each.name].first.push_back(i), levels[each.name].second.push_back(level);
-      card_levels.push_back({escaped(each.name), level});
+      card_levels.push_back({visible_text(each.name), level});
     }
     const auto [number, is_new] = kind_numbers.try_emplace(material.kind, kinds.size());
     if (is_new) kinds.push_back(material.kind);
     kind_of.push_back(number->second);
-    cards.push_back({material.page, material.shown(), material.kind, material.small,
+    cards.push_back({material.page, visible_text(material.shown()), visible_text(material.kind), material.small,
                      material.of_velocity ? "force over velocity" : in_millimetres(material.side) + " wide", card_levels});
     if (cards.size() == cards_in_a_file || i + 1 == materials.size()) {
       files.push_back(data_file("cards-p" + std::to_string(i / cards_in_a_file), cards));

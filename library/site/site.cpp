@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t neighbours_shown = 8;
+constexpr std::size_t neighbours_shown = 6;
 
 std::string without_capitals(std::string text) {
   for (char& each : text)

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t most_landmarks = 160;
 constexpr std::size_t most_pairs = 20000;  // of the sample for the agreement
 constexpr std::size_t fewest_levels = 12;  // materials that a percept's direction rests on
-constexpr double telling_share = 0.15;     // of the variance, from which on a direction is shown
+constexpr double telling_share = 0.25;     // of the variance, from which on a direction is shown
 
 double difference(const Comparer& comparer, const SiteMaterial& a, const SiteMaterial& b) {
   return std::log2(1 + double{comparer.distance(*a.cues, *b.cues).noticeable});

@@ -15,7 +15,7 @@
   let tables = null, loading = false;
   let target = {x: 0, y: 0};         // m from the picture's middle, y upwards: where the pointer is
   let finger = {x: 0, y: 0}, speed = {x: 0, y: 0};
-  let touched = false, frame = 0, last = 0, told = 0;
+  let touched = false, frame = 0, last = 0, told = -Infinity;
   let pulls = !matchMedia("(prefers-reduced-motion: reduce)").matches;
   button("pull").setAttribute("aria-pressed", pulls);
   let sound = null;
@@ -91,8 +91,11 @@
   const plaster = [221, 209, 190], umbra = [57, 48, 46], glint = [255, 253, 246];
   function light() {
     const {slopes, colours, shaded, touch} = tables;
-    const across = touched ? Math.max(-1, Math.min(1, 2 * target.x / touch.side)) : -0.76;
-    const up = touched ? Math.max(-1, Math.min(1, 2 * target.y / touch.side)) : 0.76;
+    let across = touched ? Math.max(-1, Math.min(1, 2 * target.x / touch.side)) : -0.76;
+    let up = touched ? Math.max(-1, Math.min(1, 2 * target.y / touch.side)) : 0.76;
+    // Light from straight above shows no relief.
+    const low = 0.5, aside = Math.hypot(across, up);
+    if (aside < low) { across = aside > 0 ? across * low / aside : -low; up = aside > 0 ? up * low / aside : 0; }
     const length = Math.hypot(0.68 * across, 0.68 * up, 0.68);
     const lx = 0.68 * across / length, ly = 0.68 * up / length, lz = 0.68 / length;
     const pixels = shaded.data, bytes = slopes.bytes, scale = touch.steepest / 127;
@@ -145,8 +148,8 @@
     context.fill();
   }
 
-  function tell(now) {
-    if (now - told < 120) return;
+  function tell(now, rests) {
+    if (!rests && now - told < 120) return;
     told = now;
     const force = forceAt(finger), newton = Math.hypot(force.x, force.y);
     const mm = value => (1000 * value).toFixed(1).replace("-", "\u2212");
@@ -160,8 +163,8 @@
     const path = move(seconds);
     if (sound) sing(path, seconds);
     draw();
-    tell(now);
     const still = Math.hypot(finger.x - before.x, finger.y - before.y) < 1e-6 * tables.touch.side;
+    tell(now, still);
     frame = still && !sound ? 0 : requestAnimationFrame(run);
   }
   function wake() {
