@@ -199,13 +199,17 @@ Result<SiteFigures> draw_site_figures(const Bank& bank, const Description& descr
   figures.whole = exhibit.side >= exhibit.patch_side;
   figures.period = exhibit.period;
 
-  const char* ending = parts->surface ? "jpg" : "png";  // fields are of few colours, with sharp edges
   const Drawing pixels = parts->picture->pixels();
   for (const auto& [path, drawing] : {std::pair(&figures.picture, pixels), std::pair(&figures.small, halved(pixels))}) {
-    *path = "figure/" + name + (path == &figures.small ? "-small." : ".") + ending;
-    const auto bytes = encode_drawing(drawing, *path);
-    if (!bytes) return bytes.error();
-    figures.files.push_back({*path, as_text(*bytes)});
+    // A field of few colours is smaller without loss, a rough surface with it.
+    std::vector<std::byte> smallest;
+    for (const char* ending : {"jpg", "png"}) {
+      const std::string name_so = "figure/" + name + (path == &figures.small ? "-small." : ".") + ending;
+      auto bytes = encode_drawing(drawing, name_so);
+      if (!bytes) return bytes.error();
+      if (smallest.empty() || bytes->size() < smallest.size()) smallest = *std::move(bytes), *path = name_so;
+    }
+    figures.files.push_back({*path, as_text(smallest)});
   }
   for (const PlotPage& plot : parts->plots) {
     const std::string path = "figure/" + name + "-" + plot.name + ".svg";

@@ -94,10 +94,10 @@ Markup search_form(const std::set<std::string>& percepts, const std::map<std::st
         percept, percept, percept);
   }
   return html(
-      "<form id=\"search\" role=\"search\" hidden>\n<p class=\"line\"><label for=\"words\">Search</label>\n"
-      "<input id=\"words\" type=\"search\" autocomplete=\"off\" spellcheck=\"false\" placeholder=\"rough ribbed cotton\">\n"
-      "<label for=\"kind\">Kind</label>\n<select id=\"kind\"><option value=\"\">all</option>{}</select>\n"
-      "<label for=\"order\">Order</label>\n<select id=\"order\"><option value=\"\">best match</option>{}</select>\n"
+      "<form id=\"search\" role=\"search\" hidden>\n<p class=\"line\"><span class=\"words\"><label for=\"words\">Search</label>\n"
+      "<input id=\"words\" type=\"search\" autocomplete=\"off\" spellcheck=\"false\" placeholder=\"rough ribbed cotton\"></span>\n"
+      "<span><label for=\"kind\">Kind</label>\n<select id=\"kind\"><option value=\"\">all</option>{}</select></span>\n"
+      "<span><label for=\"order\">Order</label>\n<select id=\"order\"><option value=\"\">best match</option>{}</select></span>\n"
       "<label class=\"reverse\"><input type=\"checkbox\" id=\"reverse\"> least first</label></p>\n"
       "<details id=\"ranges\"><summary>Levels that it reads</summary><div class=\"ranges\">{}</div></details>\n"
       "<p id=\"told\" role=\"status\"></p>\n</form>\n<div id=\"results\" hidden></div>\n",

@@ -55,7 +55,7 @@ std::string tiling(const MaterialSources& sources) {
   if (texture && texture->force.amplitude > 0 && texture->force.period == 0)
     return "single features; a second patch beside it begins anew";
   if (texture && texture->force.amplitude > 0)
-    return "does not repeat: its formula gives every place its own height, without a seam";
+    return "does not repeat: its formula gives every place its own force, without a seam";
   if (sources.figures->period) return "what is shown repeats every " + in_millimetres(*sources.figures->period);
   return "nothing repeats: it has no texture";
 }
@@ -119,11 +119,11 @@ Markup picture(const SiteMaterial& material, const MaterialSources& sources, con
           ? Markup()
           : html("<div class=\"touch\" data-touch=\"{}\" hidden>\n"
                  "<p class=\"hint\" id=\"touch-hint\">Move the pointer over it, or choose it and press the arrow keys: "
-                 "light follows the pointer, and the ring is where the force takes a light finger.</p>\n"
+                 "{}the ring is where the force takes a light finger.</p>\n"
                  "<p class=\"buttons\"><button type=\"button\" data-act=\"pull\" aria-pressed=\"true\">Pull</button>"
                  "<button type=\"button\" data-act=\"sound\" aria-pressed=\"false\">Sound</button></p>\n"
                  "<output class=\"felt\" aria-live=\"off\"></output></div>\n",
-                 way_to(figures.touch, path));
+                 way_to(figures.touch, path), figures.surface ? "light follows the pointer, and " : "");
   return html(
       "<figure class=\"relief\">\n<div class=\"stage\"><img src=\"{}\" width=\"320\" height=\"320\" alt=\"{}: {}, "
       "{}\"></div>\n<div class=\"scaleline\">{}</div>\n<figcaption>{}, {}{}.</figcaption>\n{}</figure>\n",

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "compiler/compare/compare.hpp"
 #include "compiler/modules/load_modules.hpp"
@@ -267,7 +268,12 @@ class SiteBuild {
         report_.left_out.push_back({material.name, material.file, material.trouble});
       }
     std::ranges::stable_sort(published_, [](const SiteMaterial* a, const SiteMaterial* b) {
-      return std::pair(without_capitals(a->shown()), a->page) < std::pair(without_capitals(b->shown()), b->page);
+      const auto key = [](const SiteMaterial& each) {
+        const std::string title = without_capitals(each.shown());
+        const bool begins_with_number = !title.empty() && title[0] >= '0' && title[0] <= '9';
+        return std::tuple(begins_with_number, title, each.page);  // numbered stimuli stand behind the names
+      };
+      return key(*a) < key(*b);
     });
   }
 

@@ -60,6 +60,11 @@ int main(int argc, char** argv) {
   pthread_sigmask(SIG_BLOCK, &ends, nullptr);  // the threads of the server too
 
   httplib::Server server;
+  // The library's own choice would let a second server share the port in silence.
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
   server.set_keep_alive_timeout(2);
   server.set_read_timeout(5, 0);
   server.set_payload_max_length(1 << 16);
