@@ -96,10 +96,11 @@ int become_server(const std::string& folder, std::uint64_t port) {
                         .sentence = fmt::format("the server cannot be started: {}", std::strerror(errno)),
                         .place = {.name = path}});
   }
-  return refuse(Error{.code = Code::missing_library,
-                      .sentence = "this Wale was built without its server, `wale-site-server`",
-                      .mend = fmt::format("open {}, which needs none; or install libcpp-httplib-dev and build Wale again",
-                                          visible_text((std::filesystem::path(folder) / "index.html").string()))});
+  return refuse(
+      Error{.code = Code::missing_library,
+            .sentence = "this Wale was built without its server, `wale-site-server`",
+            .mend = fmt::format("open {}, which needs none; or install libcpp-httplib-dev and build Wale again",
+                                visible_text((std::filesystem::path(folder) / "index.html").string()))});
 }
 
 int library_serve(LibrarySiteOptions& options) {

@@ -34,7 +34,8 @@ Json material_dataset(const SiteMaterial& material, const MaterialSources& sourc
                {"name", material.shown()}};
   Json others = Json::array({material.name});
   for (const EntryName& each : material.names)
-    others.push_back(each.language == "en" ? Json(each.text) : Json{{"@language", each.language}, {"@value", each.text}});
+    others.push_back(each.language == "en" ? Json(each.text)
+                                           : Json{{"@language", each.language}, {"@value", each.text}});
   data["alternateName"] = std::move(others);
   data["description"] = material.documentation.empty()
                             ? material.shown() + ": how it feels on a force-feedback joystick, read from its program"
@@ -55,7 +56,8 @@ Json material_dataset(const SiteMaterial& material, const MaterialSources& sourc
   if (whole && material.cues)
     for (const CueFacts& facts : cue_table())
       if (const auto& value = (*material.cues)[facts.kind]; value && std::isfinite(*value))
-        measured.push_back({{"@type", "PropertyValue"}, {"name", facts.name}, {"value", figure(*value)}, {"unitText", facts.unit}});
+        measured.push_back(
+            {{"@type", "PropertyValue"}, {"name", facts.name}, {"value", figure(*value)}, {"unitText", facts.unit}});
   data["variableMeasured"] = std::move(measured);
   Json distribution = Json::array();
   const auto offer = [&](const std::string& to, const char* format) {

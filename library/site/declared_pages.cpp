@@ -40,9 +40,10 @@ std::string declaration_at(const Span& span) {
 Markup written(const Span& span) {
   const std::string text = declaration_at(span);
   if (text.empty()) return {};
-  return html("<h2>As it is declared</h2>\n<pre class=\"wale\" tabindex=\"0\" role=\"region\" aria-label=\"Wale text\">"
-              "<code>{}</code></pre>\n",
-              highlighted(text));
+  return html(
+      "<h2>As it is declared</h2>\n<pre class=\"wale\" tabindex=\"0\" role=\"region\" aria-label=\"Wale text\">"
+      "<code>{}</code></pre>\n",
+      highlighted(text));
 }
 
 Markup quotations(const std::vector<std::string>& quotes) {
@@ -80,7 +81,8 @@ std::string new_path(const std::string& folder, const std::string& title, std::s
 }
 
 /// The materials in which a percept reads most, the greatest first.
-Markup strongest(const std::string& percept, const std::vector<const SiteMaterial*>& materials, const std::string& path) {
+Markup strongest(const std::string& percept, const std::vector<const SiteMaterial*>& materials,
+                 const std::string& path) {
   std::vector<std::pair<double, const SiteMaterial*>> found;
   for (const SiteMaterial* material : materials)
     for (const SitePercept& each : material->percepts)
@@ -108,8 +110,9 @@ SitePage percept_page(const Percept& percept, const Declarations& declarations, 
   }
   if (!percept.carrier.empty()) page.body += fact("Carried by", html("{}", percept.carrier));
   if (percept.has_reference)
-    page.body += fact("Level 1", html("{} in SI units, on {}", with_digits(percept.one, 4),
-                                      link(names.device(percept.reference_device), percept.reference_device, page.path)));
+    page.body +=
+        fact("Level 1", html("{} in SI units, on {}", with_digits(percept.one, 4),
+                             link(names.device(percept.reference_device), percept.reference_device, page.path)));
   else
     page.body += fact("Level 1", html("none is defined: it can be ordered, not measured"));
   if (percept.near_threshold > 0)
@@ -118,17 +121,18 @@ SitePage percept_page(const Percept& percept, const Declarations& declarations, 
   Markup rows;
   declarations.each_map([&](const Map& map) {
     if (map.percept != percept.name) return;
-    rows += html("<tr><th scope=\"row\">{}</th><td data-label=\"slope\">{}</td><td data-label=\"anchor\">{}</td><td "
-                 "data-label=\"handle\">{}</td><td data-label=\"on\">{}</td><td data-label=\"source\">{}</td></tr>\n",
-                 link(names.of(map), map_title(map), page.path), graded(map.slope),
-                 map.tied ? graded(map.anchor) : html("none"), graded(map.handle),
-                 link(names.device(map.device), map.device, page.path), map.source);
+    rows += html(
+        "<tr><th scope=\"row\">{}</th><td data-label=\"slope\">{}</td><td data-label=\"anchor\">{}</td><td "
+        "data-label=\"handle\">{}</td><td data-label=\"on\">{}</td><td data-label=\"source\">{}</td></tr>\n",
+        link(names.of(map), map_title(map), page.path), graded(map.slope), map.tied ? graded(map.anchor) : html("none"),
+        graded(map.handle), link(names.device(map.device), map.device, page.path), map.source);
   });
   page.body += rows.empty() ? html("<p>No map is known, so no level can be read.</p>\n")
-                            : html("<table><thead><tr><th scope=\"col\">map</th><th scope=\"col\">slope</th><th "
-                                   "scope=\"col\">anchor</th><th scope=\"col\">handle</th><th scope=\"col\">measured "
-                                   "on</th><th scope=\"col\">source</th></tr></thead>\n<tbody>{}</tbody></table>\n",
-                                   rows);
+                            : html(
+                                  "<table><thead><tr><th scope=\"col\">map</th><th scope=\"col\">slope</th><th "
+                                  "scope=\"col\">anchor</th><th scope=\"col\">handle</th><th scope=\"col\">measured "
+                                  "on</th><th scope=\"col\">source</th></tr></thead>\n<tbody>{}</tbody></table>\n",
+                                  rows);
   Markup thresholds;
   for (const Threshold* each : declarations.thresholds())
     if (!percept.cue.empty() && each->cue == percept.cue)
@@ -157,8 +161,8 @@ SitePage map_page(const Map& map, const DeclaredNames& names) {
   const LawUncertainty& law = map.uncertainty;
   if (law.observers > 0) page.body += fact("People", html("{}", law.observers));
   if (law.scatter > 0)
-    page.body += fact("Scatter", html("{} of log10 of magnitude{}", figure(law.scatter),
-                                      law.scatter_assumed ? ", assumed" : ""));
+    page.body += fact("Scatter",
+                      html("{} of log10 of magnitude{}", figure(law.scatter), law.scatter_assumed ? ", assumed" : ""));
   page.body += html("</dl>\n<h2>Passages that hold its figures</h2>\n{}", quotations(map.quotes));
   page.body += written(map.span);
   return page;
@@ -178,8 +182,8 @@ SitePage threshold_page(const Threshold& threshold, const DeclaredNames& names) 
   if (threshold.recognised > 0)
     page.body += fact("Recognised", html("{} sizes when each is felt alone", figure(threshold.recognised)));
   else
-    page.body += fact("Weber fraction", html("{} as published; {} at d’ = 1", figure(threshold.published),
-                                             figure(threshold.weber)));
+    page.body += fact("Weber fraction",
+                      html("{} as published; {} at d’ = 1", figure(threshold.published), figure(threshold.weber)));
   if (threshold.observers > 0) page.body += fact("People", html("{}", threshold.observers));
   if (threshold.valid) page.body += fact("Valid", html("{}", threshold.valid->written));
   page.body += html("</dl>\n<h2>Passages that hold its figures</h2>\n{}", quotations(threshold.quotes));
@@ -224,9 +228,8 @@ SitePage device_page(const DeviceDeclaration& device, const DeclaredNames& names
 
 DeclaredNames::DeclaredNames(const Declarations& declarations) : declarations_(&declarations) {
   std::set<std::string> taken;
-  declarations.percepts.each([&](const std::string& name, const Percept&) {
-    percepts_.try_emplace(name, new_path("percept", name, taken));
-  });
+  declarations.percepts.each(
+      [&](const std::string& name, const Percept&) { percepts_.try_emplace(name, new_path("percept", name, taken)); });
   declarations.devices.each([&](const std::string& name, const DeviceDeclaration&) {
     devices_.try_emplace(name, new_path("device", name, taken));
   });
@@ -267,23 +270,26 @@ std::vector<SitePage> declared_pages(const Declarations& declarations, const Dec
       return std::ranges::any_of(material->percepts,
                                  [&](const SitePercept& each) { return each.name == name && each.reads; });
     });
-    rows += html("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td data-label=\"carried by\">{}</td><td "
-                 "data-label=\"materials\">{}</td></tr>\n",
-                 names.percept(name), name, percept.carrier, count);
+    rows += html(
+        "<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td data-label=\"carried by\">{}</td><td "
+        "data-label=\"materials\">{}</td></tr>\n",
+        names.percept(name), name, percept.carrier, count);
     pages.push_back(percept_page(percept, declarations, names, materials));
   });
   declarations.each_map([&](const Map& map) {
-    map_rows += html("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td data-label=\"maps\">{}</td><td "
-                     "data-label=\"evidence\">{}</td><td data-label=\"source\">{}</td></tr>\n",
-                     names.of(map), map_title(map), map.percept,
-                     graded(std::max({map.slope, map.tied ? map.anchor : map.slope, map.handle})), map.source);
+    map_rows += html(
+        "<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td data-label=\"maps\">{}</td><td "
+        "data-label=\"evidence\">{}</td><td data-label=\"source\">{}</td></tr>\n",
+        names.of(map), map_title(map), map.percept,
+        graded(std::max({map.slope, map.tied ? map.anchor : map.slope, map.handle})), map.source);
     pages.push_back(map_page(map, names));
   });
   for (const Threshold* each : declarations.thresholds()) {
-    threshold_rows += html("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td data-label=\"cue\">{}</td><td "
-                           "data-label=\"evidence\">{}</td><td data-label=\"source\">{}</td></tr>\n",
-                           names.of(*each), threshold_title(*each), each->cue,
-                           graded(std::max(each->evidence, each->handle)), each->source);
+    threshold_rows += html(
+        "<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td data-label=\"cue\">{}</td><td "
+        "data-label=\"evidence\">{}</td><td data-label=\"source\">{}</td></tr>\n",
+        names.of(*each), threshold_title(*each), each->cue, graded(std::max(each->evidence, each->handle)),
+        each->source);
     pages.push_back(threshold_page(*each, names));
   }
   percepts.body = html(
@@ -292,7 +298,8 @@ std::vector<SitePage> declared_pages(const Declarations& declarations, const Dec
       "<th scope=\"col\">carried by</th><th scope=\"col\">materials</th></tr></thead>\n<tbody>{}</tbody></table>\n"
       "<h2>Maps</h2>\n<table><thead><tr><th scope=\"col\">map</th><th scope=\"col\">maps</th><th scope=\"col\">worst "
       "evidence</th><th scope=\"col\">source</th></tr></thead>\n<tbody>{}</tbody></table>\n<h2>Thresholds</h2>\n"
-      "<table><thead><tr><th scope=\"col\">threshold</th><th scope=\"col\">cue</th><th scope=\"col\">worst evidence</th>"
+      "<table><thead><tr><th scope=\"col\">threshold</th><th scope=\"col\">cue</th><th scope=\"col\">worst "
+      "evidence</th>"
       "<th scope=\"col\">source</th></tr></thead>\n<tbody>{}</tbody></table>\n",
       rows, map_rows, threshold_rows);
   SitePage devices{.path = "devices.html",
@@ -301,14 +308,16 @@ std::vector<SitePage> declared_pages(const Declarations& declarations, const Dec
                    .section = "devices.html"};
   Markup items;
   declarations.devices.each([&](const std::string& name, const DeviceDeclaration& device) {
-    items += html("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td data-label=\"source\">{}</td><td "
-                  "data-label=\"unknown\">{}</td></tr>\n",
-                  names.device(name), name, device.source, fmt::format("{}", fmt::join(device.unknown, ", ")));
+    items += html(
+        "<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td data-label=\"source\">{}</td><td "
+        "data-label=\"unknown\">{}</td></tr>\n",
+        names.device(name), name, device.source, fmt::format("{}", fmt::join(device.unknown, ", ")));
     pages.push_back(device_page(device, names));
   });
-  devices.body = html("<h1>Devices</h1>\n<table><thead><tr><th scope=\"col\">device</th><th scope=\"col\">source</th><th "
-                      "scope=\"col\">unknown</th></tr></thead>\n<tbody>{}</tbody></table>\n",
-                      items);
+  devices.body = html(
+      "<h1>Devices</h1>\n<table><thead><tr><th scope=\"col\">device</th><th scope=\"col\">source</th><th "
+      "scope=\"col\">unknown</th></tr></thead>\n<tbody>{}</tbody></table>\n",
+      items);
   pages.push_back(std::move(percepts));
   pages.push_back(std::move(devices));
   return pages;
@@ -343,11 +352,11 @@ SitePage unknown_page(const Declarations& declarations, const DeclaredNames& nam
                       fmt::format("{}", fmt::join(device.unknown, ", ")));
   });
   for (const SiteMaterial* each : left_out)
-    kept_back += html("<li>{} <small>({})</small>: {}</li>\n", each->name,
-                      each->module,
+    kept_back += html("<li>{} <small>({})</small>: {}</li>\n", each->name, each->module,
                       each->unlicensed ? each->trouble : std::string("it has an error"));
-  page.body = html("<h1>What is unknown</h1>\n<p>What no publication says and nobody measured. Whoever measures it can "
-                   "contradict these pages.</p>\n<h2>Of materials</h2>\n");
+  page.body = html(
+      "<h1>What is unknown</h1>\n<p>What no publication says and nobody measured. Whoever measures it can "
+      "contradict these pages.</p>\n<h2>Of materials</h2>\n");
   page.body += rows.empty() ? html("<p>Nothing.</p>\n") : html("<ul>{}</ul>\n", rows);
   if (count > most_rows) page.body += html("<p>And {} more.</p>\n", count - most_rows);
   page.body += html("<h2>Of maps</h2>\n<ul>{}</ul>\n<h2>Of devices</h2>\n<ul>{}</ul>\n", maps, devices);

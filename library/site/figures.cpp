@@ -15,10 +15,10 @@
 namespace wale {
 namespace {
 
-constexpr int slope_side = 200;     // pixels of the table of slopes, which scripts light
-constexpr int force_side = 96;      // places of the table of forces
-constexpr int speed_count = 65;     // speeds of the table of the force against velocity
-constexpr float steepest = 3;       // of the slopes as they are drawn
+constexpr int slope_side = 200;       // pixels of the table of slopes, which scripts light
+constexpr int force_side = 96;        // places of the table of forces
+constexpr int speed_count = 65;       // speeds of the table of the force against velocity
+constexpr float steepest = 3;         // of the slopes as they are drawn
 constexpr double least_force = 1e-4;  // N
 
 std::string as_text(const std::vector<std::byte>& bytes) {
@@ -86,8 +86,8 @@ Drawing halved(const Drawing& drawing) {
 
 /// The surface as a script lights it.
 struct Slopes {
-  Drawing drawing;    ///< red: slope to the right, green: upwards, both over `steepest`; blue: height
-  Drawing colours;    ///< of the material itself; empty if it has none
+  Drawing drawing;  ///< red: slope to the right, green: upwards, both over `steepest`; blue: height
+  Drawing colours;  ///< of the material itself; empty if it has none
   double lowest = 0, highest = 0;
 };
 
@@ -117,7 +117,8 @@ Slopes slopes_of(const Bank& bank, const PreviewParts& parts) {
   std::vector<glm::vec2> all;
   for (int row = 0; row < slope_side; ++row)
     for (int column = 0; column < slope_side; ++column)
-      all.emplace_back((at(column + 1, row) - at(column - 1, row)) / 2, (at(column, row - 1) - at(column, row + 1)) / 2);
+      all.emplace_back((at(column + 1, row) - at(column - 1, row)) / 2,
+                       (at(column, row - 1) - at(column, row + 1)) / 2);
   // As steep as in the preview (compiler/preview/relief.cpp): by how strongly the texture is felt.
   std::vector<float> steepness;
   for (const glm::vec2 slope : all) steepness.push_back(std::hypot(slope.x, slope.y));
@@ -138,7 +139,8 @@ Slopes slopes_of(const Bank& bank, const PreviewParts& parts) {
     for (int column = 0; column < slope_side; ++column) {
       const glm::vec3 colour = colours[static_cast<std::size_t>((row + 1) * side + column + 1)];
       for (int part = 0; part < 3; ++part)
-        slopes.colours.rgb.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(colour[part], 0.0f, 1.0f))));
+        slopes.colours.rgb.push_back(
+            static_cast<std::uint8_t>(std::lround(255 * std::clamp(colour[part], 0.0f, 1.0f))));
     }
   return slopes;
 }

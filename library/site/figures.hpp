@@ -28,12 +28,13 @@ struct SiteFigures {
   std::vector<SiteFile> files;
   std::string picture, small;  ///< paths; the second is for lists
   std::vector<SitePlot> plots;
-  std::string touch;  ///< path of the script with the surface's slopes and the table of the force; empty for a pad
-  bool surface = false;          ///< the pictures are the lit surface; otherwise they are the field of the force
-  double side = 0;               ///< m, of the pictures; m/s each way if `of_velocity`
-  bool of_velocity = false;      ///< the field is over velocities
-  bool whole = false;            ///< the pictures show the whole patch
-  std::optional<double> height;  ///< m: from the lowest to the highest place shown; nothing if heights are plain numbers
+  std::string touch;     ///< path of the script with the surface's slopes and the table of the force; empty for a pad
+  bool surface = false;  ///< the pictures are the lit surface; otherwise they are the field of the force
+  double side = 0;       ///< m, of the pictures; m/s each way if `of_velocity`
+  bool of_velocity = false;  ///< the field is over velocities
+  bool whole = false;        ///< the pictures show the whole patch
+  std::optional<double>
+      height;  ///< m: from the lowest to the highest place shown; nothing if heights are plain numbers
   std::optional<double> period;  ///< m: of the relief shown
 };
 

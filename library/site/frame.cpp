@@ -54,8 +54,7 @@ std::string framed(const SitePage& page) {
                                                        : Markup(),
                            each.word));
   std::vector<Markup> scripts;
-  for (const std::string& path : page.scripts)
-    scripts.push_back(html("<script src=\"{}\" defer></script>", way(path)));
+  for (const std::string& path : page.scripts) scripts.push_back(html("<script src=\"{}\" defer></script>", way(path)));
   // Scripts come from files alone, so that a tag which somebody got into a text would not run.
   return html(
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

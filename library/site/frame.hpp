@@ -10,12 +10,12 @@ namespace wale {
 
 /// A page of the site, without what all of them share.
 struct SitePage {
-  std::string path;         ///< "material/corduroy.html"
-  std::string title;        ///< "Wide-wale corduroy"
-  std::string description;  ///< a line for search engines
-  std::string section;      ///< path of the entry of the menu that it belongs to, "index.html"
-  Markup body;              ///< what stands in `main`
-  Markup head;              ///< more for `head`, such as its data
+  std::string path;                  ///< "material/corduroy.html"
+  std::string title;                 ///< "Wide-wale corduroy"
+  std::string description;           ///< a line for search engines
+  std::string section;               ///< path of the entry of the menu that it belongs to, "index.html"
+  Markup body;                       ///< what stands in `main`
+  Markup head;                       ///< more for `head`, such as its data
   std::vector<std::string> scripts;  ///< paths in the site
 };
 

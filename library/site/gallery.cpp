@@ -32,7 +32,8 @@ Markup pager(const std::string& base, std::size_t page, std::size_t pages, const
     const bool near = i + 2 >= page && i <= page + 2;
     if (!near && i != 0 && i + 1 != pages && i % 50 != 0) continue;
     if (i > before + 1) links.push_back(html("<li>…</li>"));
-    links.push_back(i == page ? html("<li><a aria-current=\"page\" href=\"{}\">{}</a></li>", way_to(list_path(base, i), path), i + 1)
+    links.push_back(i == page ? html("<li><a aria-current=\"page\" href=\"{}\">{}</a></li>",
+                                     way_to(list_path(base, i), path), i + 1)
                               : html("<li><a href=\"{}\">{}</a></li>", way_to(list_path(base, i), path), i + 1));
     before = i;
   }
@@ -74,30 +75,36 @@ Markup kind_links(const std::map<std::string, std::vector<const SiteMaterial*>>&
   for (const auto& [kind, materials] : kinds) {
     const std::size_t dot = kind.rfind('.');
     if ((dot == std::string::npos ? "" : kind.substr(0, dot)) != under) continue;
-    items += html("<li><a href=\"{}\">{}</a> <small>{}</small>{}</li>\n",
-                  way_to("kind/" + page_name(kind) + ".html", path), kind, materials.size(),
-                  kind_links(kinds, kind, path));
+    items +=
+        html("<li><a href=\"{}\">{}</a> <small>{}</small>{}</li>\n", way_to("kind/" + page_name(kind) + ".html", path),
+             kind, materials.size(), kind_links(kinds, kind, path));
   }
   return items.empty() ? Markup() : html("<ul class=\"kinds\">{}</ul>\n", items);
 }
 
-Markup search_form(const std::set<std::string>& percepts, const std::map<std::string, std::vector<const SiteMaterial*>>& kinds) {
+Markup search_form(const std::set<std::string>& percepts,
+                   const std::map<std::string, std::vector<const SiteMaterial*>>& kinds) {
   Markup kind_options, filters, orders;
   for (const auto& [kind, materials] : kinds) kind_options += html("<option value=\"{}\">{}</option>", kind, kind);
   for (const std::string& percept : percepts) {
     orders += html("<option value=\"{}\">{}</option>", percept, percept);
     filters += html(
         "<fieldset class=\"range\"><legend>{}</legend>"
-        "<label>from <input type=\"number\" inputmode=\"decimal\" min=\"0\" max=\"2\" step=\"0.05\" data-least=\"{}\"></label> "
-        "<label>to <input type=\"number\" inputmode=\"decimal\" min=\"0\" max=\"2\" step=\"0.05\" data-most=\"{}\"></label>"
+        "<label>from <input type=\"number\" inputmode=\"decimal\" min=\"0\" max=\"2\" step=\"0.05\" "
+        "data-least=\"{}\"></label> "
+        "<label>to <input type=\"number\" inputmode=\"decimal\" min=\"0\" max=\"2\" step=\"0.05\" "
+        "data-most=\"{}\"></label>"
         "</fieldset>\n",
         percept, percept, percept);
   }
   return html(
-      "<form id=\"search\" role=\"search\" hidden>\n<p class=\"line\"><span class=\"words\"><label for=\"words\">Search</label>\n"
-      "<input id=\"words\" type=\"search\" autocomplete=\"off\" spellcheck=\"false\" placeholder=\"rough ribbed cotton\"></span>\n"
+      "<form id=\"search\" role=\"search\" hidden>\n<p class=\"line\"><span class=\"words\"><label "
+      "for=\"words\">Search</label>\n"
+      "<input id=\"words\" type=\"search\" autocomplete=\"off\" spellcheck=\"false\" placeholder=\"rough ribbed "
+      "cotton\"></span>\n"
       "<span><label for=\"kind\">Kind</label>\n<select id=\"kind\"><option value=\"\">all</option>{}</select></span>\n"
-      "<span><label for=\"order\">Order</label>\n<select id=\"order\"><option value=\"\">best match</option>{}</select></span>\n"
+      "<span><label for=\"order\">Order</label>\n<select id=\"order\"><option value=\"\">best "
+      "match</option>{}</select></span>\n"
       "<label class=\"reverse\"><input type=\"checkbox\" id=\"reverse\"> least first</label></p>\n"
       "<details id=\"ranges\"><summary>Levels that it reads</summary><div class=\"ranges\">{}</div></details>\n"
       "<p id=\"told\" role=\"status\"></p>\n</form>\n<div id=\"results\" hidden></div>\n",
@@ -118,24 +125,27 @@ std::vector<SitePage> gallery_pages(const std::vector<const SiteMaterial*>& mate
   std::erase_if(modules, [](const auto& each) { return each.second.size() < 2; });
   std::vector<SitePage> pages;
 
-  SitePage first{.path = "index.html",
-                 .title = "Materials",
-                 .description = fmt::format("{} materials to feel, found by word and by how they feel", materials.size()),
-                 .section = "index.html"};
+  SitePage first{
+      .path = "index.html",
+      .title = "Materials",
+      .description = fmt::format("{} materials to feel, found by word and by how they feel", materials.size()),
+      .section = "index.html"};
   first.scripts = {"site.js", "data/search.js", "search.js"};
   std::vector<Markup> tops;
   for (const auto& [kind, all] : kinds)
     if (kind.find('.') == std::string::npos)
       tops.push_back(html("<li><a href=\"kind/{}.html\">{}</a></li>", page_name(kind), kind));
-  first.body = html("<h1>Materials</h1>\n<p class=\"about\">{} materials for force-feedback joysticks, each with its size, "
-                    "its relief, how it feels and on what evidence.</p>\n{}",
-                    materials.size(), search_form(percepts, kinds));
+  first.body = html(
+      "<h1>Materials</h1>\n<p class=\"about\">{} materials for force-feedback joysticks, each with its size, "
+      "its relief, how it feels and on what evidence.</p>\n{}",
+      materials.size(), search_form(percepts, kinds));
   first.body += html("<div id=\"browse\">\n<ul class=\"tops\" aria-label=\"Kinds\">{}</ul>\n", joined(tops, ""));
   const std::size_t count = std::max<std::size_t>(1, (materials.size() + on_a_page - 1) / on_a_page);
   first.body += cards_of(materials, 0, first.path);
   first.body += pager("all", 0, count, first.path);
-  first.body += html("</div>\n<noscript><p>The search needs scripts; <a href=\"all.html\">the list</a> and <a "
-                     "href=\"collections.html\">the collections</a> do not.</p></noscript>\n");
+  first.body += html(
+      "</div>\n<noscript><p>The search needs scripts; <a href=\"all.html\">the list</a> and <a "
+      "href=\"collections.html\">the collections</a> do not.</p></noscript>\n");
   pages.push_back(std::move(first));
   add_list(pages, "all", "All materials", {}, materials, "index.html");
 

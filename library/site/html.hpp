@@ -47,10 +47,7 @@ inline std::string safe(std::string_view part) { return escaped(part); }
 inline std::string safe(const std::string& part) { return escaped(part); }
 inline std::string safe(const char* part) { return escaped(part); }
 template <class Number>
-  requires std::integral<Number> || std::floating_point<Number>
-Number safe(Number part) {
-  return part;
-}
+requires std::integral<Number> || std::floating_point<Number> Number safe(Number part) { return part; }
 }  // namespace parts_of_markup
 
 /// The template with its parts: a `Markup` as it is, a number as fmt writes it, and any other text escaped.

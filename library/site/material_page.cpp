@@ -83,7 +83,8 @@ Markup first_facts(const SiteMaterial& material, const MaterialSources& sources,
     row("Pushes", html("<data value=\"{}\" class=\"newton\">{}</data> at most", figure(told.force.max_newton),
                        in_newtons(told.force.max_newton)));
   if (!material.kind.empty())
-    row("Kind", html("<a href=\"{}\">{}</a>", way_to("kind/" + page_name(material.kind) + ".html", path), material.kind));
+    row("Kind",
+        html("<a href=\"{}\">{}</a>", way_to("kind/" + page_name(material.kind) + ".html", path), material.kind));
   return html("<dl class=\"facts\">\n{}</dl>\n", rows);
 }
 
@@ -103,27 +104,30 @@ Markup picture(const SiteMaterial& material, const MaterialSources& sources, con
   const SiteFigures& figures = *sources.figures;
   const std::string across = figures.of_velocity ? fmt::format("{} m/s to each side", shown_number(figures.side))
                                                  : in_millimetres(figures.side) + " wide";
-  const std::string what = figures.surface      ? "Its surface in the light"
+  const std::string what = figures.surface       ? "Its surface in the light"
                            : figures.of_velocity ? "The force over the hand’s velocity, as arrows"
                                                  : "The force on a hand at rest, as arrows";
   const Notation length = length_notation(figures.side);
   const double bar = round_number(figures.side * length.per_si / 3);
   const Markup scale =
-      figures.of_velocity ? Markup()
-                          : html("<svg class=\"scale\" viewBox=\"0 0 100 6\" role=\"img\" aria-label=\"A bar of {} {}\">"
-                                 "<path d=\"M0.5 1v4M0.5 3h{:.2f}v-2v4\"/><text x=\"{:.2f}\" y=\"4.6\">{} {}</text></svg>",
-                                 shown_number(bar), length.unit, 100 * bar / (figures.side * length.per_si),
-                                 100 * bar / (figures.side * length.per_si) + 2.5, shown_number(bar), length.unit);
+      figures.of_velocity
+          ? Markup()
+          : html(
+                "<svg class=\"scale\" viewBox=\"0 0 100 6\" role=\"img\" aria-label=\"A bar of {} {}\">"
+                "<path d=\"M0.5 1v4M0.5 3h{:.2f}v-2v4\"/><text x=\"{:.2f}\" y=\"4.6\">{} {}</text></svg>",
+                shown_number(bar), length.unit, 100 * bar / (figures.side * length.per_si),
+                100 * bar / (figures.side * length.per_si) + 2.5, shown_number(bar), length.unit);
   const Markup hand =
       figures.touch.empty() || figures.of_velocity
           ? Markup()
-          : html("<div class=\"touch\" data-touch=\"{}\" hidden>\n"
-                 "<p class=\"hint\" id=\"touch-hint\">Move the pointer over it, or choose it and press the arrow keys: "
-                 "{}the ring is where the force takes a light finger.</p>\n"
-                 "<p class=\"buttons\"><button type=\"button\" data-act=\"pull\" aria-pressed=\"true\">Pull</button>"
-                 "<button type=\"button\" data-act=\"sound\" aria-pressed=\"false\">Sound</button></p>\n"
-                 "<output class=\"felt\" aria-live=\"off\"></output></div>\n",
-                 way_to(figures.touch, path), figures.surface ? "light follows the pointer, and " : "");
+          : html(
+                "<div class=\"touch\" data-touch=\"{}\" hidden>\n"
+                "<p class=\"hint\" id=\"touch-hint\">Move the pointer over it, or choose it and press the arrow keys: "
+                "{}the ring is where the force takes a light finger.</p>\n"
+                "<p class=\"buttons\"><button type=\"button\" data-act=\"pull\" aria-pressed=\"true\">Pull</button>"
+                "<button type=\"button\" data-act=\"sound\" aria-pressed=\"false\">Sound</button></p>\n"
+                "<output class=\"felt\" aria-live=\"off\"></output></div>\n",
+                way_to(figures.touch, path), figures.surface ? "light follows the pointer, and " : "");
   return html(
       "<figure class=\"relief\">\n<div class=\"stage\"><img src=\"{}\" width=\"320\" height=\"320\" alt=\"{}: {}, "
       "{}\"></div>\n<div class=\"scaleline\">{}</div>\n<figcaption>{}, {}{}.</figcaption>\n{}</figure>\n",
@@ -133,15 +137,14 @@ Markup picture(const SiteMaterial& material, const MaterialSources& sources, con
 
 std::string means_words(const DescribedPercept& percept) {
   const LawUncertainty& law = percept.uncertainty;
-  std::string text =
-      readable("95 % of the means of {}: {}{:.2f} to {:.2f}{}",
-               law.observers > 0 ? readable("{} people", law.observers) : "groups",
-               percept.intervals.means_differ_more ? "at least " : "", percept.intervals.means.low,
-               percept.intervals.means.high, law.scatter_assumed ? " (scatter assumed)" : "");
+  std::string text = readable("95 % of the means of {}: {}{:.2f} to {:.2f}{}",
+                              law.observers > 0 ? readable("{} people", law.observers) : "groups",
+                              percept.intervals.means_differ_more ? "at least " : "", percept.intervals.means.low,
+                              percept.intervals.means.high, law.scatter_assumed ? " (scatter assumed)" : "");
   if (percept.intervals.people)
-    text += readable("; of single people: {:.2f} to {:.2f}{}", percept.intervals.people->low,
-                     percept.intervals.people->high,
-                     law.spread_assumed || law.noise_assumed ? " (partly assumed)" : "");
+    text +=
+        readable("; of single people: {:.2f} to {:.2f}{}", percept.intervals.people->low,
+                 percept.intervals.people->high, law.spread_assumed || law.noise_assumed ? " (partly assumed)" : "");
   return text;
 }
 
@@ -168,7 +171,8 @@ Markup percept_row(const DescribedPercept& percept, const MaterialSources& sourc
   if (percept.saturated) why += html("<li>the device gives less than this needs</li>");
   if (!why.empty()) why = html("<ul>{}</ul>", why);
   return html(
-      "<tr data-percept=\"{}\"><th scope=\"row\">{}</th><td data-label=\"asked\">{}</td><td data-label=\"reads\">{}</td>"
+      "<tr data-percept=\"{}\"><th scope=\"row\">{}</th><td data-label=\"asked\">{}</td><td "
+      "data-label=\"reads\">{}</td>"
       "<td class=\"bar\" data-label=\"95 %\">{}</td><td data-label=\"evidence\"><strong class=\"grade {}\">{}</strong>"
       "<br><small>slope {}, anchor {}, handle {}, {}<br>{}, by {} on {}</small>{}</td></tr>\n",
       percept.name, linked(names.percept(percept.name), percept.name, path), asked, reads, bar, grade, grade,
@@ -184,10 +188,11 @@ Markup lost_rows(const MaterialSources& sources, const std::string& path) {
     const bool told = std::ranges::any_of(sources.description->percepts,
                                           [&](const DescribedPercept& each) { return each.name == percept.name; });
     if (told || !percept.asked) continue;
-    rows += html("<tr><th scope=\"row\">{}</th><td data-label=\"asked\">{}</td><td data-label=\"reads\">none</td>"
-                 "<td></td><td data-label=\"evidence\">lost on {}</td></tr>\n",
-                 linked(sources.names->percept(percept.name), percept.name, path), with_decimals(*percept.asked, 2),
-                 sources.entry->device);
+    rows += html(
+        "<tr><th scope=\"row\">{}</th><td data-label=\"asked\">{}</td><td data-label=\"reads\">none</td>"
+        "<td></td><td data-label=\"evidence\">lost on {}</td></tr>\n",
+        linked(sources.names->percept(percept.name), percept.name, path), with_decimals(*percept.asked, 2),
+        sources.entry->device);
   }
   return rows;
 }
@@ -198,9 +203,10 @@ Markup percepts(const MaterialSources& sources, const std::string& path) {
   for (const DescribedPercept& each : told.percepts) rows += percept_row(each, sources, path);
   rows += lost_rows(sources, path);
   if (rows.empty())
-    return html("<section aria-labelledby=\"feels\"><h2 id=\"feels\">How it feels</h2>\n<p>No percept can be read: "
-                "{}.</p></section>\n",
-                told.no_percept.empty() ? "no map tells what it pushes" : told.no_percept);
+    return html(
+        "<section aria-labelledby=\"feels\"><h2 id=\"feels\">How it feels</h2>\n<p>No percept can be read: "
+        "{}.</p></section>\n",
+        told.no_percept.empty() ? "no map tells what it pushes" : told.no_percept);
   return html(
       "<section aria-labelledby=\"feels\"><h2 id=\"feels\">How it feels</h2>\n"
       "<p>Built for {}. Asked is what the author wrote; reads is what the finished program gives.</p>\n"
@@ -213,12 +219,14 @@ Markup percepts(const MaterialSources& sources, const std::string& path) {
 Markup plots(const MaterialSources& sources, const std::string& path) {
   Markup all;
   for (const SitePlot& plot : sources.figures->plots)
-    all += html("<figure class=\"plot\"><img src=\"{}\" width=\"560\" height=\"280\" loading=\"lazy\" alt=\"{}\"></figure>\n",
-                way_to(plot.path, path), plot.title);
+    all += html(
+        "<figure class=\"plot\"><img src=\"{}\" width=\"560\" height=\"280\" loading=\"lazy\" alt=\"{}\"></figure>\n",
+        way_to(plot.path, path), plot.title);
   if (all.empty()) return {};
-  return html("<section aria-labelledby=\"plots\"><h2 id=\"plots\">Profile, force and spectrum</h2>\n<div "
-              "class=\"plots\">{}</div></section>\n",
-              all);
+  return html(
+      "<section aria-labelledby=\"plots\"><h2 id=\"plots\">Profile, force and spectrum</h2>\n<div "
+      "class=\"plots\">{}</div></section>\n",
+      all);
 }
 
 Markup parameters(const Description& told) {
@@ -227,44 +235,49 @@ Markup parameters(const Description& told) {
   for (const Parameter& each : told.parameters) {
     const std::string unit = each.unit.empty() ? "" : " " + each.unit;
     const auto value = [&](float si) { return fmt::format("{}", shown(si, each.unit_in_si)); };
-    rows += html("<tr><th scope=\"row\"><code>{}</code></th><td data-label=\"default\"><data value=\"{}\">{}{}</data></td>"
-                 "<td data-label=\"range\">{} to {}{}</td><td data-label=\"meaning\">{}</td></tr>\n",
-                 each.name, value(each.value), value(each.value), unit, value(each.low), value(each.high), unit,
-                 each.description);
+    rows += html(
+        "<tr><th scope=\"row\"><code>{}</code></th><td data-label=\"default\"><data value=\"{}\">{}{}</data></td>"
+        "<td data-label=\"range\">{} to {}{}</td><td data-label=\"meaning\">{}</td></tr>\n",
+        each.name, value(each.value), value(each.value), unit, value(each.low), value(each.high), unit,
+        each.description);
   }
-  return html("<section aria-labelledby=\"parameters\"><h2 id=\"parameters\">Parameters</h2>\n<table><thead><tr><th "
-              "scope=\"col\">name</th><th scope=\"col\">default</th><th scope=\"col\">range</th><th "
-              "scope=\"col\">meaning</th></tr></thead>\n<tbody>{}</tbody></table></section>\n",
-              rows);
+  return html(
+      "<section aria-labelledby=\"parameters\"><h2 id=\"parameters\">Parameters</h2>\n<table><thead><tr><th "
+      "scope=\"col\">name</th><th scope=\"col\">default</th><th scope=\"col\">range</th><th "
+      "scope=\"col\">meaning</th></tr></thead>\n<tbody>{}</tbody></table></section>\n",
+      rows);
 }
 
 Markup stability(const Description& told) {
   if (told.shaking) return {};
   const auto assumed = told.grade.assumed_standing();
-  return html("<p>Alone in a loop with the device: {}{}. With any parameters it never pushes more than <data "
-              "value=\"{}\">{}</data>, which is proved.</p>\n",
-              standing_word(told.grade.standing),
-              assumed ? readable(" ({} by assumed figures)", standing_word(*assumed)) : std::string(),
-              figure(told.bound.newton), in_newtons(told.bound.newton));
+  return html(
+      "<p>Alone in a loop with the device: {}{}. With any parameters it never pushes more than <data "
+      "value=\"{}\">{}</data>, which is proved.</p>\n",
+      standing_word(told.grade.standing),
+      assumed ? readable(" ({} by assumed figures)", standing_word(*assumed)) : std::string(),
+      figure(told.bound.newton), in_newtons(told.bound.newton));
 }
 
 Markup downloads(const SiteMaterial& material, const MaterialSources& sources, const std::string& path) {
   Markup rows;
   const auto row = [&](const std::string& to, const std::string& what) {
     if (!to.empty())
-      rows += html("<li><a href=\"{}\" download>{}</a> {}</li>\n", way_to(to, path), to.substr(to.rfind('/') + 1), what);
+      rows +=
+          html("<li><a href=\"{}\" download>{}</a> {}</li>\n", way_to(to, path), to.substr(to.rfind('/') + 1), what);
   };
   row(sources.source, "the file, in Wale");
   row(sources.program_path, "patch program for " + sources.entry->device + ", as wale build makes it");
   row(sources.header_path, "C++17 header for firmware");
   row("material/" + material.page + ".json", "all figures of this page");
-  return html("<section aria-labelledby=\"take\"><h2 id=\"take\">Take it along</h2>\n<ul class=\"downloads\">{}</ul>\n"
-              "{}<p>Licence: {}.</p></section>\n",
-              rows,
-              sources.source.empty() ? html("<p>Its file holds other materials that may not be passed on, so only this "
-                                            "declaration is shown.</p>\n")
-                                     : Markup(),
-              material.licence);
+  return html(
+      "<section aria-labelledby=\"take\"><h2 id=\"take\">Take it along</h2>\n<ul class=\"downloads\">{}</ul>\n"
+      "{}<p>Licence: {}.</p></section>\n",
+      rows,
+      sources.source.empty() ? html("<p>Its file holds other materials that may not be passed on, so only this "
+                                    "declaration is shown.</p>\n")
+                             : Markup(),
+      material.licence);
 }
 
 Markup about(const SiteMaterial& material) {
@@ -332,19 +345,20 @@ SitePage material_page(const SiteMaterial& material, const MaterialSources& sour
   page.body += parameters(told);
   page.body += html("<section aria-labelledby=\"near\"><h2 id=\"near\">Neighbours by feel</h2>\n");
   page.body += trusted_markup(std::string(neighbours_begin) + std::string(neighbours_end));
-  page.body += html("</section>\n<section aria-labelledby=\"source\"><h2 id=\"source\">As it is written</h2>\n<pre "
-                    "class=\"wale\" tabindex=\"0\" role=\"region\" aria-label=\"Wale text\"><code>{}</code></pre></section>\n",
-                    highlighted(sources.text));
+  page.body += html(
+      "</section>\n<section aria-labelledby=\"source\"><h2 id=\"source\">As it is written</h2>\n<pre "
+      "class=\"wale\" tabindex=\"0\" role=\"region\" aria-label=\"Wale text\"><code>{}</code></pre></section>\n",
+      highlighted(sources.text));
   page.body += downloads(material, sources, page.path);
-  page.body += html("<details><summary>All that <code>wale describe</code> says</summary>\n<pre tabindex=\"0\">{}</pre>"
-                    "</details>\n</article>\n",
-                    trusted_markup(escaped(description_text(told), true)));
+  page.body += html(
+      "<details><summary>All that <code>wale describe</code> says</summary>\n<pre tabindex=\"0\">{}</pre>"
+      "</details>\n</article>\n",
+      trusted_markup(escaped(description_text(told), true)));
   return page;
 }
 
 Markup neighbours_markup(const std::vector<SiteNeighbour>& neighbours, const std::string& path) {
-  if (neighbours.empty())
-    return html("<p>No other material here can be compared with it.</p>\n");
+  if (neighbours.empty()) return html("<p>No other material here can be compared with it.</p>\n");
   Markup cards;
   for (const SiteNeighbour& each : neighbours) {
     const std::string far =
@@ -354,13 +368,15 @@ Markup neighbours_markup(const std::vector<SiteNeighbour>& neighbours, const std
     for (std::size_t i = 0; i < std::min(most_named, each.unknown.size()); ++i)
       why += (i == 0 ? "; no threshold is known for " : ", ") + each.unknown[i];
     if (each.unknown.size() > most_named) why += fmt::format(" and {} more", each.unknown.size() - most_named);
-    cards += html("<li class=\"card\"><a href=\"{}\"><img src=\"{}\" width=\"160\" height=\"160\" loading=\"lazy\" "
-                  "alt=\"\"><strong>{}</strong></a><small>{} just noticeable differences{}</small></li>\n",
-                  way_to("material/" + each.material->page + ".html", path), way_to(each.material->small, path),
-                  each.material->shown(), far, why);
+    cards += html(
+        "<li class=\"card\"><a href=\"{}\"><img src=\"{}\" width=\"160\" height=\"160\" loading=\"lazy\" "
+        "alt=\"\"><strong>{}</strong></a><small>{} just noticeable differences{}</small></li>\n",
+        way_to("material/" + each.material->page + ".html", path), way_to(each.material->small, path),
+        each.material->shown(), far, why);
   }
-  return html("<p>By the cue that differs most; below 1, people hardly tell them apart.</p>\n<ul class=\"cards\">\n{}</ul>\n",
-              cards);
+  return html(
+      "<p>By the cue that differs most; below 1, people hardly tell them apart.</p>\n<ul class=\"cards\">\n{}</ul>\n",
+      cards);
 }
 
 std::string with_neighbours(std::string page, const Markup& neighbours) {

@@ -21,8 +21,8 @@ struct MaterialSources {
   const SiteFigures* figures = nullptr;
   const DeclaredNames* names = nullptr;  ///< the pages that a percept, a map or a device has
   const PatchProgram* program = nullptr;
-  std::string text;      ///< of its declaration, or of its file if that holds nothing else
-  std::string source;    ///< path of the `.wale` file; empty if not all of it may be passed on
+  std::string text;                       ///< of its declaration, or of its file if that holds nothing else
+  std::string source;                     ///< path of the `.wale` file; empty if not all of it may be passed on
   std::string program_path, header_path;  ///< of the downloads; the second is empty without C++
 };
 

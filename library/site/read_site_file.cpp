@@ -102,13 +102,15 @@ std::vector<std::string> what_is_unknown(const Description& told) {
     if (!line.empty()) lines.push_back(std::move(line));
   }
   if (told.percepts.empty())
-    lines.push_back("no percept: " + (told.no_percept.empty() ? std::string("no map tells what it pushes") : told.no_percept));
+    lines.push_back("no percept: " +
+                    (told.no_percept.empty() ? std::string("no map tells what it pushes") : told.no_percept));
   return lines;
 }
 
 SiteMaterial words_of_entry(const Entry& entry) {
   SiteMaterial material;
-  material.name = entry.name, material.module = entry.module, material.file = entry.file, material.folder = entry.folder;
+  material.name = entry.name, material.module = entry.module, material.file = entry.file,
+  material.folder = entry.folder;
   material.kind = entry.kind, material.title = entry.title, material.documentation = entry.documentation;
   material.licence = entry.licence, material.names = entry.names, material.feels = entry.feels;
   material.asks = entry.asks, material.replaces = entry.replaces, material.sources = entry.sources;
@@ -212,10 +214,8 @@ Result<SiteInputRead> read_site_file(const SiteInput& input, const FileRequest& 
       add_feel(material, entry);
       MaterialSources sources{.names = &names};
       sources.source = source;
-      sources.text =
-          shown_source(read->entries.size() == 1 && all_may ? text : declaration_of(tree, text, entry.name));
-      const auto written =
-          write_material(material, entry, opened.module->declarations(), std::move(sources), folder);
+      sources.text = shown_source(read->entries.size() == 1 && all_may ? text : declaration_of(tree, text, entry.name));
+      const auto written = write_material(material, entry, opened.module->declarations(), std::move(sources), folder);
       if (!written) return written.error();
     }
     if (!material.published()) {

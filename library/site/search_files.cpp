@@ -57,7 +57,8 @@ std::vector<SiteFile> search_files(const std::vector<const SiteMaterial*>& mater
     if (is_new) kinds.push_back(material.kind);
     kind_of.push_back(number->second);
     cards.push_back({material.page, visible_text(material.shown()), visible_text(material.kind), material.small,
-                     material.of_velocity ? "force over velocity" : in_millimetres(material.side) + " wide", card_levels});
+                     material.of_velocity ? "force over velocity" : in_millimetres(material.side) + " wide",
+                     card_levels});
     if (cards.size() == cards_in_a_file || i + 1 == materials.size()) {
       files.push_back(data_file("cards-p" + std::to_string(i / cards_in_a_file), cards));
       cards = Json::array();
@@ -88,10 +89,8 @@ std::vector<SiteFile> search_files(const std::vector<const SiteMaterial*>& mater
     if (bytes > words_in_a_file) end_piece();
   }
   end_piece();
-  files.push_back(data_file("search", {{"materials", materials.size()},
-                                       {"length", length},
-                                       {"cards", cards_in_a_file},
-                                       {"begins", begins}}));
+  files.push_back(data_file(
+      "search", {{"materials", materials.size()}, {"length", length}, {"cards", cards_in_a_file}, {"begins", begins}}));
   return files;
 }
 

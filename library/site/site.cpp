@@ -43,7 +43,8 @@ std::string without_capitals(std::string text) {
 std::string module_of(const fs::path& file, const fs::path& named) {
   std::error_code ignored;
   fs::path root = named;
-  for (fs::path folder = fs::absolute(file, ignored).parent_path(); folder != folder.parent_path(); folder = folder.parent_path())
+  for (fs::path folder = fs::absolute(file, ignored).parent_path(); folder != folder.parent_path();
+       folder = folder.parent_path())
     if (fs::exists(folder / project_marker, ignored)) {
       root = folder;
       break;
@@ -51,8 +52,7 @@ std::string module_of(const fs::path& file, const fs::path& named) {
   fs::path way = fs::relative(file, root, ignored);
   if (way.empty() || way.begin()->string() == "..") way = file.filename();
   std::string module;
-  for (const fs::path& part : way.replace_extension())
-    module += (module.empty() ? "" : ".") + part.string();
+  for (const fs::path& part : way.replace_extension()) module += (module.empty() ? "" : ".") + part.string();
   return module;
 }
 
@@ -122,7 +122,11 @@ struct Noted {
 class SiteBuild {
  public:
   SiteBuild(const SiteRequest& request, SiteFolder folder, const std::function<void(std::size_t, std::size_t)>& tell)
-      : request_(request), folder_(std::move(folder)), tell_(tell), common_(common_modules()), names_(common_->declarations) {
+      : request_(request),
+        folder_(std::move(folder)),
+        tell_(tell),
+        common_(common_modules()),
+        names_(common_->declarations) {
     file_request_.device = request.device, file_request_.roots = request.roots, file_request_.sandbox = request.sandbox;
     for (const EmbeddedFile& each : embedded_site()) base_.take(each.name).take(each.text);
     base_digits_ = base_.take(compiler_build()).take(request.device).digits();
@@ -157,7 +161,8 @@ class SiteBuild {
         for (const Json& each : file.at("materials")) noted.read.materials.push_back(site_material_of(each));
         noted_.emplace(path, std::move(noted));
       }
-      for (const auto& [page, hash] : notes.at("neighbours").items()) neighbours_.emplace(page, hash.get<std::string>());
+      for (const auto& [page, hash] : notes.at("neighbours").items())
+        neighbours_.emplace(page, hash.get<std::string>());
     } catch (const Json::exception&) {
       noted_.clear(), neighbours_.clear();
     }
@@ -168,9 +173,8 @@ class SiteBuild {
     if (noted.read.uses_names && noted.others != others_) return false;
     return std::ranges::all_of(noted.read.rests_on,
                                [](const auto& each) { return hash_of_file(each.first) == each.second; }) &&
-           std::ranges::all_of(noted.read.materials, [&](const SiteMaterial& material) {
-             return material.module == input.module;
-           });
+           std::ranges::all_of(noted.read.materials,
+                               [&](const SiteMaterial& material) { return material.module == input.module; });
   }
 
   /// Gives each material the name of its page: its own, where no other one has it on a system without capitals.
@@ -270,8 +274,9 @@ class SiteBuild {
     std::ranges::stable_sort(published_, [](const SiteMaterial* a, const SiteMaterial* b) {
       const auto key = [](const SiteMaterial& each) {
         const std::string title = without_capitals(each.shown());
-        const bool begins_with_number = !title.empty() && title[0] >= '0' && title[0] <= '9';
-        return std::tuple(begins_with_number, title, each.page);  // numbered stimuli stand behind the names
+        // Those without a title, and numbered stimuli, stand behind the others.
+        const bool is_numbered = each.title.empty() || (title[0] >= '0' && title[0] <= '9');
+        return std::tuple(is_numbered, title, each.page);
       };
       return key(*a) < key(*b);
     });
@@ -287,9 +292,11 @@ class SiteBuild {
       if (distance.verdict != Verdict::unknown) near.emplace_back(distance.noticeable, other);
     }
     const std::size_t count = std::min(neighbours_shown, near.size());
-    std::ranges::partial_sort(near, near.begin() + static_cast<std::ptrdiff_t>(count), [](const auto& a, const auto& b) {
-      return std::pair(a.first, std::string_view(a.second->page)) < std::pair(b.first, std::string_view(b.second->page));
-    });
+    std::ranges::partial_sort(near, near.begin() + static_cast<std::ptrdiff_t>(count),
+                              [](const auto& a, const auto& b) {
+                                return std::pair(a.first, std::string_view(a.second->page)) <
+                                       std::pair(b.first, std::string_view(b.second->page));
+                              });
     std::vector<SiteNeighbour> neighbours;
     for (std::size_t i = 0; i < count; ++i) {
       SiteNeighbour& neighbour = neighbours.emplace_back();

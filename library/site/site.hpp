@@ -13,19 +13,19 @@ namespace wale {
 
 /// What a site is made of.
 struct SiteRequest {
-  std::string folder;               ///< where it is written
-  std::vector<std::string> paths;   ///< Wale files, and folders with all below them; empty: the shipped library
-  std::vector<std::string> roots;   ///< the last folders that are searched for imports
-  std::string device;               ///< for which the programs are built
+  std::string folder;              ///< where it is written
+  std::vector<std::string> paths;  ///< Wale files, and folders with all below them; empty: the shipped library
+  std::vector<std::string> roots;  ///< the last folders that are searched for imports
+  std::string device;              ///< for which the programs are built
   Sandbox sandbox = Sandbox::required;
 };
 
 /// What came of it.
 struct SiteReport {
-  std::size_t materials = 0;   ///< with a page
-  std::size_t read = 0;        ///< of these, those that were compiled and drawn: the others had not changed
-  std::size_t files = 0;       ///< of the site
-  std::size_t changed = 0;     ///< of these, those that were written, and those that were removed
+  std::size_t materials = 0;  ///< with a page
+  std::size_t read = 0;       ///< of these, those that were compiled and drawn: the others had not changed
+  std::size_t files = 0;      ///< of the site
+  std::size_t changed = 0;    ///< of these, those that were written, and those that were removed
   struct LeftOut {
     std::string material, file, why;
   };
@@ -39,6 +39,7 @@ struct SiteReport {
 ///
 /// Errors: those of `SiteFolder`; W0501 for a path that cannot be read, W0602 if there is no Wale file, W0601 for an
 /// unknown device, W0806 without a library that draws. A material with an error has no page and is reported.
-Result<SiteReport> write_site(const SiteRequest& request, const std::function<void(std::size_t, std::size_t)>& tell = {});
+Result<SiteReport> write_site(const SiteRequest& request,
+                              const std::function<void(std::size_t, std::size_t)>& tell = {});
 
 }  // namespace wale

@@ -33,8 +33,8 @@ bool names_a_device(std::string_view name) {
   std::string first(name.substr(0, name.find('.')));
   std::ranges::transform(first, first.begin(), lower);
   static constexpr std::array<std::string_view, 4> alone = {"con", "prn", "aux", "nul"};
-  const bool counted = first.size() == 4 && first[3] >= '0' && first[3] <= '9' &&
-                       (first.starts_with("com") || first.starts_with("lpt"));
+  const bool counted =
+      first.size() == 4 && first[3] >= '0' && first[3] <= '9' && (first.starts_with("com") || first.starts_with("lpt"));
   return counted || std::ranges::find(alone, first) != alone.end();
 }
 
@@ -46,10 +46,8 @@ std::string whole_file(const fs::path& path) {
 }
 
 Error unwritable(const std::string& path, std::string sentence, std::string mend = {}) {
-  return Error{.code = Code::unwritable_file,
-               .sentence = std::move(sentence),
-               .mend = std::move(mend),
-               .place = {.name = path}};
+  return Error{
+      .code = Code::unwritable_file, .sentence = std::move(sentence), .mend = std::move(mend), .place = {.name = path}};
 }
 
 /// Writes a file beside its place and then puts it there. There is no wait for the disk: after a crash of the system

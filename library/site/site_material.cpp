@@ -19,30 +19,18 @@ std::optional<double> number_or_none(const Json& json) {
 }  // namespace
 
 Json to_json(const SiteMaterial& material) {
-  Json json = {{"page", material.page},
-               {"name", material.name},
-               {"module", material.module},
-               {"file", material.file},
-               {"folder", material.folder},
-               {"kind", material.kind},
-               {"title", material.title},
-               {"documentation", material.documentation},
-               {"licence", material.licence},
-               {"feels", material.feels},
-               {"asks", material.asks},
-               {"replaces", material.replaces},
-               {"sources", material.sources},
-               {"content", material.content},
-               {"trouble", material.trouble},
-               {"unlicensed", material.unlicensed},
-               {"width", material.width},
-               {"height", material.height},
-               {"side", material.side},
-               {"of_velocity", material.of_velocity},
-               {"newton", material.newton},
-               {"small", material.small},
-               {"unknown", material.unknown},
-               {"files", material.files}};
+  Json json = {{"page", material.page},       {"name", material.name},
+               {"module", material.module},   {"file", material.file},
+               {"folder", material.folder},   {"kind", material.kind},
+               {"title", material.title},     {"documentation", material.documentation},
+               {"licence", material.licence}, {"feels", material.feels},
+               {"asks", material.asks},       {"replaces", material.replaces},
+               {"sources", material.sources}, {"content", material.content},
+               {"trouble", material.trouble}, {"unlicensed", material.unlicensed},
+               {"width", material.width},     {"height", material.height},
+               {"side", material.side},       {"of_velocity", material.of_velocity},
+               {"newton", material.newton},   {"small", material.small},
+               {"unknown", material.unknown}, {"files", material.files}};
   json["names"] = Json::array();
   for (const EntryName& each : material.names) json["names"].push_back({each.language, each.text});
   json["percepts"] = Json::array();

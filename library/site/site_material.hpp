@@ -25,8 +25,8 @@ struct SiteMaterial {
   std::string name, module, file, folder, kind, title, documentation, licence;
   std::vector<EntryName> names;
   std::vector<std::string> feels, asks, replaces, sources;
-  std::string content;  ///< hash of all that it rests on
-  std::string trouble;  ///< why it has no page: its error, or its licence; empty if it has one
+  std::string content;      ///< hash of all that it rests on
+  std::string trouble;      ///< why it has no page: its error, or its licence; empty if it has one
   bool unlicensed = false;  ///< `trouble` is about the licence
 
   std::vector<SitePercept> percepts;
@@ -34,8 +34,8 @@ struct SiteMaterial {
   double width = 0, height = 0;  ///< m, of the patch
   double side = 0;               ///< m, of its picture; m/s if that is over velocities
   bool of_velocity = false;
-  double newton = 0;  ///< the largest force at its defaults; 0 for a pad
-  std::string small;  ///< path of the picture for lists
+  double newton = 0;                 ///< the largest force at its defaults; 0 for a pad
+  std::string small;                 ///< path of the picture for lists
   std::vector<std::string> unknown;  ///< what is not known of it, a line each
   std::vector<std::string> files;    ///< paths of all files that are its own, the page among them
 

@@ -61,7 +61,8 @@ std::vector<double> ranks_of(const std::vector<double>& values) {
 
 std::optional<double> correlation(const std::vector<double>& a, const std::vector<double>& b) {
   const double n = static_cast<double>(a.size());
-  const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n, mean_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
+  const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n,
+               mean_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
   double both = 0, of_a = 0, of_b = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     both += (a[i] - mean_a) * (b[i] - mean_b);
@@ -153,7 +154,9 @@ Result<std::string> picture_of(const FeltPlane& plane, const Drawn& drawn, const
     const PagePoint end = middle + way * (0.44 * plane_height);
     canvas.line(middle, end, {1.2, style::rule});
     canvas.write(end + way * 8.0, axis.percept, {Face::sans, 15, style::quiet},
-                 way.x > 0.3 ? Align::left : way.x < -0.3 ? Align::right : Align::centre);
+                 way.x > 0.3    ? Align::left
+                 : way.x < -0.3 ? Align::right
+                                : Align::centre);
   }
   for (std::size_t i = 0; i < drawn.places.size(); ++i) {
     std::vector<PagePoint> dot;
@@ -253,18 +256,22 @@ Result<std::vector<SiteFile>> space_files(const FeltPlane& plane, const std::vec
   page.scripts = {"site.js", "data/search.js", "space.js"};
   Markup legend, axes;
   for (const auto& [kind, number] : kinds)
-    legend += html("<li><svg viewBox=\"0 0 10 10\" class=\"dot\" aria-hidden=\"true\"><circle cx=\"5\" cy=\"5\" r=\"4\" "
-                   "fill=\"{}\"/></svg> {}</li>",
-                   css_colour(kind_colour(number)), kind.empty() ? "without a kind" : kind);
+    legend += html(
+        "<li><svg viewBox=\"0 0 10 10\" class=\"dot\" aria-hidden=\"true\"><circle cx=\"5\" cy=\"5\" r=\"4\" "
+        "fill=\"{}\"/></svg> {}</li>",
+        css_colour(kind_colour(number)), kind.empty() ? "without a kind" : kind);
   for (const FeltPlane::Axis& axis : plane.axes)
-    axes += html("<li>{}: its direction explains {} % of its differences</li>", axis.percept, std::lround(100 * axis.share));
+    axes += html("<li>{}: its direction explains {} % of its differences</li>", axis.percept,
+                 std::lround(100 * axis.share));
   page.body = html(
       "<h1>Percept space</h1>\n<p>Each dot is a material; {} lie here. Dots that are near each other feel alike. The "
-      "difference is that of the cue which differs most, in just noticeable differences, on a logarithmic scale. A plane "
+      "difference is that of the cue which differs most, in just noticeable differences, on a logarithmic scale. A "
+      "plane "
       "cannot keep all of it{}.</p>\n"
       "<figure class=\"space\"><div class=\"plane\" data-plane=\"data/space.js\"><img src=\"figure/-space.png\" "
       "width=\"{}\" height=\"{}\" alt=\"Dots, one for each material\"></div>\n"
-      "<figcaption id=\"dot\" role=\"status\">With scripts, point at a dot, or choose the picture and use the arrow keys; "
+      "<figcaption id=\"dot\" role=\"status\">With scripts, point at a dot, or choose the picture and use the arrow "
+      "keys; "
       "Enter opens the material.</figcaption></figure>\n<ul class=\"legend\">{}</ul>\n",
       plane.materials.size(),
       plane.agreement ? fmt::format(": the order of the distances agrees with that of the differences by {} "
@@ -272,7 +279,8 @@ Result<std::vector<SiteFile>> space_files(const FeltPlane& plane, const std::vec
                                     with_decimals(*plane.agreement, 2))
                       : std::string(),
       plane_width, plane_height, legend);
-  if (!axes.empty()) page.body += html("<h2>Directions</h2>\n<p>The lines point to where a percept grows.</p>\n<ul>{}</ul>\n", axes);
+  if (!axes.empty())
+    page.body += html("<h2>Directions</h2>\n<p>The lines point to where a percept grows.</p>\n<ul>{}</ul>\n", axes);
   files.push_back({page.path, framed(page)});
   return files;
 }

@@ -34,8 +34,8 @@ struct FeltPlane {
 /// noticeable differences. Deterministic.
 FeltPlane felt_plane(const std::vector<const SiteMaterial*>& materials, const Comparer& comparer);
 
-/// The page of the plane, its picture, and what its script reads; `listed` are the materials as `search_files` has them.
-/// Error: `Code::missing_library`.
+/// The page of the plane, its picture, and what its script reads; `listed` are the materials as `search_files` has
+/// them. Error: `Code::missing_library`.
 Result<std::vector<SiteFile>> space_files(const FeltPlane& plane, const std::vector<const SiteMaterial*>& listed);
 
 }  // namespace wale

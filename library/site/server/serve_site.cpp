@@ -1,5 +1,5 @@
-// wale-site-server FOLDER PORT: serves a site of `wale library site` to this computer alone. It is a program of its own,
-// since it alone needs a library for HTTP.
+// wale-site-server FOLDER PORT: serves a site of `wale library site` to this computer alone. It is a program of its
+// own, since it alone needs a library for HTTP.
 
 #include <httplib.h>
 #include <signal.h>
