@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "compiler/drawing/axis.hpp"
 #include "compiler/drawing/canvas.hpp"
@@ -36,6 +37,10 @@ constexpr PageBox tall_plot = {764, 226, page_width - margin, 776};
 constexpr int small_width = 760, small_height = 300;
 constexpr PageBox small_picture = {16, 16, 246, 246};
 constexpr PageBox small_plot = {340, 50, small_width - 24, 230};
+// The parts of a preview, each on a page of its own.
+constexpr int part_side = 320, part_width = 560, part_height = 280;
+constexpr PageBox part_picture = {0, 0, part_side, part_side};
+constexpr PageBox part_plot = {92, 46, part_width - 18, part_height - 52};
 // Below the words at the foot of the page.
 constexpr PageBox spectrum_plot = {margin + 70, 1050, margin + 650, 1250};
 constexpr PageBox spectrogram_plot = {margin + 770, 1050, page_width - margin, 1250};
@@ -348,6 +353,38 @@ Plot most_telling_plot(const Bank& bank, const Exhibit& exhibit, const Rehearsal
   return plot;
 }
 
+/// Every third point of each curve: as fine as the smaller page shows.
+Plot thinned(Plot plot) {
+  for (Curve& curve : plot.curves) {
+    Profile few;
+    for (std::size_t i = 0; i < curve.profile.at.size(); i += 3)
+      few.at.push_back(curve.profile.at[i]), few.values.push_back(curve.profile.values[i]);
+    curve.profile = std::move(few);
+  }
+  return plot;
+}
+
+/// The plots of a program, each with its name.
+std::vector<std::pair<const char*, Plot>> plots_of(const Bank& bank, const Exhibit& exhibit,
+                                                   const Rehearsal& rehearsal) {
+  const PatchProgram& program = bank.program().description();
+  std::vector<std::pair<const char*, Plot>> plots;
+  if (exhibit.has_relief) {
+    plots.emplace_back("height", height_plot(bank, rehearsal.memory, exhibit));
+    plots.back().second.x_name = position_name(exhibit);
+  }
+  if (program.vibrates()) {
+    if (program.device.has_position()) plots.emplace_back("shaking", shaking_plot(bank, exhibit));
+  } else if (remembers(program)) {
+    if (!exhibit.has_relief) plots.emplace_back("hand", stroke_plot(rehearsal));
+    plots.emplace_back("time", felt_plot(rehearsal));
+  } else {
+    if (exhibit.has_relief || !is_of_velocity(exhibit)) plots.emplace_back("force", force_plot(bank, exhibit));
+    if (!exhibit.has_relief && exhibit.resists_motion) plots.emplace_back("velocity", speed_plot(bank, exhibit));
+  }
+  return plots;
+}
+
 }  // namespace
 
 Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations,
@@ -380,6 +417,38 @@ Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const De
     draw_spectrogram(canvas, spectrogram_plot, *spectrum);
   }
   return Preview{*std::move(page), square_of(bank, picture, shows_surface(bank, exhibit))};
+}
+
+Result<PreviewParts> draw_preview_parts(const Bank& bank, std::optional<double> felt,
+                                        const Declarations& declarations) {
+  const auto images = image_library();
+  if (!images) return images.error();
+  const HandDeclaration* hand = declarations.hands.find("showing");
+  PreviewParts parts{.rehearsal = rehearse(bank, hand)};
+  parts.exhibit = exhibit_of(bank, &parts.rehearsal.memory);
+  parts.exhibit.felt = felt;
+  parts.surface = shows_surface(bank, parts.exhibit) && !marks_on_field(bank, parts.exhibit);
+  auto picture_page = new_canvas(part_side, part_side, style::paper);
+  if (!picture_page) return picture_page.error();
+  parts.picture = *std::move(picture_page);
+  const int square = square_of(bank, part_picture, parts.surface);
+  if (parts.surface)
+    draw_relief(*parts.picture, part_picture, bank, &parts.rehearsal.memory, parts.exhibit, **images, square);
+  else
+    draw_field(*parts.picture, part_picture, bank, parts.exhibit, is_of_velocity(parts.exhibit), square);
+  draw_marks(*parts.picture, part_picture, parts.exhibit, parts.rehearsal);
+  const auto add = [&](const char* name, std::string title, const auto& draw) {
+    auto page = new_canvas(part_width, part_height, style::paper);
+    if (!page) return;
+    draw(**page);
+    parts.plots.push_back({name, std::move(title), *std::move(page)});
+  };
+  for (const auto& [name, plot] : plots_of(bank, parts.exhibit, parts.rehearsal))
+    add(name, plot.title, [&plot = plot](Canvas& page) { draw_plot(page, part_plot, thinned(plot)); });
+  if (const auto spectrum = felt_spectrum(bank, parts.exhibit, hand, 2))
+    add("spectrum", "Spectrum of the force on a hand that strokes to and fro",
+        [&](Canvas& page) { draw_spectrum(page, part_plot, *spectrum); });
+  return parts;
 }
 
 }  // namespace wale

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiler/drawing/canvas.hpp"
+#include "compiler/measure/rehearsal.hpp"
 #include "compiler/preview/exhibit.hpp"
 #include "wale/program.hpp"
 #include "wale/result.hpp"
@@ -61,5 +62,24 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations);
 /// Error: `Code::missing_library`.
 Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations,
                              const PreviewChoice& choice = {});
+
+/// A plot of a preview on a page of its own, 560 x 280 pixels.
+struct PlotPage {
+  std::string name;   ///< "height", "force", "velocity", "shaking", "hand", "time", "spectrum": once in a preview
+  std::string title;  ///< "Force along x"
+  std::unique_ptr<Canvas> page;
+};
+
+/// What a preview is made of, for a page that has a layout of its own.
+struct PreviewParts {
+  Exhibit exhibit;
+  Rehearsal rehearsal;              ///< after which the picture was taken
+  bool surface = false;             ///< the picture is the lit surface; otherwise it is the field of the force
+  std::unique_ptr<Canvas> picture;  ///< 320 x 320 pixels, without words
+  std::vector<PlotPage> plots;
+};
+
+/// Draws them as `draw_preview` does; `felt` is that of its text. Error: `Code::missing_library`.
+Result<PreviewParts> draw_preview_parts(const Bank& bank, std::optional<double> felt, const Declarations& declarations);
 
 }  // namespace wale

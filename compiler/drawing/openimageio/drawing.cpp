@@ -26,6 +26,7 @@ Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std:
   output->threads(1);
   OIIO::ImageSpec spec(drawing.width, drawing.height, 3, OIIO::TypeUInt8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  if (extension == "jpg" || extension == "jpeg") spec.attribute("Compression", "jpeg:85");  // no loss that is seen
   if (!output->set_ioproxy(&memory) || !output->open("drawing." + extension, spec) ||
       !output->write_image(OIIO::TypeUInt8, drawing.rgb.data()) || !output->close()) {
     return Error{Code::unwritable_file,

@@ -1,0 +1,234 @@
+#include "library/site/read_site_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "compiler/cpp/print_header.hpp"
+#include "compiler/parse/parse.hpp"
+#include "compiler/text/json_text.hpp"
+#include "library/index/content_hash.hpp"
+#include "library/review/licence.hpp"
+#include "library/site/material_page.hpp"
+
+namespace wale {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_source = 24 << 10;  // bytes that a page shows; the download has all
+
+/// The licence that stands over a file: that of the nearest `wale.project` above; empty if none is stated.
+std::string licence_over(const std::string& file) {
+  std::error_code ignored;
+  for (fs::path folder = fs::absolute(file, ignored).parent_path(); !folder.empty(); folder = folder.parent_path()) {
+    if (fs::exists(folder / project_marker, ignored)) {
+      const auto stated = licence_of_library(folder.string());
+      return stated ? *stated : std::string();
+    }
+    if (folder == folder.parent_path()) break;
+  }
+  return {};
+}
+
+/// Why a licence keeps a material from the site; empty if it does not.
+std::string why_kept_back(const std::string& licence) {
+  if (licence.empty()) return "it states no licence, so nobody may pass it on";
+  if (may_be_shared(licence)) return {};
+  return fmt::format("its licence, {}, does not let everybody pass it on", licence);
+}
+
+/// The licences of what a text holds, where `over` stands over its file.
+std::set<std::string> licences_in(SourceSet& sources, SourceId source, const std::string& over) {
+  Diagnostics ignored;
+  LibraryIndex index;
+  index.add("", "", parse(sources, source, ignored));
+  std::set<std::string> licences;
+  for (const IndexedMaterial& each : index.materials()) licences.insert(each.licence.empty() ? over : each.licence);
+  if (index.materials().empty()) licences.insert(over);  // functions, which programs hold too
+  return licences;
+}
+
+/// The same of all files that a file imports; empty if each may be passed on.
+std::string why_imports_keep_back(OpenedFile& opened) {
+  for (std::size_t i = 0; i < opened.sources.size(); ++i) {
+    const auto id = static_cast<SourceId>(i);
+    if (id == opened.source) continue;
+    for (const std::string& licence : licences_in(opened.sources, id, licence_over(opened.sources[id].name)))
+      if (!may_be_shared(licence))
+        return fmt::format("it rests on a file {}",
+                           licence.empty() ? "without a licence" : "whose licence, " + licence + ", does not allow it");
+  }
+  return {};
+}
+
+/// The text of one material's declaration, with the comment above it.
+std::string declaration_of(const SyntaxTree& tree, std::string_view text, const std::string& name) {
+  for (const Declaration& declaration : tree.declarations) {
+    const auto* node = std::get_if<MaterialDecl>(&declaration);
+    if (!node || node->name.text != name) continue;
+    std::size_t begin = text.rfind('\n', node->span.begin == 0 ? 0 : node->span.begin - 1);
+    begin = begin == std::string_view::npos ? 0 : begin + 1;
+    while (begin > 1) {
+      const std::size_t above = text.rfind('\n', begin - 2);
+      const std::size_t line = above == std::string_view::npos ? 0 : above + 1;
+      if (!text.substr(line, begin - line).starts_with("///")) break;
+      begin = line;
+    }
+    return std::string(text.substr(begin, node->span.end - begin));
+  }
+  return {};
+}
+
+/// At most `longest_source` bytes, in whole lines.
+std::string shown_source(std::string text) {
+  if (text.size() <= longest_source) return text;
+  text.resize(text.rfind('\n', longest_source) + 1);
+  return text + "// … and so on: the download has all of it\n";
+}
+
+std::vector<std::string> what_is_unknown(const Description& told) {
+  std::vector<std::string> lines;
+  for (const DescribedPercept& each : told.percepts) {
+    std::string line;
+    if (each.unknown) line = each.name + ": no map tells the level of what it pushes";
+    for (const OutsideRange& outside : each.outside)
+      line += (line.empty() ? each.name + ": " : "; ") + outside_in_words(outside);
+    if (line.empty() && each.evidence() == Evidence::extrapolated)
+      line = each.name + ": " + (each.domain_why.empty() ? "extrapolated" : "extrapolated, " + each.domain_why);
+    if (!line.empty()) lines.push_back(std::move(line));
+  }
+  if (told.percepts.empty())
+    lines.push_back("no percept: " +
+                    (told.no_percept.empty() ? std::string("no map tells what it pushes") : told.no_percept));
+  return lines;
+}
+
+SiteMaterial words_of_entry(const Entry& entry) {
+  SiteMaterial material;
+  material.name = entry.name, material.module = entry.module, material.file = entry.file,
+  material.folder = entry.folder;
+  material.kind = entry.kind, material.title = entry.title, material.documentation = entry.documentation;
+  material.licence = entry.licence, material.names = entry.names, material.feels = entry.feels;
+  material.asks = entry.asks, material.replaces = entry.replaces, material.sources = entry.sources;
+  material.content = entry.content, material.trouble = entry.trouble;
+  return material;
+}
+
+void add_feel(SiteMaterial& material, const Entry& entry) {
+  for (const EntryPercept& each : entry.felt.percepts)
+    material.percepts.push_back({each.name, each.asked, each.reads, each.means.low, each.means.high,
+                                 each.reads ? evidence_word(each.evidence()) : std::string()});
+  material.cues = entry.felt.cues;
+}
+
+/// Writes the files of one material.
+Result<> write_material(SiteMaterial& material, const Entry& entry, const Declarations& declarations,
+                        MaterialSources sources, SiteFolder& folder) {
+  const auto* begin = entry.program.data();
+  const auto program = Program::load(std::span(begin, entry.program.size()));
+  if (!program) {
+    material.trouble = program.error().sentence;
+    return {};
+  }
+  const Bank bank(*program);
+  const Description told = describe(bank, declarations);
+  auto figures = draw_site_figures(bank, told, declarations, material.page);
+  if (!figures) return figures.error();
+  material.width = told.patch.width, material.height = told.patch.height;
+  material.side = figures->side, material.of_velocity = figures->of_velocity, material.small = figures->small;
+  material.newton = told.shaking ? 0 : told.force.max_newton;
+  material.unknown = what_is_unknown(told);
+  sources.entry = &entry, sources.description = &told, sources.figures = &*figures;
+  sources.program = &program->description();
+  sources.program_path = "take/" + material.page + ".wpp", sources.header_path = "take/" + material.page + ".hpp";
+
+  std::vector<SiteFile> files = std::move(figures->files);
+  files.push_back({sources.program_path, {reinterpret_cast<const char*>(begin), entry.program.size()}});
+  files.push_back({sources.header_path, print_header(*program, {})});
+  const SitePage page = material_page(material, sources);
+  files.push_back({page.path, framed(page)});
+  files.push_back({"material/" + material.page + ".json", json_lines(material_dataset(material, sources, true))});
+  for (const SiteFile& file : files) {
+    if (const auto written = folder.put(file.path, file.bytes); !written) return written.error();
+    material.files.push_back(file.path);
+  }
+  if (!sources.source.empty()) material.files.push_back(sources.source);
+  return {};
+}
+
+}  // namespace
+
+std::string hash_of_file(const std::string& path) {
+  std::error_code trouble;
+  if (!fs::is_regular_file(path, trouble)) return {};
+  const auto found = read_file(path, largest_asset);
+  return found ? ContentHash().take(found->bytes).digits() : std::string();
+}
+
+Result<SiteInputRead> read_site_file(const SiteInput& input, const FileRequest& request, const DeclaredNames& names,
+                                     SiteFolder& folder,
+                                     const std::function<std::string(const std::string& material)>& page_of) {
+  SiteInputRead result;
+  result.rests_on.emplace_back(input.path, hash_of_file(input.path));
+  FileRequest watched = request;
+  watched.file = input.path;
+  auto read = read_entries(watched, input.module);
+  if (!read) {
+    SiteMaterial& lost = result.materials.emplace_back();
+    lost.name = input.module, lost.module = input.module, lost.file = input.path, lost.trouble = read.error().sentence;
+    return result;
+  }
+  result.uses_names = read->uses_names;
+  for (const std::string& path : read->looked_for)
+    if (path != input.path) result.rests_on.emplace_back(path, hash_of_file(path));
+
+  OpenedFile& opened = read->opened;
+  const std::string text = opened.sources[opened.source].text;
+  // What is in this binary is in the public domain (library/LICENSE).
+  const std::string over = opened.is_on_disk ? licence_over(input.path) : std::string("CC0-1.0");
+  Diagnostics again;
+  const SyntaxTree tree = parse(opened.sources, opened.source, again);
+  const std::string imports = why_imports_keep_back(opened);
+  bool all_may = imports.empty();
+  for (Entry& entry : read->entries) {
+    if (entry.licence.empty()) entry.licence = over;
+    all_may = all_may && may_be_shared(entry.licence);
+  }
+  std::string source;
+  if (all_may && !read->entries.empty()) {
+    source = "source/" + page_name(input.module) + ".wale";
+    if (const auto written = folder.put(source, text); !written) return written.error();
+  }
+  for (const Entry& entry : read->entries) {
+    SiteMaterial material = words_of_entry(entry);
+    if (material.published()) {
+      material.trouble = imports.empty() ? why_kept_back(entry.licence) : imports;
+      material.unlicensed = !material.trouble.empty();
+    }
+    if (material.published()) {
+      material.page = page_of(entry.name);
+      add_feel(material, entry);
+      MaterialSources sources{.names = &names};
+      sources.source = source;
+      sources.text = shown_source(read->entries.size() == 1 && all_may ? text : declaration_of(tree, text, entry.name));
+      const auto written = write_material(material, entry, opened.module->declarations(), std::move(sources), folder);
+      if (!written) return written.error();
+    }
+    if (!material.published()) {
+      // Nothing but its name and the reason is known to the site.
+      SiteMaterial kept_back;
+      kept_back.name = material.name, kept_back.module = material.module, kept_back.file = material.file;
+      kept_back.trouble = material.trouble, kept_back.unlicensed = material.unlicensed;
+      kept_back.content = material.content;
+      material = std::move(kept_back);
+    }
+    result.materials.push_back(std::move(material));
+  }
+  return result;
+}
+
+}  // namespace wale

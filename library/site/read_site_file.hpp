@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compiler/open_file.hpp"
+#include "library/site/declared_pages.hpp"
+#include "library/site/site_folder.hpp"
+#include "library/site/site_material.hpp"
+
+namespace wale {
+
+/// A file of a library whose materials get pages.
+struct SiteInput {
+  std::string path, module;
+};
+
+/// What came of a file.
+struct SiteInputRead {
+  std::vector<SiteMaterial> materials;
+  /// The paths that it rests on, itself first, and the hashes of their bytes.
+  std::vector<std::pair<std::string, std::string>> rests_on;
+  bool uses_names = false;  ///< other files of the library may change what it means
+};
+
+/// The hash of a file's bytes; empty if there is none on disk, as of a shipped file outside a checkout.
+std::string hash_of_file(const std::string& path);
+
+/// Reads the materials of a file and writes what is theirs alone: their pages without neighbours, figures, data and
+/// downloads. `page_of` gives each material the name of its page. A file that cannot be read is one material with a
+/// trouble. Errors: those of `SiteFolder::put`, and W0806. Thread-safe.
+Result<SiteInputRead> read_site_file(const SiteInput& input, const FileRequest& request, const DeclaredNames& names,
+                                     SiteFolder& folder,
+                                     const std::function<std::string(const std::string& material)>& page_of);
+
+}  // namespace wale
