@@ -18,11 +18,14 @@ namespace {
 enum class Sought { nothing, file, material, folder, percept, device, place, code, kind };
 
 Sought sought_by(const CLI::App& verb, const CLI::Option& option) {
-  constexpr std::array<std::string_view, 5> of_files_alone = {"check", "format", "replay", "import", "library-check"};
+  constexpr std::array<std::string_view, 8> of_files_alone = {"check",         "format",        "replay",
+                                                              "import",        "library-check", "library-sheet",
+                                                              "library-coverage", "library-import"};
   if (option.get_positional()) {
     const std::string name = option.get_name(true);
     if (name == "PERCEPT") return Sought::percept;
     if (name == "CODE") return Sought::code;
+    if (name == "OLD" || name == "NEW") return Sought::file;
     if (name != "FILE") return Sought::nothing;
     return std::ranges::find(of_files_alone, verb.get_name()) == of_files_alone.end() ? Sought::material : Sought::file;
   }

@@ -4,60 +4,30 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "compiler/compare/compare.hpp"
-#include "compiler/compare/compare_files.hpp"
-#include "compiler/describe/describe.hpp"
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/format/format.hpp"
 #include "compiler/modules/library_index.hpp"
 #include "compiler/modules/load_modules.hpp"
-#include "compiler/modules/representative.hpp"
 #include "compiler/parse/parse.hpp"
+#include "compiler/text/embedded_files.hpp"
+#include "library/review/contribution.hpp"
 #include "library/review/licence.hpp"
+#include "library/review/words.hpp"
+#include "runtime/machine/parallel.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The first word of a kind: "fabric" of "fabric.woven".
-std::string branch_of(std::string_view kind) { return std::string(kind.substr(0, kind.find('.'))); }
-
-/// The Wale files that paths name, each once, in order.
-Result<std::vector<std::string>> files_below(const std::vector<std::string>& paths) {
-  std::set<std::string> files;
-  for (const std::string& path : paths) {
-    std::error_code trouble;
-    if (!fs::is_directory(path, trouble)) {
-      if (!fs::exists(path, trouble))
-        return Error{.code = Code::unreadable_file,
-                     .sentence = "there is no such file or folder",
-                     .mend = "name a Wale file or a folder of them",
-                     .place = {.name = path}};
-      files.insert(path);
-      continue;
-    }
-    for (fs::recursive_directory_iterator at(path, trouble), end; !trouble && at != end; at.increment(trouble))
-      if (at->path().extension() == ".wale" && at->is_regular_file(trouble)) files.insert(at->path().string());
-    if (trouble)
-      return Error{.code = Code::unreadable_file,
-                   .sentence = fmt::format("the folder cannot be read: {}", trouble.message()),
-                   .mend = "make it readable",
-                   .place = {.name = path}};
-  }
-  if (files.empty())
-    return Error{.code = Code::unknown_material,
-                 .sentence = "there is no Wale file here",
-                 .mend = "name a `.wale` file, or a folder that holds some",
-                 .place = {.name = paths.front()}};
-  return std::vector<std::string>(files.begin(), files.end());
-}
 
 /// The library that a file lies in: the nearest folder above with a `wale.project`; empty if there is none.
 std::string library_of(const std::string& file) {
@@ -69,31 +39,87 @@ std::string library_of(const std::string& file) {
   return {};
 }
 
+/// Whether a folder holds the sources of the shipped library, perhaps another version of them than this binary: then
+/// the binary's are no materials beside those of the folder.
+bool is_source_of_shipped(const std::string& library) {
+  if (library.empty()) return false;
+  std::size_t all = 0, here = 0;
+  std::error_code ignored;
+  constexpr std::string_view root = "library/";
+  for (const EmbeddedFile& each : embedded_files())
+    if (std::string_view(each.name).starts_with(root))
+      ++all, here += fs::exists(fs::path(library) / std::string_view(each.name).substr(root.size()), ignored);
+  return 2 * here > all;
+}
+
+/// A word as `find` compares it: capitals do not matter.
+std::string folded(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+/// Errors that are about this machine and not about a file.
+bool is_of_machine(Code code) {
+  return code == Code::missing_library || code == Code::short_of_resources || code == Code::no_sandbox;
+}
+
+void report(Diagnostics& diagnostics, Code code, Span span, std::string message, std::string help) {
+  diagnostics.report(Advice(std::move(help)).about(code, span, std::move(message)));
+}
+
+/// Calls `work` once for each of 0 .. count - 1, on as many threads as there are cores.
+void for_each_in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  in_parallel(count, [&](std::size_t, std::size_t) {
+    for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) work(i);
+  });
+}
+
 /// A material of the library beside those that are reviewed.
 struct Neighbour {
-  std::string name, branch;
+  std::string name;
   Cues cues;
 };
 
 class Reviewer {
  public:
-  Reviewer(const std::vector<std::string>& roots, Sandbox sandbox)
-      : common_(common_modules()), comparer_(common_->declarations, default_device) {
-    request_.roots = roots, request_.sandbox = sandbox;
-  }
+  explicit Reviewer(const ReviewRequest& request)
+      : request_(request),
+        common_(common_modules()),
+        comparer_(common_->declarations, default_device),
+        others_classes_(devices_of_other_classes(common_->declarations, default_device)) {}
 
-  Result<Review> review(const std::vector<std::string>& files) {
-    std::vector<ComparedFile> read = read_cues(files, request_, common_->declarations);
-    for (const ComparedFile& each : read)
-      if (!each.opened) return each.opened.error();
+  Result<Review> review(const Contribution& contribution) {
     Review all;
-    all.files.resize(files.size());
+    const std::vector<std::string>& files = contribution.files;
+    std::vector<std::optional<Result<FactsReading>>> readings(files.size());
+    std::vector<const FileFacts*> unchanged(files.size());
+    for_each_in_parallel(files.size(), [&](std::size_t i) {
+      if (request_.since) unchanged[i] = KeptReview::unchanged(request_.since->reviewed, files[i]);
+      if (!unchanged[i]) readings[i] = read_facts(facts_request(files[i], {}, false));
+    });
     for (std::size_t i = 0; i < files.size(); ++i) {
-      all.files[i].file = files[i];
-      if (const auto begun = begin(all.files[i], *read[i].opened, read[i].cues); !begun) return begun.error();
+      ReviewedFile& file = all.files.emplace_back();
+      file.file = files[i];
+      if (readings[i] && !*readings[i] && is_of_machine(readings[i]->error().code)) return readings[i]->error();
+      if (const auto begun = begin(file, readings[i], unchanged[i], all.kept); !begun) return begun.error();
+      all.unchanged += unchanged[i] != nullptr;
     }
-    read_neighbours(files);
-    for (std::size_t i = 0; i < files.size(); ++i) hold_against_others(all, i);
+    if (!files.empty()) find_others(files);
+    for (const UnfitFile& each : contribution.unfit) {
+      ReviewedFile& file = all.files.emplace_back();
+      file.file = each.path;
+      report(file.diagnostics, Code::unfit_file, {file.sources.add(each.path, ""), 0, 0},
+             fmt::format("`{}` cannot be part of a library: {}", visible_text(each.path), each.why),
+             "leave it out, or put a plain file in its place");
+    }
+    for (const Entry& entry : entries_) {
+      tell_names(all, entry);
+      if (const auto held = hold_against_others(all, entry); !held) return held.error();
+    }
+    all.kept.neighbours = std::move(kept_neighbours_);
+    std::ranges::sort(all.files, {}, &ReviewedFile::file);
     for (ReviewedFile& each : all.files) {
       each.diagnostics.sort();
       all.errors += each.diagnostics.error_count();
@@ -108,202 +134,223 @@ class Reviewer {
   struct Entry {
     std::size_t file = 0, index = 0;
     Span name;
-    std::vector<std::string> replaces;
-    std::optional<Cues> cues;
+    MaterialWords words;
   };
 
-  void report(ReviewedFile& file, Code code, Span span, std::string message, std::string help) {
-    file.diagnostics.report(Advice(std::move(help)).about(code, span, std::move(message)));
+  FactsRequest facts_request(const std::string& file, const std::string& material, bool cues_alone) const {
+    FactsRequest request;
+    request.file.file = file, request.file.roots = request_.roots, request.file.sandbox = request_.sandbox;
+    request.material = material, request.cues_alone = cues_alone;
+    if (!cues_alone) request.others = others_classes_;
+    return request;
   }
 
-  Result<> begin(ReviewedFile& file, OpenedFile& opened, const std::vector<Cues>& cues) {
+  /// Tells of one file what needs no other one.
+  Result<> begin(ReviewedFile& file, std::optional<Result<FactsReading>>& reading, const FileFacts* unchanged,
+                 KeptReview& kept) {
     const std::size_t number = file_count_++;
-    file.sources = std::move(opened.sources), file.diagnostics = std::move(opened.diagnostics);
     const std::string library = library_of(file.file);
     const auto licence = licence_of_library(library.empty() ? "." : library);
     if (!library.empty() && !licence) return licence.error();
-    if (!opened.module) return {};
+    SourceId source = 0;
+    const CheckedModule* module = nullptr;
+    const FileFacts* facts = unchanged;
+    if (reading && !*reading) {
+      const Error& error = reading->error();
+      file.diagnostics.report({.code = error.code,
+                               .span = {file.sources.add(file.file, ""), 0, 0},
+                               .message = fmt::format("`{}`: {}", visible_text(file.file), error.sentence),
+                               .help = error.mend});
+      return {};
+    }
+    if (reading) {
+      OpenedFile& opened = (*reading)->opened;
+      file.sources = std::move(opened.sources), file.diagnostics = std::move(opened.diagnostics);
+      source = opened.source, module = &*opened.module, facts = &(*reading)->facts;
+    } else {
+      auto text = read_file(file.file, largest_source);
+      if (!text) return text.error();
+      source = file.sources.add(file.file, std::move(text->bytes));
+    }
     Diagnostics again;  // of what has been reported
-    const SyntaxTree tree = parse(file.sources, opened.source, again);
-    if (const auto formatted = format(file.sources, opened.source, again);
-        formatted && *formatted != file.sources[opened.source].text)
-      report(file, Code::unformatted_file, Span{opened.source, 0, 0}, "the file is not in the standard style",
+    const SyntaxTree tree = parse(file.sources, source, again);
+    for (const Declaration& declaration : tree.declarations)
+      if (const auto* node = std::get_if<MaterialDecl>(&declaration); node && module)
+        if (const auto checked = std::ranges::find(module->materials, node->name.text, &CheckedMaterial::name);
+            checked != module->materials.end())
+          tell_layers(*node, *checked, file.diagnostics);
+    if (file.diagnostics.all().empty() && !facts->uses_names)
+      kept.reviewed[file.file] = {hash_of(file.file, *facts), *facts};
+
+    if (const auto formatted = format(file.sources, source, again);
+        formatted && *formatted != file.sources[source].text)
+      report(file.diagnostics, Code::unformatted_file, Span{source, 0, 0}, "the file is not in the standard style",
              fmt::format("run `wale format {}`", visible_text(file.file)));
     for (const Declaration& declaration : tree.declarations) {
       const auto* node = std::get_if<MaterialDecl>(&declaration);
       if (!node) continue;
-      const auto checked = std::ranges::find(opened.module->materials, node->name.text, &CheckedMaterial::name);
-      if (checked == opened.module->materials.end()) continue;
-      const auto felt = std::ranges::find(cues, node->name.text, &Cues::material);
-      Entry entry{.file = number, .index = file.materials.size(), .name = node->name.span, .replaces = {}, .cues = {}};
-      if (felt != cues.end()) entry.cues = *felt;
+      const auto told = std::ranges::find(facts->materials, node->name.text, &MaterialFacts::name);
+      if (told == facts->materials.end()) continue;
+      Entry entry{.file = number, .index = file.materials.size(), .name = node->name.span, .words = {}};
       ReviewedMaterial& material = file.materials.emplace_back();
-      material.name = node->name.text;
+      material.name = node->name.text, material.facts = *told;
       material.licence = library.empty() ? "" : *licence;
-      tell_words(file, material, entry, *node, tree);
-      tell_layers(file, material, *node, *checked);
-      tell_folder(file, material, node->name.span, library);
+      entry.words = tell_words(material, *node, tree, file.diagnostics);
+      tell_folder(file.file, material, node->name.span, library, file.diagnostics);
       entries_.push_back(std::move(entry));
     }
     return {};
   }
 
-  /// What a catalogue shows of a material: names, kind, sources, licence.
-  void tell_words(ReviewedFile& file, ReviewedMaterial& material, Entry& entry, const MaterialDecl& node,
-                  const SyntaxTree& tree) {
-    std::set<std::string, std::less<>> has;
-    bool translated = false;
-    Span licence_at = node.name.span;
-    Diagnostics again;
-    for (const Setting& setting : node.representative) {
-      if (!is_representative_setting(setting.key.text) || setting.key.text == "like") continue;
-      const RepresentativeEntry said = representative_entry(setting, tree, again);
-      if (said.values.empty()) continue;
-      has.insert(std::string(setting.key.text));
-      if (setting.key.text == "called") translated |= !language_of(setting).empty() && language_of(setting) != "en";
-      if (said.key == "title") material.title = said.values.front();
-      if (said.key == "kind") material.kind = said.values.front();
-      if (said.key == "licence") material.licence = said.values.front(), licence_at = setting.span;
-      if (said.key == "replaces") entry.replaces = said.values;
-    }
-    const auto lacks = [&](const char* what, std::string help) {
-      report(file, Code::incomplete_material, node.name.span, fmt::format("`{}` has no {}", material.name, what),
-             std::move(help));
-    };
-    if (!has.contains("title")) lacks("title", "write `title \"…\"` in its representative block");
-    if (!has.contains("kind")) lacks("kind", "write, for example, `kind fabric.woven` in its representative block");
-    if (!has.contains("called")) lacks("other name", "write, for example, `called \"corduroy\", \"ribbed cotton\"`");
-    if (!translated) lacks("name in another language", "write, for example, `called de \"Cord\"`");
-    if (!has.contains("source"))
-      lacks("source", "write `source \"…\"`: where its figures come from, or that they are an estimate, and whose");
-    if (node.documentation.empty()) lacks("documentation", "write `/// …` above it: what it is, and how it pushes");
-    if (material.licence.empty())
-      report(file, Code::no_licence, node.name.span, fmt::format("`{}` has no licence", material.name),
-             "write `licence \"CC0-1.0\"` in it, or in the `wale.project` of the library");
-    else if (!may_be_shared(material.licence)) {
-      const auto near = nearest_licence(material.licence);
-      report(file, Code::unfit_licence, licence_at,
-             fmt::format("\"{}\" is no licence under which everybody may pass on, change and use a material",
-                         visible_text(material.licence)),
-             near ? fmt::format("did you mean \"{}\"?", *near)
-                  : "choose one that SPDX lists and that allows it, as \"CC0-1.0\" or \"CC-BY-4.0\"");
-    }
-  }
-
-  void tell_layers(ReviewedFile& file, ReviewedMaterial& material, const MaterialDecl& node,
-                   const CheckedMaterial& checked) {
-    if (checked.percepts.empty())
-      report(file, Code::incomplete_material, node.name.span,
-             fmt::format("`{}` does not say how it feels", material.name),
-             "write a `perceptual` block with levels, as in `roughness 0.35 estimated`");
-    if (!checked.force)
-      report(file, Code::incomplete_material, node.name.span, fmt::format("`{}` has no physics", material.name),
-             "write a `physical` block with a force");
-    for (const AskedPercept& asked : checked.percepts) {
-      material.levels.push_back({asked.name, asked.level, asked.evidence ? evidence_word(*asked.evidence) : ""});
-      if (!asked.evidence && !asked.blended)
-        report(file, Code::incomplete_material, asked.place(),
-               fmt::format("`{}` does not say how well its {} is known", material.name, asked.name),
-               "write it behind the level: `measured`, `published` with a `source`, or `estimated`");
-    }
-  }
-
-  void tell_folder(ReviewedFile& file, const ReviewedMaterial& material, Span span, const std::string& library) {
-    if (library.empty() || material.kind.empty()) return;
-    std::error_code ignored;
-    const fs::path within = fs::relative(fs::absolute(file.file, ignored), library, ignored);
-    if (within.empty() || within == within.filename()) return;
-    const std::string folder = within.begin()->string(), branch = branch_of(material.kind);
-    if (folder == branch || folder == "std") return;
-    report(file, Code::elsewhere_in_library, span,
-           fmt::format("a material of the kind `{}` lies in the folder `{}`", material.kind, visible_text(folder)),
-           fmt::format("move the file into `{}`", branch));
-  }
-
-  /// The materials of the library that are not reviewed, of the kinds that are.
-  void read_neighbours(const std::vector<std::string>& files) {
+  /// Finds the materials of the library that are not reviewed.
+  void find_others(const std::vector<std::string>& files) {
     const auto resolver = file_resolver(request_.roots);
     index_ = library_index(*resolver, files.front());
-    std::set<std::string> branches, own;
+    const bool without_shipped = is_source_of_shipped(library_of(files.front()));
+    std::set<std::string> own;
     std::error_code ignored;
     for (const std::string& file : files) own.insert(fs::weakly_canonical(file, ignored).string());
-    std::vector<const IndexedMaterial*> others;
     for (const IndexedMaterial& each : index_->materials()) {
-      const bool reviewed = !each.shipped() && own.contains(fs::weakly_canonical(each.file, ignored).string());
-      if (each.origin != Origin::hidden && !reviewed) others.push_back(&each);
+      if (each.origin == Origin::hidden || (each.shipped() && without_shipped)) continue;
+      if (each.shipped() ||
+          (fs::exists(each.file, ignored) && !own.contains(fs::weakly_canonical(each.file, ignored).string())))
+        others_.push_back(&each);
     }
-    others_ = others;
   }
 
-  /// Reads the neighbours of one branch when one of its materials is held against them.
-  const std::vector<Neighbour>& neighbours(const std::string& branch) {
+  /// By which a material of the library is kept.
+  static std::string key_of(const IndexedMaterial& material) {
+    return (material.shipped() ? material.module : material.file) + ":" + material.name;
+  }
+
+  /// The cues of the library's materials of one branch, read when one of them is held against them.
+  Result<const std::vector<Neighbour>*> neighbours(const std::string& branch) {
     const auto [known, is_new] = neighbours_.try_emplace(branch);
-    if (!is_new) return known->second;
-    std::vector<std::string> names;
+    if (!is_new) return &known->second;
+    std::vector<const IndexedMaterial*> there;
     for (const IndexedMaterial* each : others_)
-      if (branch_of(each->kind) == branch)
-        names.push_back(each->shipped() ? each->module + ":" + each->name : each->file + ":" + each->name);
-    for (const ComparedFile& file : read_cues(names, request_, common_->declarations))
-      for (const Cues& cues : file.cues) known->second.push_back({cues.material, branch, cues});
-    return known->second;
-  }
-
-  /// Names that are taken, and materials that feel the same.
-  void hold_against_others(Review& all, std::size_t number) {
-    for (const Entry& entry : entries_) {
-      if (entry.file != number) continue;
-      ReviewedFile& file = all.files[number];
-      ReviewedMaterial& material = file.materials[entry.index];
-      tell_names(all, entry);
-      if (!entry.cues || material.kind.empty()) continue;
-      const std::string branch = branch_of(material.kind);
-      double least = std::numeric_limits<double>::infinity();
-      std::vector<std::string> same;
-      const auto look = [&](const std::string& name, const Cues& cues, bool may_be_same) {
-        const Distance distance = comparer_.distance(*entry.cues, cues);
-        if (distance.verdict == Verdict::alike && !may_be_same) same.push_back(name);
-        if (distance.verdict == Verdict::unknown || distance.noticeable >= least) return;
-        least = distance.noticeable, material.nearest = name;
-      };
-      const auto replaced = [](const std::vector<std::string>& names, const std::string& name) {
-        return std::ranges::find(names, name) != names.end();
-      };
-      for (const Entry& other : entries_) {
-        const ReviewedMaterial& there = all.files[other.file].materials[other.index];
-        if (&other == &entry || !other.cues || branch_of(there.kind) != branch) continue;
-        look(there.name, *other.cues, replaced(entry.replaces, there.name) || replaced(other.replaces, material.name));
-      }
-      for (const Neighbour& other : neighbours(branch))
-        look(other.name, other.cues, replaced(entry.replaces, other.name));
-      material.apart = material.nearest.empty() ? std::numeric_limits<double>::quiet_NaN() : least;
-      if (!same.empty())
-        report(file, Code::feels_the_same, entry.name,
-               fmt::format("nobody tells `{}` from `{}`", material.name, fmt::join(same, "` and `")),
-               fmt::format("change what should tell them apart, or leave it out; `wale compare {} {}` shows the cues",
-                           visible_text(file.file), same.front()));
+      if (branch_of(each->kind) == branch) there.push_back(each);
+    std::vector<KeptReview::File> read(there.size());
+    for_each_in_parallel(there.size(), [&](std::size_t i) {
+      const IndexedMaterial& material = *there[i];
+      const std::string key = key_of(material), path = material.shipped() ? key : material.file;
+      if (request_.since)
+        if (const FileFacts* facts = KeptReview::unchanged(request_.since->neighbours, key)) {
+          read[i] = {request_.since->neighbours.at(key).hash, *facts};
+          return;
+        }
+      auto reading = read_facts(facts_request(path, material.name, true));
+      if (!reading) return;  // whose author hears of it, not who offers another
+      read[i].facts = std::move(reading->facts);
+      read[i].facts.looked_for.push_back(path);
+      if (!read[i].facts.uses_names) read[i].hash = hash_of(key, read[i].facts);
+    });
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      for (const MaterialFacts& each : read[i].facts.materials)
+        if (each.cues) known->second.push_back({each.name, *each.cues});
+      if (!read[i].hash.empty()) kept_neighbours_[key_of(*there[i])] = std::move(read[i]);
     }
+    return &known->second;
   }
 
+  /// Materials that feel the same.
+  Result<> hold_against_others(Review& all, const Entry& entry) {
+    ReviewedFile& file = all.files[entry.file];
+    ReviewedMaterial& material = file.materials[entry.index];
+    material.apart = std::numeric_limits<double>::quiet_NaN();
+    if (!material.facts.cues || material.kind.empty()) return {};
+    const std::string branch = branch_of(material.kind);
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<std::string> same;
+    const auto look = [&](const std::string& name, const Cues& cues, bool may_be_same) {
+      const Distance distance = comparer_.distance(*material.facts.cues, cues);
+      if (distance.verdict == Verdict::alike && !may_be_same) same.push_back(name);
+      if (distance.verdict == Verdict::unknown || distance.noticeable >= least) return;
+      least = distance.noticeable, material.nearest = name;
+    };
+    const auto replaced = [](const std::vector<std::string>& names, const std::string& name) {
+      return std::ranges::find(names, name) != names.end();
+    };
+    for (const Entry& other : entries_) {
+      const ReviewedMaterial& there = all.files[other.file].materials[other.index];
+      if (&other == &entry || !there.facts.cues || branch_of(there.kind) != branch) continue;
+      look(there.name, *there.facts.cues,
+           replaced(entry.words.replaces, there.name) || replaced(other.words.replaces, material.name));
+    }
+    const auto beside = neighbours(branch);
+    if (!beside) return beside.error();
+    for (const Neighbour& other : **beside) look(other.name, other.cues, replaced(entry.words.replaces, other.name));
+    if (!material.nearest.empty()) material.apart = least;
+    if (!same.empty())
+      report(file.diagnostics, Code::feels_the_same, entry.name,
+             fmt::format("nobody tells `{}` from `{}`", material.name, fmt::join(same, "` and `")),
+             fmt::format("change what should tell them apart, or leave it out; `wale compare {} {}` shows the cues",
+                         visible_text(file.file), same.front()));
+    return {};
+  }
+
+  /// Names that are taken, in any language.
   void tell_names(Review& all, const Entry& entry) {
     ReviewedFile& file = all.files[entry.file];
     const std::string& name = file.materials[entry.index].name;
-    std::set<std::string> where, there;
-    const auto find = [&](const std::string& sought, std::set<std::string>& into) {
+    const auto find = [&](const std::string& sought) {
+      std::set<std::string> into;
       for (const Entry& other : entries_)
         if (&other != &entry && all.files[other.file].materials[other.index].name == sought)
           into.insert(all.files[other.file].file);
       for (const IndexedMaterial* other : others_)
         if (other->name == sought) into.insert(other->file);
+      return into;
     };
-    find(name, where);
+    const auto where = find(name);
     if (!where.empty())
-      report(file, Code::taken_name, entry.name, fmt::format("`{}` is also the name of a material in {}", name, listed(where)),
+      report(file.diagnostics, Code::taken_name, entry.name,
+             fmt::format("`{}` is also the name of a material in {}", name, listed(where)),
              "give it another name, or take the other away and write `replaces` here if its name was another");
-    for (const std::string& each : entry.replaces) find(each, there);
+    std::set<std::string> there;
+    for (const std::string& each : entry.words.replaces) there.merge(find(each));
     if (!there.empty())
-      report(file, Code::still_there, entry.name,
+      report(file.diagnostics, Code::still_there, entry.name,
              fmt::format("`{}` replaces a material that is still in {}", name, listed(there)),
              "take that one away, or leave out `replaces`");
+    tell_shared_words(all, entry, name);
+  }
+
+  void tell_shared_words(Review& all, const Entry& entry, const std::string& name) {
+    fill_words(all);
+    ReviewedFile& file = all.files[entry.file];
+    std::set<std::string> own, shared, owners;
+    for (const std::string& each : entry.words.names) own.insert(folded(each));
+    for (const std::string& word : own) {
+      const auto found = words_.find(word);
+      if (found == words_.end()) continue;
+      for (const std::string& owner : found->second)
+        if (owner != name && std::ranges::find(entry.words.replaces, owner) == entry.words.replaces.end())
+          shared.insert("\"" + visible_text(word) + "\""), owners.insert("`" + owner + "`");
+    }
+    if (!shared.empty())
+      report(file.diagnostics, Code::shared_word, entry.name,
+             fmt::format("`{}` is called {}, and so is {}", name, fmt::join(shared, ", "), fmt::join(owners, ", ")),
+             "leave out the word where it fits less, or put another one in its place");
+  }
+
+  /// Which materials have a word as their name, title or other name.
+  void fill_words(const Review& all) {
+    if (!words_.empty()) return;
+    const auto add = [&](const std::string& word, const std::string& owner) {
+      if (!word.empty()) words_[folded(word)].insert(owner);
+    };
+    for (const Entry& each : entries_) {
+      const std::string& owner = all.files[each.file].materials[each.index].name;
+      add(owner, owner);
+      for (const std::string& word : each.words.names) add(word, owner);
+    }
+    for (const IndexedMaterial* each : others_) {
+      add(each->name, each->name), add(each->title, each->name);
+      for (const std::string& word : each->called) add(word, each->name);
+      for (const auto& [language, names] : each->called_in)
+        for (const std::string& word : names) add(word, each->name);
+    }
   }
 
   static std::string listed(const std::set<std::string>& files) {
@@ -312,22 +359,25 @@ class Reviewer {
     return fmt::format("{}", fmt::join(shown, ", "));
   }
 
+  const ReviewRequest& request_;
   std::shared_ptr<const CommonModules> common_;
   Comparer comparer_;
-  FileRequest request_;
+  std::vector<std::string> others_classes_;
   std::size_t file_count_ = 0;
   std::vector<Entry> entries_;
   std::shared_ptr<const LibraryIndex> index_;
   std::vector<const IndexedMaterial*> others_;  // of `index_`
   std::map<std::string, std::vector<Neighbour>> neighbours_;
+  std::map<std::string, KeptReview::File> kept_neighbours_;
+  std::map<std::string, std::set<std::string>> words_;
 };
 
 }  // namespace
 
-Result<Review> review(const std::vector<std::string>& paths, const std::vector<std::string>& roots, Sandbox sandbox) {
-  const auto files = files_below(paths);
-  if (!files) return files.error();
-  return Reviewer(roots, sandbox).review(*files);
+Result<Review> review(const ReviewRequest& request) {
+  const auto contribution = contribution_of(request.paths);
+  if (!contribution) return contribution.error();
+  return Reviewer(request).review(*contribution);
 }
 
 }  // namespace wale

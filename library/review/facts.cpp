@@ -1,0 +1,153 @@
+#include "library/review/facts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "compiler/describe/describe.hpp"
+#include "compiler/diagnostics/advice.hpp"
+#include "compiler/grade/grade.hpp"
+#include "compiler/preview/preview.hpp"
+#include "library/index/entry.hpp"
+
+namespace wale {
+namespace {
+
+const Diagnostic* first_error(const Diagnostics& diagnostics) {
+  const auto found = std::ranges::find(diagnostics.all(), Severity::error,
+                                       [](const Diagnostic& each) { return severity_of(each.code); });
+  return found == diagnostics.all().end() ? nullptr : &*found;
+}
+
+void report(Diagnostics& diagnostics, Code code, Span span, std::string message, std::string help) {
+  diagnostics.report(Advice(std::move(help)).about(code, span, std::move(message)));
+}
+
+/// What the compiler only warns of, and what a library does not take in.
+void tell_of_reading(const CheckedMaterial& checked, const Diagnostics& of_material, Diagnostics& diagnostics) {
+  for (const Diagnostic& each : of_material.all()) {
+    if (each.code == Code::delivered_otherwise || each.code == Code::saturates)
+      report(diagnostics, Code::reads_otherwise, each.span,
+             fmt::format("`{}` does not feel as it asks: {}", checked.name, each.message),
+             each.help.empty() ? "change the level, or what stands in its way" : each.help);
+    if (each.code == Code::never_pushes)
+      report(diagnostics, Code::blank_material, checked.span, fmt::format("`{}` never pushes", checked.name),
+             "give it a force, or leave it out");
+  }
+}
+
+/// Compiles a material for the other classes. A percept that its author calls essential keeps it from devices that lack
+/// it, as was meant.
+void build_for_others(const OpenedFile& opened, const FactsRequest& request, const CheckedMaterial& checked,
+                      Diagnostics& diagnostics) {
+  if (std::ranges::any_of(checked.percepts, &AskedPercept::essential)) return;
+  for (const std::string& device : request.others) {
+    FileRequest other = request.file;
+    other.device = device;
+    Diagnostics there;
+    if (compile_opened(opened, other, checked.name, there)) continue;
+    const Diagnostic* why = first_error(there);
+    report(diagnostics, Code::not_for_class, checked.span,
+           fmt::format("`{}` cannot be built for `{}`{}", checked.name, device,
+                       why ? fmt::format(": {} {}", code_name(why->code), why->message) : ""),
+           why && !why->help.empty() ? why->help
+                                     : fmt::format("`wale describe FILE --device {}` shows the whole message", device));
+  }
+}
+
+/// Grades it and draws it. Error: `missing_library`.
+Result<> grade_and_draw(MaterialFacts& facts, const Bank& bank, const CheckedMaterial& checked,
+                        const Declarations& declarations, Diagnostics& diagnostics) {
+  if (!bank.program().description().vibrates()) {
+    const Grade graded = grade(bank, normal_hand(declarations));
+    const Standing standing = graded.assumed_standing().value_or(graded.standing);
+    facts.standing = standing_word(standing);
+    if (standing != graded.standing) facts.standing += " by an assumed damping";
+    facts.damping = graded.required_damping, facts.newton = graded.largest_newton;
+    if (standing == Standing::unstable)
+      report(diagnostics, Code::unstable_material, checked.span,
+             fmt::format("device and hand do not hold the force of `{}`", checked.name),
+             "make it less stiff; `wale describe FILE` says where it is stiffest");
+  }
+  PreviewChoice choice;
+  choice.small = true;
+  const auto drawn = draw_preview(bank, preview_text(bank, declarations), declarations, choice);
+  return drawn ? Result<>() : Result<>(drawn.error());
+}
+
+void add_levels(MaterialFacts& facts, const CheckedMaterial& checked) {
+  for (const AskedPercept& asked : checked.percepts)
+    facts.levels.push_back({asked.name, asked.level, asked.evidence ? evidence_word(*asked.evidence) : "", {}});
+}
+
+/// Reads one material.
+Result<> read_material(MaterialFacts& facts, FactsReading& reading, const FactsRequest& request,
+                       const FileRequest& watched, const CheckedMaterial& checked) {
+  Diagnostics of_material, found;
+  const auto program = compile_opened(reading.opened, watched, checked.name, of_material);
+  Diagnostics& all = reading.opened.diagnostics;
+  Result<> drawn;
+  if (program) {
+    const Declarations& declarations = reading.opened.module->declarations();
+    const Bank bank(*program);
+    if (request.cues_alone) {
+      if (!program->description().vibrates()) facts.cues = cues_of(bank, declarations);
+    } else {
+      Felt felt = felt_of(*program, declarations);
+      facts.cues = std::move(felt.cues);
+      for (ReviewedLevel& level : facts.levels)
+        if (const EntryPercept* percept = felt.percept(level.percept)) level.reads = percept->reads;
+      drawn = grade_and_draw(facts, bank, checked, declarations, found);
+      build_for_others(reading.opened, request, checked, found);
+      tell_of_reading(checked, of_material, found);
+    }
+  }
+  for (const Diagnostics* each : {&of_material, &found})
+    for (const Diagnostic& one : each->all()) all.report(one);
+  return drawn;
+}
+
+}  // namespace
+
+Result<FactsReading> read_facts(const FactsRequest& request) {
+  FactsReading reading;
+  FileRequest watched = request.file;
+  watched.looked_for = &reading.facts.looked_for;
+  auto opened = open_file(watched);
+  if (!opened) return opened.error();
+  reading.opened = *std::move(opened);
+  if (!reading.opened.module)
+    return Error{.code = Code::damaged_file,
+                 .sentence = "a patch program is no text of a library",
+                 .mend = "name the Wale file that it was built from",
+                 .place = {.name = request.file.file}};
+  for (const auto& each : reading.opened.module->modules.modules)
+    reading.facts.uses_names |= !each->declarations.library_materials.empty();
+  const bool broken = reading.opened.diagnostics.has_errors();  // the file itself
+  for (const CheckedMaterial& checked : reading.opened.module->materials) {
+    if (!request.material.empty() && checked.name != request.material) continue;
+    MaterialFacts& facts = reading.facts.materials.emplace_back();
+    facts.name = checked.name;
+    add_levels(facts, checked);
+    if (broken) continue;
+    if (const auto read = read_material(facts, reading, request, watched, checked); !read) return read.error();
+  }
+  auto& paths = reading.facts.looked_for;
+  std::ranges::sort(paths);
+  paths.erase(std::ranges::unique(paths).begin(), paths.end());
+  return reading;
+}
+
+std::vector<std::string> devices_of_other_classes(const Declarations& declarations, const std::string& device) {
+  const DeviceDeclaration* own = declarations.devices.find(device);
+  std::set<std::string> classes;
+  if (own) classes.insert(own->of_class);
+  std::vector<std::string> devices;
+  declarations.devices.each([&](const std::string& name, const DeviceDeclaration& each) {
+    if (!each.of_class.empty() && classes.insert(each.of_class).second) devices.push_back(name);
+  });
+  return devices;
+}
+
+}  // namespace wale

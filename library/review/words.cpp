@@ -1,0 +1,104 @@
+#include "library/review/words.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "compiler/diagnostics/advice.hpp"
+#include "compiler/modules/representative.hpp"
+#include "library/review/licence.hpp"
+#include "schema/visible_text.hpp"
+
+namespace wale {
+namespace {
+
+namespace fs = std::filesystem;
+
+void report(Diagnostics& diagnostics, Code code, Span span, std::string message, std::string help) {
+  diagnostics.report(Advice(std::move(help)).about(code, span, std::move(message)));
+}
+
+}  // namespace
+
+std::string branch_of(std::string_view kind) { return std::string(kind.substr(0, kind.find('.'))); }
+
+MaterialWords tell_words(ReviewedMaterial& material, const MaterialDecl& node, const SyntaxTree& tree,
+                         Diagnostics& diagnostics) {
+  MaterialWords words;
+  std::set<std::string, std::less<>> has;
+  bool translated = false;
+  Span licence_at = node.name.span;
+  Diagnostics again;
+  for (const Setting& setting : node.representative) {
+    if (!is_representative_setting(setting.key.text) || setting.key.text == "like") continue;
+    const RepresentativeEntry said = representative_entry(setting, tree, again);
+    if (said.values.empty()) continue;
+    has.insert(std::string(setting.key.text));
+    if (setting.key.text == "called") translated |= !language_of(setting).empty() && language_of(setting) != "en";
+    if (said.key == "title") material.title = said.values.front();
+    if (said.key == "kind") material.kind = said.values.front();
+    if (said.key == "licence") material.licence = said.values.front(), licence_at = setting.span;
+    if (said.key == "replaces") words.replaces = said.values;
+    if (setting.key.text == "title" || setting.key.text == "called")
+      words.names.insert(words.names.end(), said.values.begin(), said.values.end());
+  }
+  const auto lacks = [&](const char* what, std::string help) {
+    report(diagnostics, Code::incomplete_material, node.name.span, fmt::format("`{}` has no {}", material.name, what),
+           std::move(help));
+  };
+  if (!has.contains("title")) lacks("title", "write `title \"…\"` in its representative block");
+  if (!has.contains("kind")) lacks("kind", "write, for example, `kind fabric.woven` in its representative block");
+  if (!has.contains("called")) lacks("other name", "write, for example, `called \"corduroy\", \"ribbed cotton\"`");
+  if (!translated) lacks("name in another language", "write, for example, `called de \"Cord\"`");
+  if (!has.contains("source"))
+    lacks("source", "write `source \"…\"`: where its figures come from, or that they are an estimate, and whose");
+  if (node.documentation.empty()) lacks("documentation", "write `/// …` above it: what it is, and how it pushes");
+  if (material.licence.empty())
+    report(diagnostics, Code::no_licence, node.name.span, fmt::format("`{}` has no licence", material.name),
+           "write `licence \"CC0-1.0\"` in it, or in the `wale.project` of the library");
+  else if (!may_be_shared(material.licence)) {
+    // One that forbids something is no misspelt one that does not.
+    const bool forbids = material.licence.find("-NC") != std::string::npos || material.licence.find("-ND") != std::string::npos;
+    const auto near = forbids ? std::nullopt : nearest_licence(material.licence);
+    report(diagnostics, Code::unfit_licence, licence_at,
+           fmt::format("\"{}\" is no licence under which everybody may pass on, change and use a material",
+                       visible_text(material.licence)),
+           near ? fmt::format("did you mean \"{}\"?", *near)
+                : "choose one that SPDX lists and that allows it, as \"CC0-1.0\" or \"CC-BY-4.0\"");
+  }
+  return words;
+}
+
+void tell_layers(const MaterialDecl& node, const CheckedMaterial& checked, Diagnostics& diagnostics) {
+  const std::string& name = checked.name;
+  if (checked.percepts.empty())
+    report(diagnostics, Code::incomplete_material, node.name.span,
+           fmt::format("`{}` does not say how it feels", name),
+           "write a `perceptual` block with levels, as in `roughness 0.35 estimated`");
+  if (!checked.force)
+    report(diagnostics, Code::incomplete_material, node.name.span, fmt::format("`{}` has no physics", name),
+           "write a `physical` block with a force");
+  for (const AskedPercept& asked : checked.percepts) {
+    if (!asked.evidence && !asked.blended)
+      report(diagnostics, Code::incomplete_material, asked.place(),
+             fmt::format("`{}` does not say how well its {} is known", name, asked.name),
+             "write it behind the level: `measured`, `published` with a `source`, or `estimated`");
+  }
+}
+
+void tell_folder(const std::string& file, const ReviewedMaterial& material, Span span, const std::string& library,
+                 Diagnostics& diagnostics) {
+  if (library.empty() || material.kind.empty()) return;
+  std::error_code ignored;
+  const fs::path within = fs::relative(fs::absolute(file, ignored), library, ignored);
+  if (within.empty() || within == within.filename()) return;
+  const std::string folder = within.begin()->string(), branch = branch_of(material.kind);
+  if (folder == branch || folder == "std") return;
+  report(diagnostics, Code::elsewhere_in_library, span,
+         fmt::format("a material of the kind `{}` lies in the folder `{}`", material.kind, visible_text(folder)),
+         fmt::format("move the file into `{}`", branch));
+}
+
+}  // namespace wale

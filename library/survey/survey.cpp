@@ -1,0 +1,53 @@
+#include "library/survey/survey.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <iterator>
+#include <optional>
+
+#include "library/review/contribution.hpp"
+#include "runtime/machine/parallel.hpp"
+
+namespace wale {
+
+Result<Survey> survey(const std::vector<std::string>& paths, const FileRequest& request, SurveyDepth depth) {
+  const auto found = contribution_of(paths);
+  if (!found) return found.error();
+  struct OfFile {
+    std::vector<Entry> entries;
+    std::optional<Error> unread;
+  };
+  std::vector<OfFile> read(found->files.size());
+  std::atomic<std::size_t> next{0};
+  in_parallel(read.size(), [&](std::size_t, std::size_t) {
+    for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < read.size();) {
+      FileRequest one = request;
+      one.file = found->files[i];
+      const std::string module = std::filesystem::path(one.file).stem().string();
+      auto entries = read_entries(one, module,
+                                  depth == SurveyDepth::feel
+                                      ? Feel(felt_of)
+                                      : [](const Program&, const Declarations&) { return Felt(); });
+      if (entries)
+        read[i].entries = std::move(entries->entries);
+      else
+        read[i].unread = entries.error();
+    }
+  });
+  Survey all;
+  for (OfFile& each : read) {
+    std::ranges::move(each.entries, std::back_inserter(all.entries));
+    if (!each.unread) continue;
+    if (each.unread->place.name.empty()) each.unread->place.name = found->files[static_cast<std::size_t>(&each - read.data())];
+    all.unread.push_back(*std::move(each.unread));
+  }
+  for (const UnfitFile& each : found->unfit)
+    all.unread.push_back({.code = Code::unfit_file,
+                          .sentence = each.why,
+                          .mend = "leave it out, or put a plain file in its place",
+                          .place = {.name = each.path}});
+  return all;
+}
+
+}  // namespace wale
