@@ -69,6 +69,16 @@ std::string library_of(const std::string& file) {
   return {};
 }
 
+/// Whether the map of a level is simulated: the one that is named, or, without a name, each one of the percept.
+bool rests_on_simulation(const AskedPercept& asked, const Declarations& declarations) {
+  bool simulated = false, felt = false;
+  declarations.each_map([&](const Map& map) {
+    if (map.percept != asked.name || (!asked.by.empty() && map.name != asked.by)) return;
+    (map.simulated() ? simulated : felt) = true;
+  });
+  return simulated && (!felt || !asked.by.empty());
+}
+
 /// A material of the library beside those that are reviewed.
 struct Neighbour {
   std::string name, branch;
@@ -141,7 +151,7 @@ class Reviewer {
       material.name = node->name.text;
       material.licence = library.empty() ? "" : *licence;
       tell_words(file, material, entry, *node, tree);
-      tell_layers(file, material, *node, *checked);
+      tell_layers(file, material, *node, *checked, opened.module->declarations());
       tell_folder(file, material, node->name.span, library);
       entries_.push_back(std::move(entry));
     }
@@ -191,7 +201,7 @@ class Reviewer {
   }
 
   void tell_layers(ReviewedFile& file, ReviewedMaterial& material, const MaterialDecl& node,
-                   const CheckedMaterial& checked) {
+                   const CheckedMaterial& checked, const Declarations& declarations) {
     if (checked.percepts.empty())
       report(file, Code::incomplete_material, node.name.span,
              fmt::format("`{}` does not say how it feels", material.name),
@@ -200,6 +210,10 @@ class Reviewer {
       report(file, Code::incomplete_material, node.name.span, fmt::format("`{}` has no physics", material.name),
              "write a `physical` block with a force");
     for (const AskedPercept& asked : checked.percepts) {
+      if (asked.evidence == Evidence::simulated || rests_on_simulation(asked, declarations))
+        report(file, Code::simulated_figures, asked.place(),
+               fmt::format("the {} of `{}` is simulated: nobody has felt it", asked.name, material.name),
+               "choose a map that people were measured for, as in `roughness 0.5, by minsky1995.figure19`");
       material.levels.push_back({asked.name, asked.level, asked.evidence ? evidence_word(*asked.evidence) : ""});
       if (!asked.evidence && !asked.blended)
         report(file, Code::incomplete_material, asked.place(),
