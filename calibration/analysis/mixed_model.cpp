@@ -65,19 +65,30 @@ VectorXd start_of(Variation variation, Index q, double diagonal) {
   return theta;
 }
 
+bool is_singular(const VectorXd& theta, Variation variation, Index q) {
+  Index at = 0;
+  for (Index i = 0; i < q; ++i) {
+    if (!varies(variation, i)) continue;
+    at += variation == Variation::correlated ? i : 0;
+    if (std::abs(theta(at++)) < negligible) return true;
+  }
+  return false;
+}
+
 Minimum best_factor(const MixedLikelihood& likelihood, Criterion criterion, Variation variation) {
   const Objective deviance = [&](const VectorXd& theta) {
     return likelihood.profiled(factor_of(theta, variation, likelihood), criterion);
   };
-  const Index size = size_of(variation, likelihood.varying());
+  const Index q = likelihood.varying(), size = size_of(variation, q);
   Minimum best;
   for (const double diagonal : {1.0, 0.1}) {
-    Minimum found = minimise(deviance, start_of(variation, likelihood.varying(), diagonal),
-                             VectorXd::Constant(size, 0.5 * diagonal), 1e-10, 4000);
+    const Minimum found = polish(deviance, minimise(deviance, start_of(variation, q, diagonal),
+                                                    VectorXd::Constant(size, 0.5 * diagonal), 1e-9, 4000));
     if (diagonal == 1.0 || found.value < best.value) best = found;
-    if (size == 0) break;
+    // A boundary may be a side valley, so only then the second start is tried.
+    if (size == 0 || !is_singular(best.at, variation, q)) break;
   }
-  return polish(deviance, best);
+  return best;
 }
 
 /// Satterthwaite's degrees of freedom of each coefficient: the variance of its variance by the curvature of the
@@ -109,16 +120,6 @@ VectorXd satterthwaite(const MixedLikelihood& likelihood, Criterion criterion, V
     freedom(i) = spread > 0 ? 2 * value * value / spread : likelihood.trials() - static_cast<double>(p);
   }
   return freedom;
-}
-
-bool is_singular(const VectorXd& theta, Variation variation, Index q) {
-  Index at = 0;
-  for (Index i = 0; i < q; ++i) {
-    if (!varies(variation, i)) continue;
-    at += variation == Variation::correlated ? i : 0;
-    if (std::abs(theta(at++)) < negligible) return true;
-  }
-  return false;
 }
 
 }  // namespace

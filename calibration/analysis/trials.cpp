@@ -145,6 +145,8 @@ class TrialReader {
     if (!trial) return trial.error();
     if (!device) return device.error();
     run_ = *run, trial_ = *trial, device_ = *device;
+    grade_ = table_.column("grade");
+    if (columns_.by_study) excluded_ = table_.column("excluded"), type_ = table_.column("trial_type");
     return {};
   }
 
@@ -167,6 +169,14 @@ class TrialReader {
       const Selection& each = columns_.keep[i];
       if ((table_.cell(row, keep_[i]) == each.text) == each.is) continue;
       exclude(row, "only rows whose " + each.column + (each.is ? " is " : " is not ") + visible_text(each.text));
+      return {};
+    }
+    if (excluded_ && !is_missing(table_.cell(row, *excluded_))) {
+      exclude(row, visible_text(table_.cell(row, *excluded_)));
+      return {};
+    }
+    if (type_ && table_.cell(row, *type_) == "practice") {
+      exclude(row, "practice");
       return {};
     }
     const std::string_view observer = table_.cell(row, observer_);
@@ -195,6 +205,7 @@ class TrialReader {
       trials_.factors[i].values.push_back(factor_names_[i].number_of(cell));
     }
     if (const auto same = require_one_device(row); !same) return same;
+    trials_.simulated |= grade_ && table_.cell(row, *grade_) == "simulated";
     trials_.observer.push_back(observers_.number_of(observer));
     trials_.run.push_back(run_ ? runs_.number_of(table_.cell(row, *run_)) : 0);
     trials_.answer.push_back(*answer);
@@ -361,7 +372,7 @@ class TrialReader {
   const TrialColumns& columns_;
   Trials trials_;
   std::size_t observer_ = 0, answer_ = 0, device_line_ = 0;
-  std::optional<std::size_t> run_, trial_, device_;
+  std::optional<std::size_t> run_, trial_, device_, grade_, excluded_, type_;
   std::vector<std::size_t> sizes_, factors_, keep_;
   std::vector<bool> stated_;  // the unit of a size does not depend on the cells
   Names observers_, runs_, labels_;

@@ -40,6 +40,8 @@ struct TrialColumns {
   std::vector<std::string> factors;  ///< columns of words: "waveform"
   std::string run, trial, device;
   std::vector<Selection> keep;      ///< rows that fail one are excluded
+  bool by_study = true;             ///< rows that the study itself marks are excluded: those with a text in a column
+                                    ///< `excluded`, and those of `trial_type` practice
   bool leave_out_nonpositive = false;  ///< magnitudes of zero or below are excluded and not refused
 };
 
@@ -76,6 +78,7 @@ struct Trials {
   std::vector<std::uint32_t> stimulus;   ///< trials with the same sizes and factors have the same number
   std::size_t stimuli = 0;
   std::vector<std::size_t> line;         ///< of the file, from 1
+  bool simulated = false;                ///< a column `grade` says so of at least one trial
   std::string device;                    ///< the one device of all trials; empty if the table does not say
   std::vector<std::string> rules;        ///< of the exclusions, in words
   std::vector<Exclusion> exclusions;     ///< in the order of the file

@@ -119,6 +119,21 @@ TEST(Trials, ListExclusionsWithTheirRule) {
   EXPECT_NE(refusal_of("participant\tblock\tresponse\tamplitude\nS1\tmain\t1\t2\n", columns).find("no trial is left"), std::string::npos);
 }
 
+TEST(Trials, LeaveOutWhatTheStudyMarks) {
+  const std::string text =
+      "participant\ttrial_type\texcluded\tgrade\tresponse\tamplitude\n"
+      "S1\tpractice\tn/a\tmeasured\t7\t0.2\nS1\tmain\tn/a\tmeasured\t10\t0.2\n"
+      "S1\tmain\tlonger than 60 min\tmeasured\t9\t0.2\nS1\tmain\tn/a\tsimulated\t20\t0.8\n";
+  const auto trials = trials_of(text);
+  ASSERT_TRUE(trials) << in_words(trials.error());
+  EXPECT_EQ(trials->size(), 2u);
+  EXPECT_EQ(trials->rules, (std::vector<std::string>{"practice", "longer than 60 min"}));
+  EXPECT_TRUE(trials->simulated) << "one simulated answer is enough";
+  TrialColumns all = rough();
+  all.by_study = false;
+  EXPECT_EQ(trials_of(text, all)->size(), 4u);
+}
+
 TEST(Trials, NameFileAndRowOfWhatIsWrong) {
   const std::string head = "participant,response,amplitude\n";
   EXPECT_NE(refusal_of(head + "S1,10,0.2\nS1,ten,0.8\n").find("study.tsv:3: expected a number for an answer, found `ten`"), std::string::npos);
