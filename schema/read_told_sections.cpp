@@ -8,7 +8,7 @@ namespace {
 Evidence read_evidence(ByteReader& in, std::string_view what) {
   const std::uint8_t value = in.u8();
   if (value < static_cast<std::uint8_t>(Evidence::measured) ||
-      value > static_cast<std::uint8_t>(Evidence::extrapolated)) {
+      value > static_cast<std::uint8_t>(Evidence::simulated)) {
     in.damaged(" has evidence grade ", int{value}, " for ", what, ", which this Wale does not know");
   }
   return static_cast<Evidence>(value);

@@ -31,7 +31,7 @@ Discrimination::Discrimination(const Declarations& declarations, std::string_vie
   });
   if (exerts > 0) least_ = least_force / exerts;
   std::ranges::stable_sort(thresholds_, {}, [&](const Threshold* each) {
-    return std::tuple(each->device != device_, each->evidence, each->weber);
+    return std::tuple(each->simulated(), each->device != device_, each->evidence, each->weber);
   });
 }
 
@@ -49,7 +49,9 @@ const Threshold* recognition(const Declarations& declarations, std::string_view 
   const Threshold* best = nullptr;
   each_threshold(declarations, [&](const Threshold& each) {
     if (!(each.recognised > 0) || each.cue != cue) return;
-    const auto rank = [&](const Threshold& of) { return std::tuple(of.device != device, of.evidence, of.recognised); };
+    const auto rank = [&](const Threshold& of) {
+      return std::tuple(of.simulated(), of.device != device, of.evidence, of.recognised);
+    };
     if (!best || rank(each) < rank(*best)) best = &each;
   });
   return best;

@@ -12,9 +12,9 @@ namespace wale {
 
 /// How easily people tell two sizes of one cue apart on one device, and the publication that says so.
 ///
-/// Of several publications, one measured on the device itself takes precedence; then one that compared such sizes; then
-/// one with a better grade than recalled; then the one with the smallest threshold, so that nothing is called equal too
-/// early.
+/// Of several publications, one that people were measured for takes precedence over a simulated one; then one measured on
+/// the device itself; then one that compared such sizes; then one with a better grade than recalled; then the one with
+/// the smallest threshold, so that nothing is called equal too early.
 class Discrimination {
  public:
   /// `exerts` is the force of a size of 1, in N over the cue's unit: small differences count by their force, relative

@@ -114,6 +114,10 @@ struct Map {
   Span span;
   bool exported = false;
 
+  /// Whether one of its figures comes from answers that no person gave on a real device.
+  bool simulated() const {
+    return slope == Evidence::simulated || anchor == Evidence::simulated || handle == Evidence::simulated;
+  }
   /// Whether one of its figures was recalled and not looked up.
   bool recalled() const {
     return slope == Evidence::recalled || anchor == Evidence::recalled || handle == Evidence::recalled;
@@ -155,6 +159,8 @@ struct Threshold {
   Span span;
   bool exported = false;
 
+  /// Whether it comes from answers that no person gave on a real device.
+  bool simulated() const { return evidence == Evidence::simulated || handle == Evidence::simulated; }
   /// Whether it was recalled and not looked up.
   bool recalled() const { return evidence == Evidence::recalled || handle == Evidence::recalled; }
   /// The distance of two sizes (SI, not negative) in just noticeable differences at d' = 1: ln(ratio) / ln(1 + w), or

@@ -252,6 +252,7 @@ std::string evidence_word(Evidence evidence) {
     case Evidence::recalled: return "recalled";
     case Evidence::transferred: return "transferred";
     case Evidence::extrapolated: return "extrapolated";
+    case Evidence::simulated: return "simulated";
   }
   return "unknown";
 }

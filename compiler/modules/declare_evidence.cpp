@@ -15,7 +15,8 @@ const std::pair<const char*, Evidence> evidence_words[] = {{"measured", Evidence
                                                            {"published", Evidence::published},
                                                            {"estimated", Evidence::estimated},
                                                            {"recalled", Evidence::recalled},
-                                                           {"transferred", Evidence::transferred}};
+                                                           {"transferred", Evidence::transferred},
+                                                           {"simulated", Evidence::simulated}};
 
 }  // namespace
 

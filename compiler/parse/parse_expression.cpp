@@ -41,8 +41,8 @@ constexpr auto infix = [] {
 }();
 
 /// In declarations these words after a number say how well it is known; they are not units.
-constexpr std::string_view evidence_words[] = {"measured", "published",   "estimated",
-                                               "recalled", "transferred", "assumed"};
+constexpr std::string_view evidence_words[] = {"measured",    "published", "estimated", "recalled",
+                                               "transferred", "simulated", "assumed"};
 
 std::vector<Fact> limit_fact(std::size_t limit) { return {{"limit", NumberWithUnit{static_cast<double>(limit), ""}}}; }
 

@@ -29,6 +29,9 @@ MapChoice choose_map(const Percept& percept, const DeviceDeclaration& device, co
     const bool of_carrier = map.from == percept.argument() && map.dimension == percept.carrier_dimension;
     (map.tied && of_carrier ? tied : choice.untied).push_back(&map);
   });
+  // What nobody felt never takes the place of what people felt, unless it is chosen by name.
+  if (std::ranges::any_of(tied, [](const Map* map) { return !map->simulated(); }) && by.empty())
+    std::erase_if(tied, [](const Map* map) { return map->simulated(); });
   if (!tied.empty()) choice.untied.clear();
   const auto choose = [&](const std::vector<const Map*>& candidates) {
     if (candidates.size() == 1) choice.map = candidates.front();

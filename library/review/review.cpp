@@ -178,7 +178,7 @@ class Reviewer {
       if (const auto* node = std::get_if<MaterialDecl>(&declaration); node && module)
         if (const auto checked = std::ranges::find(module->materials, node->name.text, &CheckedMaterial::name);
             checked != module->materials.end())
-          tell_layers(*node, *checked, file.diagnostics);
+          tell_layers(*node, *checked, module->declarations(), file.diagnostics);
     if (file.diagnostics.all().empty() && !facts->uses_names)
       kept.reviewed[file.file] = {hash_of(file.file, *facts), *facts};
 

@@ -20,6 +20,16 @@ void report(Diagnostics& diagnostics, Code code, Span span, std::string message,
   diagnostics.report(Advice(std::move(help)).about(code, span, std::move(message)));
 }
 
+/// Whether the map of a level is simulated: the one that is named, or, without a name, each one of the percept.
+bool rests_on_simulation(const AskedPercept& asked, const Declarations& declarations) {
+  bool simulated = false, felt = false;
+  declarations.each_map([&](const Map& map) {
+    if (map.percept != asked.name || (!asked.by.empty() && map.name != asked.by)) return;
+    (map.simulated() ? simulated : felt) = true;
+  });
+  return simulated && (!felt || !asked.by.empty());
+}
+
 }  // namespace
 
 std::string branch_of(std::string_view kind) { return std::string(kind.substr(0, kind.find('.'))); }
@@ -71,7 +81,8 @@ MaterialWords tell_words(ReviewedMaterial& material, const MaterialDecl& node, c
   return words;
 }
 
-void tell_layers(const MaterialDecl& node, const CheckedMaterial& checked, Diagnostics& diagnostics) {
+void tell_layers(const MaterialDecl& node, const CheckedMaterial& checked, const Declarations& declarations,
+                 Diagnostics& diagnostics) {
   const std::string& name = checked.name;
   if (checked.percepts.empty())
     report(diagnostics, Code::incomplete_material, node.name.span,
@@ -81,6 +92,10 @@ void tell_layers(const MaterialDecl& node, const CheckedMaterial& checked, Diagn
     report(diagnostics, Code::incomplete_material, node.name.span, fmt::format("`{}` has no physics", name),
            "write a `physical` block with a force");
   for (const AskedPercept& asked : checked.percepts) {
+    if (asked.evidence == Evidence::simulated || rests_on_simulation(asked, declarations))
+      report(diagnostics, Code::simulated_figures, asked.place(),
+             fmt::format("the {} of `{}` is simulated: nobody has felt it", asked.name, name),
+             "choose a map that people were measured for, as in `roughness 0.5, by minsky1995.figure19`");
     if (!asked.evidence && !asked.blended)
       report(diagnostics, Code::incomplete_material, asked.place(),
              fmt::format("`{}` does not say how well its {} is known", name, asked.name),

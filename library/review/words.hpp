@@ -21,8 +21,9 @@ struct MaterialWords {
 MaterialWords tell_words(ReviewedMaterial& material, const MaterialDecl& node, const SyntaxTree& tree,
                          Diagnostics& diagnostics);
 
-/// Reports what a library lacks of the other two layers (W0901).
-void tell_layers(const MaterialDecl& node, const CheckedMaterial& checked, Diagnostics& diagnostics);
+/// Reports what a library lacks of the other two layers (W0901), and levels that nobody has felt (W0915).
+void tell_layers(const MaterialDecl& node, const CheckedMaterial& checked, const Declarations& declarations,
+                 Diagnostics& diagnostics);
 
 /// Reports a file of a library that lies in another folder than that of its kind (W0906). `library` is the library's
 /// folder, empty for none.

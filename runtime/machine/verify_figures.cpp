@@ -215,7 +215,7 @@ void verify_device(const DeviceProfile& device) {
 
 void verify_percepts(const PatchProgram& program) {
   const auto graded = [](Evidence evidence) {
-    return evidence >= Evidence::measured && evidence <= Evidence::extrapolated;
+    return evidence >= Evidence::measured && evidence <= Evidence::simulated;
   };
   for (std::size_t i = 0; i < program.percepts.size(); ++i) {
     const PerceptRecord& percept = program.percepts[i];

@@ -104,6 +104,22 @@ TEST_F(Reviewing, RefusesLicencesThatForbidToPassOn) {
   EXPECT_EQ(refused.error().code, Code::malformed_value);
 }
 
+TEST_F(Reviewing, RefusesWhatNobodyFelt) {
+  write("fabric/cord.wale", cord("broad_cord", "0.6 simulated", "3.3 mm"));
+  EXPECT_EQ(codes_of(review_all()), Codes{"W0915"});
+  const auto by = [&](const std::string& grade) {
+    std::string text = cord("broad_cord", "0.6 estimated, by bench.planted", "3.3 mm");
+    text.insert(text.find("/// Ribs"),
+                "map roughness from amplitude {\n  name     bench.planted\n  law      magnitude = (amplitude / 1 N)^0.76\n"
+                "  valid    amplitude 0.2 N .. 4 N\n  scatter  0.05\n  evidence slope " + grade + ", anchor " + grade +
+                ", handle " + grade + "\n  on       sandpaper\n  source   \"planted observers\"\n}\n\n");
+    write("fabric/cord.wale", text);
+    return codes_of(review_all());
+  };
+  EXPECT_EQ(by("estimated"), Codes{});
+  EXPECT_EQ(by("simulated"), Codes{"W0915"});
+}
+
 TEST_F(Reviewing, FindsNamesThatAreTakenAndWhatFeelsTheSame) {
   write("trial/one.wale", cord("denim"));
   EXPECT_EQ(codes_of(review_all()), Codes{"W0904"}) << "the shipped library has a denim";

@@ -125,6 +125,13 @@ class Code(enum.IntEnum):
     elsewhere_in_library = 906  # a file in another folder than that of its kind
     unformatted_file = 907  # a file that is not in the standard style
     still_there = 908  # a material that another one replaces, and that is still there
+    shared_word = 909  # a name, in some language, that two materials share
+    unfit_file = 910  # a link, or a file with a name that no library can hold
+    not_for_class = 911  # a material that cannot be built for a class of devices
+    reads_otherwise = 912  # a material that does not feel as it asks
+    unstable_material = 913  # a material whose force makes the handle shake by itself
+    blank_material = 914  # a material that never pushes
+    simulated_figures = 915  # a material that rests on what no person felt
 
 
 class DeviceKind(enum.IntEnum):

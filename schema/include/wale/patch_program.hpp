@@ -154,14 +154,16 @@ struct Picture {
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 
-/// How a figure came to be known, best first. `extrapolated`: from a stimulus outside what was measured.
+/// How a figure came to be known, best first. `extrapolated`: from a stimulus outside what was measured. `simulated`: from
+/// answers that no person gave, or that were given without a real device.
 enum class Evidence : std::uint8_t {
   measured = 1,
   published = 2,
   estimated = 3,
   recalled = 4,
   transferred = 5,
-  extrapolated = 6
+  extrapolated = 6,
+  simulated = 7
 };
 
 /// How a percept's carrier is read from a program, or from the force at the handle. Each extractor reads a different
