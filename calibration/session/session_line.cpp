@@ -20,7 +20,7 @@ constexpr double metre_in_mm = 1000;
 
 /// The names of the events, in the order of the variant.
 constexpr std::array<const char*, std::variant_size_v<SessionEvent> - 1> names = {
-    "begin", "program", "order", "shown", "answer", "taken back", "groups", "note", "end"};
+    "begin", "program", "order", "shown", "answer", "taken back", "groups", "resumed", "note", "end"};
 
 bool is_known(std::string_view name) {
   for (const std::string_view each : names)
@@ -58,6 +58,8 @@ struct Write {
     to["file"] = begin.file;
     to["versions"] = Json::object();
     for (const auto& [name, version] : begin.versions) to["versions"][name] = version;
+    if (!begin.experiment.empty()) to["experiment"] = begin.experiment;
+    if (!begin.grade.empty()) to["grade"] = begin.grade;
   }
   void operator()(const SessionProgram& program) const {
     to["patch"] = program.patch;
@@ -82,6 +84,8 @@ struct Write {
     to["name"] = shown.name;
     if (!shown.label.empty()) to["label"] = shown.label;
     if (shown.number != 0) to["number"] = shown.number;
+    if (shown.interval != 0) to["interval"] = shown.interval;
+    if (!shown.recording.empty()) to["recording"] = shown.recording;
   }
   void operator()(const SessionAnswer& answer) const {
     to["question"] = answer.question;
@@ -99,6 +103,10 @@ struct Write {
       all.push_back(std::move(group));
     }
     to["groups"] = std::move(all);
+  }
+  void operator()(const SessionResumed& resumed) const {
+    to["gap"] = finite(resumed.gap);
+    to["how"] = resumed.how;
   }
   void operator()(const SessionNote& note) const { to["text"] = note.text; }
   void operator()(const SessionEnd& end) const { to["why"] = end.why; }
@@ -164,6 +172,8 @@ void read(const Json& from, SessionBegin& begin) {
   begin.file = text_of(from, "file");
   for (const auto& [name, version] : object(field(from, "versions"), "versions").items())
     begin.versions[name] = text(version, "versions");
+  begin.experiment = text_if_any(from, "experiment");
+  begin.grade = text_if_any(from, "grade");
 }
 
 void read(const Json& from, SessionProgram& program) {
@@ -195,6 +205,9 @@ void read(const Json& from, SessionShown& shown) {
   shown.name = text_of(from, "name");
   shown.label = text_if_any(from, "label");
   if (const auto place = from.find("number"); place != from.end()) shown.number = whole<std::uint32_t>(*place, "number");
+  if (const auto interval = from.find("interval"); interval != from.end())
+    shown.interval = whole<std::uint32_t>(*interval, "interval");
+  shown.recording = text_if_any(from, "recording");
 }
 
 void read(const Json& from, SessionAnswer& answer) {
@@ -215,6 +228,10 @@ void read(const Json& from, SessionGroups& groups) {
   }
 }
 
+void read(const Json& from, SessionResumed& resumed) {
+  resumed.gap = number(field(from, "gap"), "gap");
+  resumed.how = text_of(from, "how");
+}
 void read(const Json& from, SessionNote& note) { note.text = text_of(from, "text"); }
 void read(const Json& from, SessionEnd& end) { end.why = text_of(from, "why"); }
 

@@ -1,11 +1,16 @@
 #include "wale/session_log.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <sys/stat.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <system_error>
@@ -51,6 +56,9 @@ int again(auto call) {
   return result;
 }
 
+/// Keeps other processes from going on in the same log.
+bool lock(int file) { return again([&] { return flock(file, LOCK_EX | LOCK_NB); }) == 0; }
+
 /// Makes sure that a new file's name is on the disk too. Some file systems cannot, and keep it all the same.
 void sync_folder_of(const std::string& path) {
   const auto folder = std::filesystem::path(path).parent_path();
@@ -66,6 +74,7 @@ Result<SessionLog> SessionLog::create(const std::string& path, const SessionBegi
   const int file = again([&] { return open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644); });
   if (file < 0) return unwritable(path, errno);
   SessionLog log(path, file);
+  (void)lock(file);  // nobody else knows the new file yet
   log.begun_ = steady_now();
   const auto line = session_line({.number = 1, .time = utc_now(), .seconds = 0, .event = begin});
   const Result<> written = line ? log.write(*line) : Result<>(line.error());
@@ -75,6 +84,61 @@ Result<SessionLog> SessionLog::create(const std::string& path, const SessionBegi
   }
   sync_folder_of(path);
   return log;
+}
+
+namespace {
+
+/// Seconds from `time`, "2026-11-24T20:31:00.123Z", until now; 0 for another text and for a clock that was set back.
+double seconds_since(const std::string& time) {
+  std::tm parts{};
+  const char* end = strptime(time.c_str(), "%Y-%m-%dT%H:%M:%S", &parts);
+  if (end == nullptr) return 0;
+  const double then = static_cast<double>(timegm(&parts)) + (*end == '.' ? std::atof(end) : 0.0);
+  const double now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return std::max(0.0, now - then);
+}
+
+}  // namespace
+
+Result<SessionLog::Resumed> SessionLog::resume(const std::string& path) {
+  const auto at_path = [&](Error error) {
+    error.place.name = path;
+    return error;
+  };
+  const int file = again([&] { return open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC); });
+  if (file < 0)
+    return at_path({.code = Code::unreadable_file,
+                    .sentence = "the log cannot be opened: " + std::generic_category().message(errno)});
+  SessionLog log(path, file);
+  if (!lock(file))
+    return at_path({.code = Code::wrong_moment,
+                    .sentence = "another process goes on in this log",
+                    .mend = "end it first"});
+  auto record = open_session_log(path);
+  if (!record) return record.error();
+  struct stat status {};
+  if (fstat(file, &status) != 0) return unwritable(path, errno);
+  log.size_ = status.st_size;
+  char last = '\n';
+  if (pread(file, &last, 1, log.size_ - 1) != 1) return unwritable(path, errno);
+  const bool is_cut = last != '\n';
+  if (record->problems.size() > (is_cut ? 1u : 0u)) return record->problems.front();
+  if (record->ended())
+    return at_path({.code = Code::wrong_moment,
+                    .sentence = "this session has ended",
+                    .mend = "begin another one with a new log"});
+  if (is_cut) {
+    std::int64_t whole = log.size_;
+    while (whole > 0 && pread(file, &last, 1, whole - 1) == 1 && last != '\n') --whole;
+    if (again([&] { return ftruncate(file, whole); }) != 0) return unwritable(path, errno);
+    log.size_ = whole;
+    record->problems.clear();
+  }
+  const SessionEntry& before = record->entries.back();
+  const double gap = seconds_since(before.time);
+  log.lines_ = before.number;
+  log.begun_ = steady_now() - before.seconds - gap;
+  return Resumed{std::move(log), *std::move(record), gap};
 }
 
 SessionLog::SessionLog(SessionLog&& other) noexcept

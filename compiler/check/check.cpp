@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compiler/check/check_experiment.hpp"
 #include "compiler/check/check_material.hpp"
 #include "compiler/check/check_names.hpp"
 #include "compiler/check/check_presentation.hpp"
@@ -49,6 +50,12 @@ const CheckedWorkspace* CheckedModule::workspace(const std::string& name) const 
   return found == workspaces.end() ? nullptr : &*found;
 }
 
+const CheckedExperiment* CheckedModule::experiment(const std::string& name) const {
+  for (const CheckedExperiment& each : experiments)
+    if (name.empty() || each.name == name) return &each;
+  return nullptr;
+}
+
 CheckedModule check(ModuleSet modules, const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
   CheckedModule checked;
   checked.modules = std::move(modules);
@@ -74,6 +81,7 @@ CheckedModule check(ModuleSet modules, const SourceSet& sources, Resolver& resol
           declared && declared->node == node)
         checked.workspaces.push_back(check_workspace(*declared, surroundings, whole));
   check_presentations(*own, surroundings, checked);
+  check_experiments(*own, surroundings, checked);
   if (whole && !diagnostics.has_errors() && !all.modules.empty()) warn_of_unused_declarations(all, surroundings);
   return checked;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/declarations/declarations.hpp"
+#include "compiler/expression/checked_experiment.hpp"
 #include "compiler/expression/parameter_names.hpp"
 #include "compiler/expression/value.hpp"
 
@@ -250,12 +251,15 @@ struct CheckedModule {
   std::vector<CheckedMovie> movies;
   std::vector<CheckedKeys> keys;
   std::vector<CheckedGroups> groups;
+  std::vector<CheckedExperiment> experiments;
 
   const Declarations& declarations() const { return modules.declarations(); }
   /// The material with that name, or with an empty name the first one of the file; null if there is none.
   const CheckedMaterial* material(const std::string& name) const;
   /// The workspace with that name; null if there is none.
   const CheckedWorkspace* workspace(const std::string& name) const;
+  /// The experiment with that name, or with an empty name the first one of the file; null if there is none.
+  const CheckedExperiment* experiment(const std::string& name) const;
 };
 
 }  // namespace wale

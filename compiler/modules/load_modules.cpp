@@ -236,6 +236,8 @@ class ModuleLoader {
     for (const Declaration& declaration : module.tree.declarations) {
       if (const auto* material = std::get_if<MaterialDecl>(&declaration))
         find(made_from(*material, module.tree), material->name.text);
+      if (const auto* record = std::get_if<RecordDecl>(&declaration); record && record->keyword.text == "experiment")
+        find(presented_by(*record, module.tree), "");
       const auto* workspace = std::get_if<WorkspaceDecl>(&declaration);
       if (!workspace) continue;
       // A patch may have the name of the material that it is of.

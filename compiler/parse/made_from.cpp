@@ -1,5 +1,8 @@
 #include "compiler/parse/made_from.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include "compiler/parse/overloaded.hpp"
 
 namespace wale {
@@ -53,6 +56,30 @@ std::vector<Word> made_from(const MaterialDecl& material, const SyntaxTree& tree
 std::vector<Word> made_from(ExprId expr, const SyntaxTree& tree) {
   std::vector<Word> names;
   add_names(expr, tree, names);
+  return names;
+}
+
+std::vector<Word> presented_by(const RecordDecl& experiment, const SyntaxTree& tree) {
+  std::vector<Word> names;
+  std::vector<std::string_view> factors;
+  for (const Setting& setting : experiment.settings) {
+    if (setting.key.text == "factor") {
+      for (std::size_t i = 0; i < setting.items.size(); ++i) {
+        const SettingItem& item = setting.items[i];
+        if (i == 0 && !item.words.empty()) factors.push_back(item.words.front().text);
+        const bool is_step = item.words.size() == 1 && item.words.front().text == "even";
+        if (!item.value && item.words.size() == (i == 0 ? 2u : 1u) && !(i > 0 && is_step))
+          names.push_back(item.words.back());
+      }
+    }
+    if (setting.key.text != "stimulus" && setting.key.text != "standard") continue;
+    for (const SettingItem& item : setting.items) {
+      if (item.equals) add_names(*item.equals, tree, names);
+      else if (item.value) add_names(*item.value, tree, names);
+      else if (item.words.size() == 1) names.push_back(item.words.front());
+    }
+  }
+  std::erase_if(names, [&](const Word& each) { return std::ranges::find(factors, each.text) != factors.end(); });
   return names;
 }
 

@@ -19,4 +19,8 @@ std::vector<Word> made_from(const MaterialDecl& material, const SyntaxTree& tree
 /// The same of an expression that stands for a material: `X(…)`, `0.5 X + 30 % X`.
 std::vector<Word> made_from(ExprId expr, const SyntaxTree& tree);
 
+/// All words of an `experiment` that may name a material: in what its `stimulus` and `standard` are made of, and levels
+/// of a `factor` that are words. Names of its factors are left out.
+std::vector<Word> presented_by(const RecordDecl& experiment, const SyntaxTree& tree);
+
 }  // namespace wale

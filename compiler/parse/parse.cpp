@@ -18,11 +18,13 @@ constexpr int known_version = 1;
 
 /// Declarations whose blocks hold settings. Later stages know what the settings mean.
 const std::vector<std::string> record_words = {"percept", "map",  "threshold", "rule", "class", "device",
-                                               "levels",  "hand", "movie",     "keys", "groups"};
+                                               "levels",  "hand", "movie",     "keys", "groups",
+                                               "experiment"};
 
 const std::vector<std::string> declaration_words = {"material",  "percept", "map",       "threshold", "rule", "class",
                                                     "device",    "levels",  "hand",      "function",  "let",  "unit",
-                                                    "dimension", "import",  "workspace", "movie",     "keys", "groups"};
+                                                    "dimension", "import",  "workspace", "movie",     "keys", "groups",
+                                                    "experiment"};
 
 bool holds(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -178,14 +180,15 @@ void Parser::declaration() {
   const Span exporting = span_of(here());
   if (exported) {
     advance();
-    const bool presents = std::ranges::any_of(std::array{"workspace", "movie", "keys", "groups"},
+    const bool presents = std::ranges::any_of(std::array{"workspace", "movie", "keys", "groups", "experiment"},
                                               [&](const char* word) { return is_word(at_, word); });
     if (is_word(at_, "material") || is_word(at_, "import") || presents) {
       const bool material = is_word(at_, "material"), import = is_word(at_, "import");
       complain_at(Code::unexpected_token, exporting,
                   material ? std::string("a material needs no `export`: every file that imports this one may use it")
                   : import ? std::string("an import cannot be exported")
-                           : fmt::format("a {} cannot be exported: no other file names it",
+                           : fmt::format("{} {} cannot be exported: no other file names it",
+                                         is_word(at_, "experiment") ? "an" : "a",
                                          is_word(at_, "keys")     ? "set of keys"
                                          : is_word(at_, "groups") ? "sorting into groups"
                                                                   : spelling(here())),
@@ -226,7 +229,7 @@ void Parser::declaration() {
     }
     complain_at(Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
                 "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, "
-                "`class`, `device`, `levels`, `hand`, `workspace`, `movie`, `keys` or `groups`",
+                "`class`, `device`, `levels`, `hand`, `workspace`, `movie`, `keys`, `groups` or `experiment`",
                 shown(here()), std::move(help),
                 // Behind something else in a line it is rather what is left of a mistake there.
                 borrowed && *borrowed == "let" && !meant

@@ -56,7 +56,7 @@ bool Parser::begins_declaration(std::size_t index) const {
     case TokenKind::word_from: return is_word(index, "map");
     case TokenKind::left_brace:
       return is_one_of({"material", "map", "percept", "threshold", "rule", "class", "device", "levels", "hand",
-                        "workspace", "movie", "keys", "groups"});
+                        "workspace", "movie", "keys", "groups", "experiment"});
     default: return false;
   }
 }

@@ -21,6 +21,10 @@ struct SessionBegin {
   std::string device;                           ///< the name of its profile
   std::string file;                             ///< what is presented; may be empty
   std::map<std::string, std::string> versions;  ///< of the programs that take part: {"wale", "0.1.0"}
+  std::string experiment;                       ///< the design that is run; empty for a free session
+  /// What the answers can be evidence of: "measured", by people on a plugged, trusted device; "simulated", the worst,
+  /// by anyone else. Empty where nobody says.
+  std::string grade;
   friend bool operator==(const SessionBegin&, const SessionBegin&) = default;
 };
 
@@ -55,6 +59,8 @@ struct SessionShown {
   std::string name;          ///< of the workspace or the patch
   std::string label;         ///< what the participant sees instead; may be empty
   std::uint32_t number = 0;  ///< its place in the order, from 1; 0 where there is none
+  std::uint32_t interval = 0;  ///< of a trial with several presentations, from 1; 0 where there is one
+  std::string recording;       ///< the file beside the log that keeps what was felt; may be empty
   friend bool operator==(const SessionShown&, const SessionShown&) = default;
 };
 
@@ -82,6 +88,13 @@ struct SessionGroups {
   friend bool operator==(const SessionGroups&, const SessionGroups&) = default;
 };
 
+/// A session that was broken off goes on.
+struct SessionResumed {
+  double gap = 0;   ///< s since the line before, by the computer's clock
+  std::string how;  ///< "resume", "practice" (which is repeated first), "restart" (of the block)
+  friend bool operator==(const SessionResumed&, const SessionResumed&) = default;
+};
+
 /// Anything else that is worth a line: "the force was taken away".
 struct SessionNote {
   std::string text;
@@ -102,7 +115,7 @@ struct SessionOther {
 };
 
 using SessionEvent = std::variant<SessionBegin, SessionProgram, SessionOrder, SessionShown, SessionAnswer, SessionTakenBack,
-                                  SessionGroups, SessionNote, SessionEnd, SessionOther>;
+                                  SessionGroups, SessionResumed, SessionNote, SessionEnd, SessionOther>;
 
 /// A line of a log.
 struct SessionEntry {
@@ -120,6 +133,12 @@ class SessionLog {
   /// Makes a new file and its first line. Error: `unwritable_file`, also if there is such a file: a log is never
   /// overwritten; and as `append`.
   static Result<SessionLog> create(const std::string& path, const SessionBegin& begin);
+  struct Resumed;
+  /// Opens the log of a session that was broken off, to go on in it. A last line that was cut off is removed: nobody was
+  /// told that it is kept. `seconds` of later lines count on by the computer's clock. Errors: those of
+  /// `open_session_log`; `damaged_file` if any other line is wrong; `wrong_moment` if the session has ended, or another
+  /// process goes on in it; `unwritable_file`.
+  static Result<Resumed> resume(const std::string& path);
   SessionLog(SessionLog&& other) noexcept;
   SessionLog& operator=(SessionLog&& other) noexcept;
   /// Leaves the file as it is: without a `SessionEnd` it is that of a session that was broken off.
@@ -156,6 +175,13 @@ struct SessionRecord {
   bool ended() const;
   /// The entries with answers that were not taken back, in the order given.
   std::vector<const SessionEntry*> standing_answers() const;
+};
+
+/// A log to go on in, what it holds so far, and how long ago it was broken off, s.
+struct SessionLog::Resumed {
+  SessionLog log;
+  SessionRecord record;
+  double gap = 0;
 };
 
 /// Reads a log; `name` is the file's, for errors. Errors: `damaged_file` for bytes that do not begin as a log does;
