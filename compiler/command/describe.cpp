@@ -11,6 +11,8 @@
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/command/workspace_choice.hpp"
+#include "compiler/compile_experiment.hpp"
+#include "compiler/describe/describe_experiment.hpp"
 #include "compiler/describe/describe_module.hpp"
 #include "compiler/describe/describe_workspace.hpp"
 #include "compiler/describe/fates.hpp"
@@ -23,6 +25,7 @@ struct DescribeOptions {
   Choice choice;  ///< the device may be `all`
   std::vector<std::string> settings;
   std::string workspace;  ///< only this one; empty for all of the file
+  std::string experiment;  ///< only this one; empty for all of a file without a material
   bool exports = false, json = false;
 };
 
@@ -78,6 +81,46 @@ std::optional<int> describe_workspaces(OpenedFile& opened, const DescribeOptions
   }
   for (std::size_t i = 0; i < described->size(); ++i)
     print_out((i == 0 && alone ? "" : "\n") + workspace_text((*described)[i]));
+  return done;
+}
+
+/// Prints the experiments of a file, if one is named or the file has nothing else to describe. Where it has, they are
+/// only listed, since all of their stimuli are built.
+std::optional<int> describe_experiments(OpenedFile& opened, const DescribeOptions& options) {
+  const bool is_asked = !options.experiment.empty();
+  if (!is_asked && (!opened.module || opened.module->experiments.empty() || options.exports || options.json ||
+                    !options.workspace.empty() || !options.choice.material.empty()))
+    return std::nullopt;
+  if (is_asked && !opened.module)
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("expected a Wale file, found `{}`, a patch program", opened.name),
+                        .place = {.name = "--experiment"}});
+  std::vector<const CheckedExperiment*> chosen;
+  if (is_asked) {
+    const auto found = find_experiment(*opened.module, options.experiment, opened.name);
+    if (!found) return refuse(found.error());
+    chosen.push_back(*found);
+  } else {
+    for (const CheckedExperiment& each : opened.module->experiments) chosen.push_back(&each);
+  }
+  if (!is_asked && (!opened.module->materials.empty() || !opened.module->workspaces.empty())) {
+    for (const CheckedExperiment* each : chosen)
+      print_out("\nexperiment {}: {} stimuli; `--experiment {}` describes it\n", each->name, each->stimuli.size(), each->name);
+    return done;
+  }
+  print_diagnostics(stderr, opened.diagnostics, opened.sources);
+  if (opened.diagnostics.has_errors()) return refused;
+  const FileRequest request = options.choice.recording_request();
+  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
+  const auto declarations = declarations_of(opened, options.choice);
+  std::vector<ExperimentDescription> all;
+  for (const CheckedExperiment* each : chosen)
+    all.push_back(describe_experiment(
+        *each, compile_experiment(*each, *opened.module, request.device, opened.sources, opened.source, *resolver),
+        request.device, *declarations));
+  if (options.json) print_out(experiments_json(all));
+  else
+    for (std::size_t i = 0; i < all.size(); ++i) print_out((i == 0 ? "" : "\n") + experiment_text(all[i]));
   return done;
 }
 
@@ -179,6 +222,11 @@ int describe(const DescribeOptions& options) {
                             "expected a Wale file, found `{}`, a patch program, which exports nothing", opened->name),
                         .mend = "leave out --exports, or name the Wale file that it was built from",
                         .place = {.name = "--exports"}});
+  const bool only_experiments =
+      !options.experiment.empty() || (opened->module && opened->module->materials.empty() &&
+                                      opened->module->workspaces.empty() && !opened->module->experiments.empty());
+  if (only_experiments)
+    if (const auto status = describe_experiments(*opened, options)) return *status;
   const bool only_workspaces = !options.workspace.empty() || (opened->module && opened->module->materials.empty() &&
                                                               !opened->module->workspaces.empty());
   if (only_workspaces)
@@ -201,7 +249,8 @@ int describe(const DescribeOptions& options) {
   }
   for (std::size_t i = 0; i < descriptions.size(); ++i)
     print_out((i == 0 ? "" : "\n") + description_text(descriptions[i]));
-  return describe_workspaces(*opened, options).value_or(done);
+  const int status = describe_workspaces(*opened, options).value_or(done);
+  return status == done ? describe_experiments(*opened, options).value_or(done) : status;
 }
 
 Run declare_describe(CLI::App& verb) {
@@ -219,7 +268,16 @@ Run declare_describe(CLI::App& verb) {
            "the name of a workspace")
       ->excludes("--material")
       ->excludes("--exports");
-  offer_json(verb, options->json, "an object for one material or workspace, an array for several");
+  must_say(verb.add_option("--experiment", options->experiment,
+                           "an experiment of the file: how long it takes, which pairs people hardly tell apart, and what "
+                           "the device does not render")
+               ->type_name("NAME"),
+           "the name of an experiment")
+      ->excludes("--workspace")
+      ->excludes("--material")
+      ->excludes("--set")
+      ->excludes("--exports");
+  offer_json(verb, options->json, "an object for one material, workspace or experiment, an array for several");
   verb.footer("for example: wale describe corduroy --set wale=4mm;  wale describe my.wale --device all");
   return [options] { return describe(*options); };
 }
