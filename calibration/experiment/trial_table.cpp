@@ -257,9 +257,9 @@ class TableReader {
       std::vector<std::string> row;
       const std::uint32_t block = block_of(number);
       const auto standard = standards_shown_.find(number);
-      const auto answer = [&](const std::string& question) {
-        const auto found = trial.answers.find(question);
-        return found == trial.answers.end() ? std::string() : found->second.first;
+      const auto answer = [&answers = trial.answers](const std::string& question) {
+        const auto found = answers.find(question);
+        return found == answers.end() ? std::string() : found->second.first;
       };
       const std::string response = answer("response");
       int target = 0;

@@ -60,7 +60,7 @@ std::string study(const Planted& planted, std::uint64_t seed, bool crossed = fal
   return text.str();
 }
 
-Trials trials_of(const std::string& text, std::vector<SizeColumn> sizes = {{"amplitude", "amplitude (pu)"}},
+Trials study_of(const std::string& text, std::vector<SizeColumn> sizes = {{"amplitude", "amplitude (pu)"}},
                  std::vector<std::string> factors = {}) {
   const auto table = read_table("planted.tsv", text);
   EXPECT_TRUE(table) << in_words(table.error());
@@ -115,7 +115,7 @@ TEST(ThesisWay, RefusesFigure20) {  // without a constant a fit of logarithms de
   const auto fit = fit_least_squares(design, Eigen::VectorXd::LinSpaced(30, 0.2, 1.2));
   ASSERT_FALSE(fit);
   EXPECT_EQ(fit.error().code, Code::not_measured);
-  const Trials trials = trials_of(study({.noise = 0.05}, 3, true), {{"amplitude", "amplitude (pu)"}, {"period", "period (mm)"}});
+  const Trials trials = study_of(study({.noise = 0.05}, 3, true), {{"amplitude", "amplitude (pu)"}, {"period", "period (mm)"}});
   using Kind = Term::Kind;
   EXPECT_FALSE(design_of(trials, {{.kind = Kind::size, .size = "amplitude"}}));
   EXPECT_FALSE(design_of(trials, {{}, {.kind = Kind::squared, .size = "amplitude"}}));
@@ -126,7 +126,7 @@ TEST(ThesisWay, RefusesFigure20) {  // without a constant a fit of logarithms de
 
 TEST(Magnitude, IsTheSameInAllUnits) {
   const std::string text = study({.spread = 0.2, .noise = 0.1, .numbers = 0.3}, 11, true);
-  Trials trials = trials_of(text, {{"amplitude", "amplitude (pu)"}, {"period", "period (mm)"}});
+  Trials trials = study_of(text, {{"amplitude", "amplitude (pu)"}, {"period", "period (mm)"}});
   const auto one = analyse_magnitudes(trials);
   for (double& each : trials.sizes[0].values) each *= 19.53125;  // mN
   for (double& each : trials.sizes[1].values) each *= 10;
@@ -142,7 +142,7 @@ TEST(Magnitude, IsTheSameInAllUnits) {
 }
 
 TEST(Magnitude, FindsWhatWasPlanted) {
-  const Trials trials = trials_of(study({.spread = 0.25, .noise = 0.12, .numbers = 0.4}, 21));
+  const Trials trials = study_of(study({.spread = 0.25, .noise = 0.12, .numbers = 0.4}, 21));
   const auto found = analyse_magnitudes(trials);
   ASSERT_TRUE(found) << in_words(found.error());
   EXPECT_LE(found->exponent.low(), 0.759593);
@@ -163,7 +163,7 @@ TEST(Magnitude, FindsWhatWasPlanted) {
 
 /// The names of the alternatives that are better than the law.
 std::string better(const Planted& planted, bool crossed = true) {
-  const Trials trials = trials_of(study(planted, 5, crossed, 12),
+  const Trials trials = study_of(study(planted, 5, crossed, 12),
                                   crossed ? std::vector<SizeColumn>{{"amplitude", "amplitude (pu)"}, {"period", "period (mm)"}}
                                           : std::vector<SizeColumn>{{"amplitude", "amplitude (pu)"}},
                                   {"waveform"});
@@ -191,13 +191,13 @@ TEST(Magnitude, NamesTheRegionThatWasPresented) {
   for (const char* observer : {"A", "B"})
     for (const char* stimulus : {"1\t1\t3", "4\t1\t9", "4\t8\t10", "2\t2\t5", "2\t1.5\t4"})
       text += std::string(observer) + "\t" + stimulus + (observer[0] == 'A' ? "" : ".5") + "\n";
-  const auto found = analyse_magnitudes(trials_of(text, {{"amplitude"}, {"period"}}), {.intervals_of_spread = false});
+  const auto found = analyse_magnitudes(study_of(text, {{"amplitude"}, {"period"}}), {.intervals_of_spread = false});
   ASSERT_TRUE(found) << in_words(found.error());
   ASSERT_EQ(found->region.size(), 3u) << "2, 2 and 2, 1.5 lie inside, in logarithms";
 }
 
 TEST(Magnitude, SaysThatOneObserverIsOne) {
-  const auto found = analyse_magnitudes(trials_of(study({.noise = 0.1}, 2, false, 1)));
+  const auto found = analyse_magnitudes(study_of(study({.noise = 0.1}, 2, false, 1)));
   ASSERT_TRUE(found) << in_words(found.error());
   EXPECT_EQ(found->spread, 0);
   ASSERT_FALSE(found->notes.empty());

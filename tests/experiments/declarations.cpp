@@ -29,7 +29,7 @@ TEST(ExperimentDeclaration, StimuliAreCrossedWithTheFactorsThatTheyName) {
   EXPECT_EQ(*experiment.modulus, 10);
   // The program of a stimulus is that of the material written out.
   const auto ready = made.ready();
-  EXPECT_NEAR(ready.stimuli[3].description().parameters[0].initial, 0.8f, 1e-6f);
+  EXPECT_NEAR(ready.stimuli[3].description().parameters[0].value, 0.8f, 1e-6f);
 }
 
 TEST(ExperimentDeclaration, FactorsMayBeMaterialsAndSteps) {
