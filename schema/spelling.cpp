@@ -45,14 +45,15 @@ std::size_t letters_changed(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates) {
+std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates,
+                                          std::size_t most_candidates) {
   // Among thousands of names one is always near, and searching them for each of a thousand errors takes minutes.
-  constexpr std::size_t most_compared = 2000;
-  if (word.size() > longest_compared || candidates.size() > most_compared) return std::nullopt;
+  if (word.size() > longest_compared || candidates.size() > most_candidates) return std::nullopt;
   std::optional<NearSpelling> nearest;
   std::size_t fewest = std::max<std::size_t>(1, word.size() / 3) + 1, as_near = 0;
   for (const auto& candidate : candidates) {
     if (candidate.size() > longest_compared || candidate == word) continue;
+    if (candidate.size() > word.size() + fewest || word.size() > candidate.size() + fewest) continue;  // never near
     const std::size_t changed = letters_changed(word, candidate);
     // Every name of one or two letters is near to every other: only their order and their capitals count as slips.
     const bool short_word = std::max(word.size(), candidate.size()) <= 2;
@@ -70,8 +71,9 @@ std::optional<NearSpelling> near_spelling(std::string_view word, const std::vect
   return nearest;
 }
 
-std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates) {
-  auto near = near_spelling(word, candidates);
+std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates,
+                                            std::size_t most_candidates) {
+  auto near = near_spelling(word, candidates, most_candidates);
   if (!near) return std::nullopt;
   return std::move(near->text);
 }

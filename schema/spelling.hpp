@@ -14,8 +14,9 @@ std::size_t letters_changed(std::string_view a, std::string_view b);
 
 /// The candidate other than `word` with the fewest slips: at most one, or a third of the word's letters. Otherwise the
 /// shortest candidate that begins with `word`, if that has at least four letters. Empty for words of more than 64 bytes
-/// and for more than 2000 candidates.
-std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates);
+/// and for more than `most_candidates`.
+std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates,
+                                            std::size_t most_candidates = 2000);
 
 /// A candidate near to a word.
 struct NearSpelling {
@@ -25,7 +26,8 @@ struct NearSpelling {
 };
 
 /// As `nearest_spelling`, with its certainty.
-std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates);
+std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates,
+                                          std::size_t most_candidates = 2000);
 
 /// How far a name is from the word that may have meant it, for sorting: 0 for the same one, 1 for one slip, 2 if it
 /// begins with the word (of three letters at least), then one more than its slips. Empty if it is not near: more slips

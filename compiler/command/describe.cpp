@@ -12,7 +12,7 @@
 #include "compiler/command/print.hpp"
 #include "compiler/command/workspace_choice.hpp"
 #include "compiler/compile_experiment.hpp"
-#include "compiler/describe/describe_experiment.hpp"
+#include "compiler/describe_experiment.hpp"
 #include "compiler/describe/describe_module.hpp"
 #include "compiler/describe/describe_workspace.hpp"
 #include "compiler/describe/fates.hpp"

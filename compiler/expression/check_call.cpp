@@ -189,7 +189,8 @@ Value unknown_function(ExpressionReading& reading, const Call& call, Scope& scop
                                 "to multiply, write `* (…)`; a range is written `in LOW .. HIGH`");
   return reading.calls.report(Code::unknown_name, call.callee.span, fmt::format("no function is called `{}`", name), "",
                               spelling_mend(reading, call.callee, nullptr, Sought::function,
-                                            "schema/LANGUAGE.md lists them; `function name(…) = …` declares one"));
+                                            "schema/LANGUAGE.md lists them; `function name(…) = …` declares one",
+                                            call.arguments.count));
 }
 
 /// Whether that argument of that function carries a percept: "lateral amplitude".

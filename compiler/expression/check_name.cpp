@@ -156,7 +156,7 @@ std::optional<Value> private_name(ExpressionReading& reading, const Word& word) 
 }
 
 Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* scope, Sought sought,
-                     Advice otherwise) {
+                     Advice otherwise, std::size_t arguments) {
   // A function's body is read at each of its calls, but a misspelt word in it is looked up only once.
   const Span place = reading.calls.blame(word.span);
   if (!reading.known.misspelt.emplace(place.source, place.begin).second) return otherwise;
@@ -165,6 +165,10 @@ Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* 
   std::vector<std::string> candidates;
   if (sought == Sought::function) {
     candidates = reading.names->functions.spellings();
+    std::erase_if(candidates, [&](const std::string& name) {
+      const auto* known = reading.names->functions.find(name);
+      return known && known->node && known->node->parameters.size() < arguments;
+    });
     candidates.emplace_back("curve");
     for (const auto& builtin : builtins()) candidates.emplace_back(builtin.name);
   } else {

@@ -28,8 +28,8 @@ std::optional<Value> private_name(ExpressionReading& reading, const Word& word);
 
 enum class Sought { value, function };
 /// The advice for an unknown name: "did you mean …", or the import that declares it, or else `otherwise`. `scope` may
-/// be null.
+/// be null. A function of a file that takes fewer than so many arguments was not meant.
 [[gnu::cold]] Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* scope, Sought sought,
-                                   Advice otherwise);
+                                   Advice otherwise, std::size_t arguments = 0);
 
 }  // namespace wale

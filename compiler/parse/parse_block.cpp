@@ -205,7 +205,7 @@ void Parser::second_percept() {
   const bool is_unit = at(TokenKind::number) && at_ > 0 && kind(at_ - 1) == TokenKind::name;
   const std::size_t name = comma ? at_ + 1 : is_unit ? at_ - 1 : at_;
   const bool has_level = kind(name + 1) == TokenKind::number || kind(name + 1) == TokenKind::name;
-  if (kind(name) != TokenKind::name || !has_level || ends_statement(name + 1)) return;
+  if (kind(name) != TokenKind::name || !has_level || is_evidence(name + 1) || ends_statement(name + 1)) return;
   const Span between = {tree_.source, token(name - 1).end, token(name).begin};
   const Span second = {tree_.source, token(name).begin, token(name + 1).end};
   // `roughness roughness 0.5` is one percept, written twice.

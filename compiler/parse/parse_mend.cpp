@@ -248,7 +248,12 @@ std::vector<Fix> Parser::insert_equals() const {
 
 /// Inserts ` ..` between two numbers after `in`.
 std::vector<Fix> Parser::insert_range() const {
-  const bool number = at(TokenKind::number) || (at(TokenKind::minus) && followed_by(TokenKind::number));
+  const bool minus = at(TokenKind::minus);
+  bool number = at(TokenKind::number) || (minus && followed_by(TokenKind::number));
+  // In `0.1 0.1 .. 0.6` the `..` is there, and a number too many.
+  std::size_t behind = at_ + (minus ? 2 : 1);
+  if (number && (kind(behind) == TokenKind::name || kind(behind) == TokenKind::percent)) ++behind;
+  if (number && kind(behind) == TokenKind::range) number = false;
   return number ? std::vector{insert_after(span_of(token(at_ - 1)), " ..", "write `..`")} : std::vector<Fix>{};
 }
 

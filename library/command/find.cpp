@@ -78,7 +78,8 @@ Error why_nothing_is_found(const LibraryIndex& index, const std::vector<std::str
     if (std::string percept = as_word_of_percept(index, text); !percept.empty())
       return because(readable("none of {} materials{} has \"{}\"", find_materials(index, {}, kind).size(), among, text),
                      std::move(percept));
-    const auto near = nearest_spelling(text, findable_words(index));
+    const std::vector<std::string> words = findable_words(index);
+    const auto near = nearest_spelling(text, words, words.size());
     return because(readable("none of {} materials{} has \"{}\"", find_materials(index, {}, kind).size(), among, text),
                    near ? fmt::format("did you mean \"{}\"?", *near) : "`wale find` alone lists them all");
   }

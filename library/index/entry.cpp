@@ -10,7 +10,7 @@
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/resolver.hpp"
 #include "library/index/content_hash.hpp"
-#include "library/review/licence.hpp"
+#include "library/licence/licence.hpp"
 
 namespace wale {
 namespace {

@@ -19,7 +19,7 @@
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/embedded_files.hpp"
 #include "library/review/contribution.hpp"
-#include "library/review/licence.hpp"
+#include "library/licence/licence.hpp"
 #include "library/review/words.hpp"
 #include "runtime/machine/parallel.hpp"
 #include "schema/visible_text.hpp"

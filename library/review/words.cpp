@@ -8,7 +8,7 @@
 
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/modules/representative.hpp"
-#include "library/review/licence.hpp"
+#include "library/licence/licence.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale {

@@ -11,7 +11,7 @@
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/json_text.hpp"
 #include "library/index/content_hash.hpp"
-#include "library/review/licence.hpp"
+#include "library/licence/licence.hpp"
 #include "library/site/material_page.hpp"
 
 namespace wale {

@@ -68,7 +68,7 @@ TEST(Statuses, AMissingFileCannotBeReadWhereverItIsNamed) {
 int status_before(const std::string& reader) {
   const TemporaryFolder folder;
   const std::string status = folder / "status";
-  std::system(("{ " + quoted(WALE_BINARY) + " find 2>" + quoted(folder / "err") + "; echo $? >" + quoted(status) +
+  std::system(("{ " + quoted(WALE_BINARY) + " find fabric 2>" + quoted(folder / "err") + "; echo $? >" + quoted(status) +
                "; } | " + reader + " >/dev/null")
                   .c_str());
   EXPECT_EQ(bytes_of(folder / "err"), "");
@@ -85,7 +85,7 @@ TEST(Statuses, AReaderThatHasLeftIsAFailure) {
   const TemporaryFolder folder;
   const std::string pipe = folder / "pipe", status = folder / "status";
   std::system(("mkfifo " + quoted(pipe) + "; { : <" + quoted(pipe) + "; } & { wait $!; " + quoted(WALE_BINARY) +
-               " find 2>" + quoted(folder / "err") + "; echo $? >" + quoted(status) + "; } >" + quoted(pipe))
+               " find fabric 2>" + quoted(folder / "err") + "; echo $? >" + quoted(status) + "; } >" + quoted(pipe))
                   .c_str());
   EXPECT_EQ(bytes_of(status), "1\n");
   EXPECT_EQ(bytes_of(folder / "err"), "");

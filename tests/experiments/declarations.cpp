@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "compiler/describe/describe_experiment.hpp"
+#include "compiler/describe_experiment.hpp"
 #include "compiler/format/format.hpp"
 #include "tests/experiments/texts.hpp"
 

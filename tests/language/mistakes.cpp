@@ -29,15 +29,15 @@ struct Mistake {
 /// In the places where people make them; the first match in a file is changed.
 const std::vector<Mistake>& mistakes() {
   static const std::vector<Mistake> all{
-      {"percent twice", R"re((\n    (?:roughness|bumpiness|hardness|springiness|viscosity) )0\.(\d)\n)re",
+      {"percent twice", R"re((\n    (?:roughness|bumpiness|hardness|springiness|viscosity) )0\.(\d)(?: estimated)?\n)re",
        "$01$02"
        "0 %%\n",
        "write it once"},
-      {"level as in CSS", R"re((\n    (?:roughness|bumpiness|hardness|springiness|viscosity)) (0\.\d+)\n)re",
+      {"level as in CSS", R"re((\n    (?:roughness|bumpiness|hardness|springiness|viscosity)) (0\.\d+)(?: estimated)?\n)re",
        "$1: $2;\n", "write `"},
-      {"level as in JSON", R"re(\n    (roughness|bumpiness|hardness|springiness|viscosity) (0\.\d+)\n)re",
+      {"level as in JSON", R"re(\n    (roughness|bumpiness|hardness|springiness|viscosity) (0\.\d+)(?: estimated)?\n)re",
        "\n    \"$1\": $2,\n", "without quotes"},
-      {"level in newton", R"re((\n    roughness 0\.\d+)\n)re", "$1 N\n", "levels go from 0 to 1"},
+      {"level in newton", R"re((\n    roughness 0\.\d+)(?: estimated)?\n)re", "$1 N\n", "levels go from 0 to 1"},
       {"section as in JSON", R"re(\n  physical \{)re", "\n  \"physical\": {", "write `physical {`"},
       {"section as in YAML", R"re(\n  physical \{)re", "\n  physical: {", "write `physical {`"},
       {"misspelt section", R"re(\n  physical \{)re", "\n  physics {", "did you mean `physical`?"},

@@ -9,7 +9,7 @@
 
 #include "compiler/modules/load_modules.hpp"
 #include "library/review/contribution.hpp"
-#include "library/review/licence.hpp"
+#include "library/licence/licence.hpp"
 #include "library/review/review.hpp"
 #include "library/thesis_files/in_wale.hpp"
 #include "tests/temporary_folder.hpp"

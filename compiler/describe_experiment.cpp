@@ -1,4 +1,4 @@
-#include "compiler/describe/describe_experiment.hpp"
+#include "compiler/describe_experiment.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

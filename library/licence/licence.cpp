@@ -1,4 +1,4 @@
-#include "library/review/licence.hpp"
+#include "library/licence/licence.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace {
 const std::vector<std::string>& shareable() {
   static const std::vector<std::string> all = {
 #define WALE_LICENCE(id) id,
-#include "library/review/licences.def"
+#include "library/licence/licences.def"
   };
   return all;
 }
