@@ -16,10 +16,10 @@ bool is_blank(char32_t c) {
 
 }  // namespace
 
-Result<> is_name_text(const std::string& argument, std::string_view text) {
-  const auto refuse = [&](Code code, const char* sentence, const char* mend) {
+Result<> is_name_text(const std::string& argument, std::string_view text, const char* mend) {
+  const auto refuse = [&](Code code, const char* sentence, const char* what_to_do) {
     return Error{
-        .code = code, .sentence = sentence, .mend = mend, .place = {.name = argument, .text = std::string(text)}};
+        .code = code, .sentence = sentence, .mend = what_to_do, .place = {.name = argument, .text = std::string(text)}};
   };
   bool blank = true, controls = false;
   for (std::size_t at = 0; at < text.size();) {
@@ -32,7 +32,6 @@ Result<> is_name_text(const std::string& argument, std::string_view text) {
   }
   if (text.find('\0') != std::string_view::npos)
     return refuse(Code::invalid_encoding, "expected a text, found a zero byte in it", "hand over the text up to there");
-  constexpr const char* mend = "write a name, as in \"corduroy\" or \"roughness\"";
   if (blank)
     return refuse(Code::malformed_value, "expected a name, found an empty text", mend);
   if (controls)

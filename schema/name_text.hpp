@@ -7,9 +7,13 @@
 
 namespace wale {
 
-/// Whether a text that a program hands over may be a name at all. `argument` is the name of that argument. Errors:
+/// What to do about a text that is no name.
+inline constexpr const char* usual_name_mend = "write a name, as in \"corduroy\" or \"roughness\"";
+
+/// Whether a text that a program hands over may be a name at all. `argument` is the name of that argument, `mend` what to
+/// do if the text is empty, blank or of several lines. Errors:
 /// `invalid_encoding` for a text that is not UTF-8 or holds a zero byte; `malformed_value` for one that is empty, of
 /// blanks alone, or of several lines.
-Result<> is_name_text(const std::string& argument, std::string_view text);
+Result<> is_name_text(const std::string& argument, std::string_view text, const char* mend = usual_name_mend);
 
 }  // namespace wale

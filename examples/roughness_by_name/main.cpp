@@ -24,18 +24,16 @@ int main(int argc, char** argv) {
 
   auto joystick = library.open_device("simulated");
   if (!joystick) return failed(joystick.error());
-  const double position_step = (*joystick)->profile().position_step();
   wale::Stage stage(*std::move(joystick));
   auto patch = stage.add(surface->program);
   if (!patch) return failed(patch.error());
   const auto run = stage.run({.seconds = 3, .virtual_time = true});
   if (!run) return failed(run.error());
 
-  const auto felt = wale::measure(run->record, {.position_step = position_step,
-                                                .predicted_amplitude = wale::predicted_amplitude(*patch->bank()),
-                                                .settling = 0.5});
-  for (const auto& level : wale::levels_back(*patch->bank(), felt))
+  const auto felt = wale::measure(*run, *patch, {.settling = 0.5});
+  if (!felt) return failed(felt.error());
+  for (const auto& level : felt->levels)
     if (level.back)
-      std::printf("%s %s: %.3f N at the handle, felt as level %.2f\n", name, level.name.c_str(), felt.force_rubbing.p99,
+      std::printf("%s %s: %.3f N at the handle, felt as level %.2f\n", name, level.name.c_str(), felt->felt.force_rubbing.p99,
                   level.back->level);
 }

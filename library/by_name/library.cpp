@@ -90,22 +90,26 @@ Result<> is_as_asked(const PatchProgram& program, const CompileOptions& options)
 struct Library::Parts {
   std::shared_ptr<const CommonModules> common = common_modules();
   std::vector<std::string> roots;
-  std::optional<Error> missing;  ///< about the first of the given folders that is none
+  std::optional<Error> missing;  ///< about the first of the given folders, or those of WALE_LIBRARY, that is none
   Sandbox sandbox = Sandbox::required;
   Result<TrustedDeclarations> trusted;
   std::unique_ptr<Worker> worker = std::make_unique<Worker>();
 
   explicit Parts(const LibraryOptions& options)
-      : roots(library_folders(options.folders, std::getenv("WALE_LIBRARY"))),
+      : roots(whole_paths(library_folders(options.folders, std::getenv("WALE_LIBRARY")))),
         missing(missing_folder(options.folders)),
         sandbox(options.unsandboxed_pictures ? Sandbox::if_possible : Sandbox::required),
-        trusted(trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")))) {}
+        trusted(trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")))) {
+    if (missing) return;
+    missing = missing_folder(library_folders({}, std::getenv("WALE_LIBRARY")), "WALE_LIBRARY");
+    if (missing) missing->mend = "make it, or leave it out of the environment variable WALE_LIBRARY";
+  }
 
   /// Errors: the library's own, and those of options that cannot be names.
   Result<> is_sound(const CompileOptions& options) const {
     if (missing) return *missing;
     if (!options.device.empty())
-      if (auto name = is_name_text("device", options.device); !name) return name;
+      if (auto name = is_name_text("device", options.device, "write the name of a device's profile, as in \"sandpaper\""); !name) return name;
     if (!options.material.empty())
       if (auto name = is_name_text("material", options.material); !name) return name;
     if (!options.name.empty()) return is_name_text("name", options.name);
@@ -140,6 +144,30 @@ struct Library::Parts {
     return devices;
   }
 
+  /// What is wrong with the owner's devices.wale, because of which none of its devices is known.
+  std::optional<Error> owners_problem() const {
+    if (!trusted) return trusted.error();
+    return trusted->owners_problem;
+  }
+
+  /// The error for a device that nothing declares. The owner's file may do so and have an error elsewhere.
+  Error unknown_device(const std::string& device, const std::vector<std::string>& known) const {
+    Error error = unknown(Code::unknown_device, "device", device, known);
+    if (auto problem = owners_problem()) {
+      error.mend += "; if your own devices.wale declares it, mend that first: " + in_words(*problem);
+      error.others.push_back(*std::move(problem));
+    }
+    return error;
+  }
+
+  Result<CompiledWorkspace> laid(NamedFile named, const WorkspaceOptions& options) const {
+    auto compiled = workspace_of_file(std::move(named), request({.device = options.device}), options);
+    const bool is_unknown = !compiled && compiled.error().code == Code::unknown_device;
+    if (is_unknown && compiled.error().place.name == "device" && owners_problem())
+      return unknown_device(options.device, device_names());
+    return compiled;
+  }
+
   Result<Compiled> compiled(NamedFile named, const CompileOptions& options) const {
     const FileRequest request = this->request(options);
     auto opened = open_named(std::move(named), request);
@@ -154,8 +182,7 @@ struct Library::Parts {
       return unknown(Code::unknown_material, "material", options.material, materials_of(*opened));
     }
     if (!opened->module->declarations().devices.contains(request.device))
-      return unknown(Code::unknown_device, "device", request.device,
-                     opened->module->declarations().devices.spellings());
+      return unknown_device(request.device, opened->module->declarations().devices.spellings());
     auto program = compile_opened(*opened, request, options.material, opened->diagnostics);
     if (!program) return first_error(opened->diagnostics, opened->sources);
     return Compiled{*std::move(program), warnings_in(opened->diagnostics, opened->sources), std::move(opened->taken)};
@@ -193,7 +220,7 @@ Result<Compiled> Library::level(const std::string& percept, const std::string& l
   const FileRequest request = parts_->request(options);
   const auto devices = parts_->device_names();
   if (std::ranges::find(devices, request.device) == devices.end())
-    return unknown(Code::unknown_device, "device", request.device, devices);
+    return parts_->unknown_device(request.device, devices);
   const Place argument{.name = "level", .text = level};
   if (!is_level(level))
     return Error{Code::malformed_value, "expected the name of a level or a number from 0 to 1",
@@ -201,11 +228,17 @@ Result<Compiled> Library::level(const std::string& percept, const std::string& l
   SourceSet sources;
   Diagnostics diagnostics;
   const auto resolver = file_resolver({}, nullptr, parts_->sandbox, request.devices);
-  const SourceId source =
-      sources.add("level", "wale 1\nmaterial " + percept + "_level { perceptual { " + percept + " " + level + " } }\n");
+  // `essential`: it is all that is asked for, so a device that cannot render it is refused.
+  const SourceId source = sources.add("level", "wale 1\nmaterial " + percept + "_level { perceptual { essential " + percept +
+                                                   " " + level + " } }\n");
   auto program = wale::compile(sources, source, "", request.device, *resolver, diagnostics);
   if (!program) {
     Error error = about(first_error(diagnostics, sources), argument);
+    if (error.code == Code::percept_unrealised)
+      return Error{.code = Code::percept_unrealised,
+                   .sentence = "`" + request.device + "` cannot render " + percept,
+                   .mend = "ask for it for another device, or for another percept",
+                   .place = {.name = "percept", .text = percept}};
     if (error.code == Code::unknown_name)
       return unknown(Code::unknown_name, "level", level, levels_of(known, known.percept_named(percept).percept->name));
     return error;
@@ -236,15 +269,14 @@ Result<Compiled> Library::open(std::span<const std::byte> bytes, const CompileOp
 
 Result<CompiledWorkspace> Library::workspace(std::string_view text, const WorkspaceOptions& options) const {
   if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
-  return workspace_of_file({.name = options.name, .bytes = std::string(text)},
-                           parts_->request({.device = options.device}), options);
+  return parts_->laid({.name = options.name, .bytes = std::string(text)}, options);
 }
 
 Result<CompiledWorkspace> Library::open_workspace(const std::string& path, const WorkspaceOptions& options) const {
   if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   auto named = read_workspace(path);
   if (!named) return std::move(named).error();
-  return workspace_of_file(*std::move(named), parts_->request({.device = options.device}), options);
+  return parts_->laid(*std::move(named), options);
 }
 
 Result<Presentation> Library::presentation(std::string_view text, const std::string& name) const {
@@ -297,9 +329,8 @@ Result<SimulatedPerson> Library::person(const std::string& name) const {
 }
 
 Result<TrustedDevices> Library::trusted_devices() const {
+  if (auto problem = parts_->owners_problem()) return *std::move(problem);
   const auto& trusted = parts_->trusted;
-  if (!trusted) return trusted.error();
-  if (trusted->owners_problem) return *trusted->owners_problem;
   return TrustedDevices(std::make_shared<const std::vector<TrustedDevice>>(trusted->devices));
 }
 
@@ -309,12 +340,11 @@ Result<std::unique_ptr<Device>> Library::open_device(std::string_view spelling, 
     if (!trusted) return std::move(trusted.error());
     options.trusted = *std::move(trusted);
   }
-  const Rest* rest = std::get_if<Rest>(&options.motion);
   const HandModel& hand = options.hand;
   if (hand.mass == 0 && hand.damping == 0 && hand.stiffness == 0) {
     const SimulatedPerson person = *this->person();
     options.hand = person.hand;
-    if (rest != nullptr && rest->position == Rest{}.position) options.motion = person.lateral;
+    if (!options.motion) options.motion = person.lateral;
   }
   return wale::open_device(spelling, options);
 }

@@ -5,17 +5,39 @@
 #include "schema/visible_text.hpp"
 
 namespace wale {
+namespace {
 
-std::optional<Error> missing_folder(const std::vector<std::string>& folders) {
+/// What is wrong with a folder; an empty sentence if nothing is.
+Error wrong_with(const std::string& folder) {
+  std::error_code ignored;
+  const std::string shown = "`" + visible_text(folder) + "`";
+  if (folder.empty()) return {.sentence = "expected a folder, found an empty text", .mend = "write \".\" for the current one"};
+  if (std::filesystem::is_directory(folder, ignored)) return {};
+  if (std::filesystem::exists(folder, ignored))
+    return {.sentence = shown + " is a file, and no folder", .mend = "name the folder that it is in"};
+  return {.sentence = "no such folder: " + shown, .mend = "make it first, or leave it out"};
+}
+
+}  // namespace
+
+std::optional<Error> missing_folder(const std::vector<std::string>& folders, const std::string& argument) {
   for (const std::string& each : folders) {
-    std::error_code why;
-    if (each.empty() || std::filesystem::is_directory(each, why)) continue;
-    return Error{.code = Code::unreadable_file,
-                 .sentence = "no such folder: `" + visible_text(each) + "`",
-                 .mend = "make it first, or leave it out",
-                 .place = {.name = "folders", .text = each}};
+    Error error = wrong_with(each);
+    if (error.sentence.empty()) continue;
+    error.code = Code::unreadable_file;
+    error.place = {.name = argument, .text = each};
+    return error;
   }
   return std::nullopt;
+}
+
+std::vector<std::string> whole_paths(std::vector<std::string> folders) {
+  for (std::string& each : folders) {
+    std::error_code why;
+    const std::filesystem::path whole = std::filesystem::absolute(each, why);
+    if (!each.empty() && !why) each = whole.string();
+  }
+  return folders;
 }
 
 }  // namespace wale

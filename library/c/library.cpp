@@ -299,7 +299,14 @@ WaleCode wale_library_profile(WaleLibrary* library, WaleText name, WaleProfile* 
   return call(error, [&]() -> wale::Result<> {
     if (auto given = is_given("library", library); !given) return given;
     if (auto sized = is_sized("profile", profile); !sized) return sized;
-    return give_profile(library->devices, name, profile);
+    auto given = give_profile(library->devices, name, profile);
+    if (given || given.error().code != wale::Code::unknown_device) return given;
+    const auto trusted = library->library.trusted_devices();
+    if (trusted) return given;
+    wale::Error error = std::move(given).error();
+    error.mend += "; if your own devices.wale declares it, mend that first: " + in_words(trusted.error());
+    error.others.push_back(trusted.error());
+    return error;
   });
 }
 

@@ -1,6 +1,7 @@
 #include "runtime/c/device.hpp"
 
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "runtime/c/profile.hpp"
@@ -17,7 +18,7 @@ struct WaleDevices {
 namespace wale::c {
 namespace {
 
-Result<Motion> trace_of(const WaleDeviceOptions& given) {
+Result<std::optional<Motion>> trace_of(const WaleDeviceOptions& given) {
   constexpr std::size_t most_points = std::size_t{1} << 28;
   if (given.points == nullptr || given.count == 0 || given.count > most_points)
     return about_argument("points", "expected a row of time, x and y at least", "give `count` rows of three numbers");
@@ -34,19 +35,25 @@ Result<Motion> trace_of(const WaleDeviceOptions& given) {
     if (after.time > before.time)
       trace.points[i].velocity = (after.position - before.position) / (after.time - before.time);
   }
-  return trace;
+  return std::optional<Motion>(std::move(trace));
 }
 
-Result<Motion> motion_of(const WaleDeviceOptions& given) {
+/// Nothing where the options name no motion.
+Result<std::optional<Motion>> motion_of(const WaleDeviceOptions& given) {
   const glm::dvec2 centre{given.centre_x, given.centre_y};
   const double length = std::hypot(given.direction_x, given.direction_y);
   const glm::dvec2 direction =
       length > 0 ? glm::dvec2{given.direction_x, given.direction_y} / length : glm::dvec2{1, 0};
   switch (given.motion) {
-    case WALE_MOTION_rest: return Rest{centre};
-    case WALE_MOTION_lateral: return Lateral{given.amplitude, given.frequency, centre, direction};
-    case WALE_MOTION_circular: return Circular{given.amplitude, given.frequency, centre};
-    case WALE_MOTION_press: return Press{given.amplitude, given.frequency, centre, direction};
+    case WALE_MOTION_rest:
+      if (centre == glm::dvec2(0)) return std::optional<Motion>();  // as of options that are all 0
+      return std::optional<Motion>(Rest{centre});
+    case WALE_MOTION_hold: return std::optional<Motion>(Rest{centre});
+    case WALE_MOTION_lateral:
+      return std::optional<Motion>(Lateral{given.amplitude, given.frequency, centre, direction});
+    case WALE_MOTION_circular: return std::optional<Motion>(Circular{given.amplitude, given.frequency, centre});
+    case WALE_MOTION_press:
+      return std::optional<Motion>(Press{given.amplitude, given.frequency, centre, direction});
     case WALE_MOTION_trace: return trace_of(given);
     default:
       return about_argument("motion", "expected one of WALE_MOTION_…, found " + std::to_string(given.motion),

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "runtime/c/call.hpp"
+#include "schema/home_process.hpp"
 #include "wale/device.h"
 #include "wale/devices.hpp"
 
@@ -13,6 +14,7 @@ namespace wale::c {
 struct SharedDevice {
   std::unique_ptr<Device> device;
   std::atomic<bool> has_stage = false;
+  const HomeProcess home = {};
 };
 
 /// What `options` asks for. Errors: `malformed_value`, and those of texts.

@@ -25,7 +25,7 @@ WaleCode wale_loop_begin(WaleStage* stage, WaleLoop** loop, WaleError** error) {
 WaleVector wale_loop_step(WaleLoop* loop, const WaleReading* reading, int64_t periods) {
   if (loop == nullptr) return {};
   wale::Reading read{.contact = wale::Contact::stale};
-  if (has_size(reading)) {
+  if (has_size(reading) && is_known(*reading)) {
     WaleReading given{};
     std::memcpy(&given, reading, std::min(reading->size, sizeof given));
     read.counts = {given.counts_x, given.counts_y};

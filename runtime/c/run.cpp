@@ -1,6 +1,5 @@
 #include "runtime/c/run.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "runtime/c/program.hpp"
@@ -37,10 +36,9 @@ WaleGuards guards_of(const GuardCounts& counts) noexcept {
           .restored = counts.restored};
 }
 
-void hand_out_run(RunResult result, const DeviceProfile& profile, double most, WaleRun** to) {
+void hand_out_run(RunResult result, WaleRun** to) {
   if (to == nullptr) return;
-  auto run =
-      std::make_unique<WaleRun>(WaleRun{std::move(result), profile.position_step(), std::min(most, profile.most())});
+  auto run = std::make_unique<WaleRun>(WaleRun{std::move(result)});
   if (run->result.record_problem) run->problem = handle_of(*run->result.record_problem);
   hand_out(std::move(run), to);
 }
@@ -109,18 +107,15 @@ WaleCode wale_felt_measure(const WaleRun* run, const WalePatch* patch, const Wal
       return about_argument("least_crossings", "expected a number that is not negative, found " +
                                                    std::to_string(given->least_crossings),
                             "0 is the default, 50");
-    const auto bank = patch->patch.bank();
-    if (!bank) return bank.error();
-    wale::MeasureOptions measured{
-        .position_step = run->position_step,
-        .predicted_amplitude = std::min(wale::predicted_amplitude(*bank), static_cast<float>(run->most)),
-        .settling = given->settling,
-        .vibrates = run->result.record.vibrates};
+    wale::MeasureOptions measured{.settling = given->settling};
     if (given->stuck_seconds != 0) measured.stuck_seconds = given->stuck_seconds;
     if (given->stuck_counts != 0) measured.stuck_counts = given->stuck_counts;
+    auto known = wale::measure(run->result, patch->patch, measured,
+                               given->least_crossings != 0 ? given->least_crossings : 50);
+    if (!known) return std::move(known).error();
     auto made = std::make_unique<WaleFelt>();
-    made->felt = wale::measure(run->result.record, measured);
-    made->levels = wale::levels_back(*bank, made->felt, given->least_crossings != 0 ? given->least_crossings : 50);
+    made->felt = std::move(known->felt);
+    made->levels = std::move(known->levels);
     for (const wale::LevelBack& each : made->levels)
       made->problems.push_back(each.back ? nullptr : handle_of(each.back.error()));
     hand_out(std::move(made), felt);

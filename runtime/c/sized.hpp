@@ -22,6 +22,16 @@ bool has_size(const Struct* given) noexcept {
   return size >= sizeof(std::size_t) && size <= largest_struct && size % alignof(Struct) == 0;
 }
 
+/// Whether a struct sets nothing that this library does not know. It has a size. Real-time: allocates nothing, takes no
+/// lock, makes no system call, does not throw.
+template <class Struct>
+bool is_known(const Struct& given) noexcept {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(&given);
+  for (std::size_t at = sizeof(Struct); at < given.size; ++at)
+    if (bytes[at] != 0) return false;
+  return true;
+}
+
 /// Error: it is NULL, or its size makes no sense.
 template <class Struct>
 Result<> is_sized(const char* argument, const Struct* given) {
@@ -40,13 +50,10 @@ Result<Struct> read_sized(const char* argument, const Struct* given) {
   Struct read{};
   if (given == nullptr) return read;
   if (auto sized = is_sized(argument, given); !sized) return std::move(sized).error();
-  const std::size_t size = given->size;
-  const auto* bytes = reinterpret_cast<const unsigned char*>(given);
-  for (std::size_t at = sizeof(Struct); at < size; ++at)
-    if (bytes[at] != 0)
-      return about_argument(argument, "it sets fields that are newer than this library",
-                            "update Wale, or leave these fields 0", Code::newer_file);
-  std::memcpy(&read, bytes, std::min(size, sizeof(Struct)));
+  if (!is_known(*given))
+    return about_argument(argument, "it sets fields that are newer than this library",
+                          "update Wale, or leave these fields 0", Code::newer_file);
+  std::memcpy(&read, given, std::min(given->size, sizeof(Struct)));
   if constexpr (requires { read.reserved; })
     if (read.reserved != 0) return about_argument("reserved", "expected 0", "set all of the struct to 0 first");
   return read;

@@ -7,6 +7,7 @@
 #include "runtime/c/run.hpp"
 #include "runtime/c/shape.hpp"
 #include "runtime/c/sized.hpp"
+#include "runtime/stage/stage_state.hpp"
 
 WaleStage::~WaleStage() {
   { const wale::Stage ended(std::move(stage)); }
@@ -36,7 +37,7 @@ Result<StageOptions> read_stage_options(const WaleStageOptions* options) {
   auto file = read_path("record", given->record);
   if (!file) return std::move(file).error();
   auto hand = read_text("record_hand", given->record_hand);
-  if (hand && !hand->empty()) hand = read_name("record_hand", given->record_hand);
+  if (hand && !hand->empty()) hand = read_name("record_hand", given->record_hand, record_hand_mend);
   if (!hand) return std::move(hand).error();
   if (!file->empty()) read.record = {.file = *std::move(file), .hand = *std::move(hand)};
   return read;
@@ -74,6 +75,9 @@ WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, 
     auto read = read_stage_options(options);
     if (!read) return std::move(read).error();
     const std::shared_ptr<SharedDevice> shared = device->shared;
+    if (!shared->home.is_here())
+      return about_argument("device", "it is the parent process's, and this is a child of its fork",
+                            "open it again in the child", wale::Code::wrong_moment);
     if (shared->has_stage.exchange(true))
       return about_argument("device", "another stage has the device", "free that stage first",
                             wale::Code::wrong_moment);
@@ -132,12 +136,10 @@ WaleCode wale_stage_run(WaleStage* stage, const WaleRunOptions* options, WaleRun
     wale::RunOptions read{.seconds = given->seconds, .virtual_time = *virtual_time};
     if (given->kept_seconds != 0) read.kept_seconds = given->kept_seconds;
     read.stop = &stage->interrupted;
-    const wale::DeviceProfile profile = stage->profile;
-    const double most = stage->most;
     stage->interrupted = false;
     auto done = stage->stage.run(read);  // `stage` may be gone now
     if (!done) return std::move(done).error();
-    hand_out_run(*std::move(done), profile, most, run);
+    hand_out_run(*std::move(done), run);
     return {};
   });
 }
@@ -159,7 +161,7 @@ WaleCode wale_stage_stop(WaleStage* stage, WaleRun** run, WaleError** error) {
     if (auto given = is_stage(stage); !given) return given;
     auto done = stage->stage.stop();
     if (!done) return std::move(done).error();
-    hand_out_run(*std::move(done), stage->profile, stage->most, run);
+    hand_out_run(*std::move(done), run);
     return {};
   });
 }

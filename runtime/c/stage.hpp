@@ -14,14 +14,10 @@ struct WaleStage {
   WaleStage(std::shared_ptr<wale::c::SharedDevice> taken, const wale::DeviceProfile& figures,
             const wale::StageOptions& options)
       : device(std::move(taken)),
-        profile(figures),
-        most(options.max_force),
         stage(device ? wale::Stage(*device->device, options) : wale::Stage(figures, options)) {}
   ~WaleStage();
 
   std::shared_ptr<wale::c::SharedDevice> device;
-  wale::DeviceProfile profile;
-  double most;  ///< N, on a pad m/s^2: what the user lets through
   std::atomic<bool> interrupted = false;
   wale::Stage stage;  // ends before its device
 };

@@ -8,8 +8,8 @@
 
 namespace wale {
 
-/// A device that threads serve. In a child of `fork` it is lost, and nothing of it reaches the hardware, which is the
-/// parent's.
+/// A device as `open_device` gives it. In a child of `fork` it is lost, and nothing of it reaches the hardware, which is
+/// the parent's. That holds for a simulated one too, so that a program that forks behaves alike on both.
 class DeviceAtHome final : public Device {
  public:
   explicit DeviceAtHome(std::unique_ptr<Device> device) : device_(std::move(device)) {}
@@ -18,6 +18,8 @@ class DeviceAtHome final : public Device {
   }
   DeviceAtHome(const DeviceAtHome&) = delete;
   DeviceAtHome& operator=(const DeviceAtHome&) = delete;
+
+  bool is_here() const noexcept { return home_.is_here(); }
 
   const DeviceProfile& profile() const noexcept override { return device_->profile(); }
   void elapse(long periods) noexcept override {

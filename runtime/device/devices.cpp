@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "runtime/device/device_at_home.hpp"
+#include "runtime/device/limited_device.hpp"
 #include "runtime/device/match_device.hpp"
 #include "runtime/device/open_device.hpp"
 #include "schema/name_text.hpp"
@@ -20,6 +21,7 @@
 namespace wale {
 namespace {
 
+constexpr const char* device_mend = "write the name of a device's profile, as in \"sandpaper\"";
 constexpr std::string_view pointer_driver_name = "pointer";
 
 Result<std::vector<TrustedDevice>> all_of(const TrustedDevices& trusted) {
@@ -96,15 +98,17 @@ Result<> is_sound(const OpenOptions& options) {
                    "expected finite numbers that are not negative",
                    "give kg, N s/m and N/m; all 0 is no hand",
                    {.name = "hand"}};
-  if (const char* wrong = wrong_in(options.motion))
+  const char* const wrong = options.motion ? wrong_in(*options.motion) : nullptr;
+  if (wrong != nullptr)
     return Error{Code::malformed_value, wrong, "give m, Hz and s; a direction has length 1", {.name = "motion"}};
   return {};
 }
 
 Result<std::unique_ptr<Device>> simulation(const DeviceProfile& profile, const OpenOptions& options) {
+  const Motion motion = options.motion.value_or(Rest());
   std::unique_ptr<Device> device;
   if (profile.shaker) {
-    device = std::make_unique<SimulatedPad>(profile, options.motion);
+    device = std::make_unique<SimulatedPad>(profile, motion);
     return device;
   }
   if (!(profile.mass + options.hand.mass > 0))
@@ -112,7 +116,13 @@ Result<std::unique_ptr<Device>> simulation(const DeviceProfile& profile, const O
                  "`" + profile.name + "` has no mass of its own, so it cannot move without a hand",
                  "give the hand a mass",
                  {.name = "hand"}};
-  device = std::make_unique<SimulatedJoystick>(profile, options.hand, options.motion);
+  const HandModel& hand = options.hand;
+  if (options.motion && hand.mass == 0 && hand.damping == 0 && hand.stiffness == 0)
+    return Error{Code::malformed_value,
+                 "there is a motion, and no hand that makes it",
+                 "give a hand, as 0.55 kg, 6.5 N s/m and 135 N/m, or open it by the library, which brings one",
+                 {.name = "hand"}};
+  device = std::make_unique<SimulatedJoystick>(profile, options.hand, motion);
   return device;
 }
 
@@ -150,11 +160,11 @@ std::vector<DeviceInfo> devices(const TrustedDevices& trusted) {
 }
 
 Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const OpenOptions& options) {
-  if (auto name = is_name_text("spelling", spelling); !name) return std::move(name.error());
+  if (auto name = is_name_text("spelling", spelling, "spell a device, as in \"auto\", \"simulated\" or \"1-2\""); !name) return std::move(name.error());
   if (!options.built_for.empty())
-    if (auto name = is_name_text("built_for", options.built_for); !name) return std::move(name.error());
+    if (auto name = is_name_text("built_for", options.built_for, device_mend); !name) return std::move(name.error());
   if (!options.transport.empty())
-    if (auto name = is_name_text("transport", options.transport); !name) return std::move(name.error());
+    if (auto name = is_name_text("transport", options.transport, "name one, as in \"hidraw\""); !name) return std::move(name.error());
   if (auto sound = is_sound(options); !sound) return std::move(sound.error());
   const auto trusted = all_of(options.trusted.value_or(TrustedDevices()));
   if (!trusted) return trusted.error();
@@ -186,7 +196,11 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
     const Result<DeviceProfile> profile =
         choice->declared ? Result<DeviceProfile>(choice->declared->profile) : profile_named(name, *trusted);
     if (!profile) return profile.error();
-    return simulation(*profile, options);
+    auto simulated = simulation(*profile, options);
+    if (!simulated) return simulated;
+    std::unique_ptr<Device> device = *std::move(simulated);
+    if (options.max_force < HUGE_VAL) device = std::make_unique<LimitedDevice>(std::move(device), options.max_force);
+    return std::make_unique<DeviceAtHome>(std::move(device));
   }
   if (choice->plugged->driver->is_felt && !options.trusted && has_owners_file())
     return Error{Code::untrusted_device,

@@ -25,9 +25,18 @@ Error unwritable(const std::string& path, int error) {
     return Error{.code = Code::unwritable_file, .sentence = reason, .mend = mend, .place = {.name = path}};
   };
   switch (error) {
-    case EEXIST:
+    case EEXIST: {
+      struct stat there {};
+      if (lstat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode))
+        return because("this is a folder", "name a new file in it, as in `" + path + "/run.wrec`");
+      if (lstat(path.c_str(), &there) == 0 && S_ISLNK(there.st_mode) && stat(path.c_str(), &there) != 0)
+        return because("this is a link to a file that does not exist", "name that file itself, or remove the link");
+      if (stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
+        return because("this is a device or a pipe, and a recording is a regular file",
+                       "name a file that does not exist yet");
       return because("the file exists already, and a recording never overwrites a file",
                      "delete it or choose another name; only a table, as in `--record run.csv`, replaces a file");
+    }
     case ENOENT: return because("there is no such folder", "make it first");
     case EACCES:
     case EROFS: return because("no file can be written in this folder", "choose another folder");

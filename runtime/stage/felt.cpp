@@ -157,11 +157,25 @@ Result<float> size_from_run(const PerceptRecord& percept, const Felt& felt, long
 Felt measure(const Record& record, const MeasureOptions& options) {
   const auto first = std::find_if(record.ticks.begin(), record.ticks.end(),
                                   [&](const TickRecord& tick) { return tick.time >= options.settling; });
-  const std::span<const TickRecord> ticks(first, record.ticks.end());
+  const std::span<const TickRecord> all(first, record.ticks.end());
   const auto window = static_cast<std::ptrdiff_t>(std::round(options.stuck_seconds / record.seconds_per_tick));
   // Half a count more allows for positions rounded to float.
   const double distance = (options.stuck_counts + 0.5) * options.position_step;
-  const std::vector<bool> stuck = find_stuck(ticks, window, distance);
+  // The hand's way is one, but what it felt elsewhere does not count.
+  std::vector<bool> stuck = find_stuck(all, window, distance);
+  std::vector<TickRecord> marked, counted;  // all ticks, those elsewhere as outside; and those that count
+  if (options.change) {
+    marked.assign(all.begin(), all.end());
+    std::vector<bool> of_counted;
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+      marked[i].inside = marked[i].inside && marked[i].change == *options.change;
+      if (!marked[i].inside) continue;
+      counted.push_back(marked[i]);
+      of_counted.push_back(stuck[i]);
+    }
+    stuck = std::move(of_counted);
+  }
+  const std::span<const TickRecord> ticks = options.change ? std::span<const TickRecord>(counted) : all;
 
   Felt felt;
   felt.ticks = static_cast<long>(ticks.size());
@@ -194,7 +208,7 @@ Felt measure(const Record& record, const MeasureOptions& options) {
   if (inside > 0) felt.stuck = static_cast<double>(inside_stuck) / static_cast<double>(inside);
 
   const float amplitude = options.predicted_amplitude > 0 ? options.predicted_amplitude : felt.force.p99;
-  felt.response = response_of(ticks, record.seconds_per_tick);
+  felt.response = response_of(options.change ? std::span<const TickRecord>(marked) : all, record.seconds_per_tick);
   count_swings(ticks, amplitude / 2, felt);
   measure_movement(ticks, felt);
   return felt;

@@ -57,6 +57,11 @@ void PatchTable::release(PatchName name) {
   free_.push_back(name.number);
 }
 
+bool PatchTable::is_reserved(PatchName name) const {
+  const Slot* const slot = find(name);
+  return slot != nullptr && slot->reserved;
+}
+
 void PatchTable::free_slot(std::uint32_t number) {
   Slot& slot = slots_[number];
   slot.felt.reset();
@@ -381,6 +386,16 @@ PatchTable::Felt PatchTable::felt(PatchName name) const {
   if (slot == nullptr || !slot->wanted) return {};
   const bool placed = running_ && slot->felt && slot->felt->enabled;
   return {slot->memory, slot->bank, placed, slot->withdrawn};
+}
+
+std::vector<PatchTable::Published> PatchTable::published(const std::unordered_set<std::uint32_t>& changes) const {
+  std::vector<Published> all;
+  for (std::uint32_t number = 0; number < slots_.size(); ++number) {
+    const Slot& slot = slots_[number];
+    if (slot.wanted && slot.felt && changes.contains(static_cast<std::uint32_t>(slot.change)))
+      all.push_back({{number, slot.generation}, slot.felt->key(), slot.change});
+  }
+  return all;
 }
 
 void PatchTable::touch(PatchName name, bool renew) {

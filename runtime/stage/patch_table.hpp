@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,8 @@ class PatchTable {
   /// A name for a patch that is wanted later. Nobody else gets it until it is released.
   PatchName reserve();
   void release(PatchName name);
+  /// Whether it is a name for a patch that is wanted later.
+  bool is_reserved(PatchName name) const;
   /// The patch as it is wanted, or null if there is none.
   const Placement* wanted(PatchName name) const;
   std::size_t size() const { return count_; }
@@ -98,6 +101,14 @@ class PatchTable {
     std::uint32_t withdrawn = 0;  ///< otherwise: since this revision it does not
   };
   Felt felt(PatchName name) const;
+  /// A patch as it was published last.
+  struct Published {
+    PatchName name;
+    BankKey key;
+    std::uint64_t change = 0;  ///< as in `PlacedPatch`
+  };
+  /// Those patches that are wanted, were published in the present run, and had one of these numbers of a change then.
+  std::vector<Published> published(const std::unordered_set<std::uint32_t>& changes) const;
 
   /// For replay: the patch counts as changed although it may be the same; with `renew` it gets a new memory that
   /// succeeds the old one; with `loose` it has the trivial bound.

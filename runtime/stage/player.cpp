@@ -151,7 +151,9 @@ void Player::note(const Beat& beat, const Reading& reading, const Hand& hand, co
       .interaction = reading.interaction,
       .lateness = static_cast<float>(static_cast<double>(beat.lateness) * 1e-9),
       .skipped = static_cast<std::uint32_t>(beat.skipped),
-      .inside = inside_ != nullptr};
+      .inside = inside_ != nullptr,
+      .change = static_cast<std::uint32_t>(felt_.change),
+      .patch = inside_ != nullptr ? patch_id(felt_.number, felt_.generation) : 0};
   if (sink_ != nullptr) {
     const PlacedPatches* all = patches_.held();
     sink_->append({.period = beat.period,

@@ -5,8 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <system_error>
+#include <unordered_set>
 
+#include "runtime/device/device_at_home.hpp"
 #include "runtime/stage/devices_in_use.hpp"
+#include "runtime/stage/patches_in_run.hpp"
 #include "runtime/stage/scheduling.hpp"
 #include "schema/name_text.hpp"
 
@@ -119,6 +122,9 @@ Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stag
   if (stage->running) return refuse(another_run());
   if (!may_be_empty && stage->table.size() == 0)
     return refuse(wrong_moment("stage", "nothing is on the stage", "add a patch first"));
+  if (const auto* const opened = dynamic_cast<const DeviceAtHome*>(&device); opened != nullptr && !opened->is_here())
+    return refuse(wrong_moment("device", "the device is the parent process's, and this is a child of its fork",
+                               "open it again in the child"));
   if (!take_device(device))
     return refuse(wrong_moment("device", "another stage runs on this device",
                                "wait for the end of its run or stop it, or give this stage a device of its own"));
@@ -171,7 +177,7 @@ Result<> Session::begin_recording() {
   const std::optional<RecordTo>& to = stage_->options.record;
   if (!to) return {};
   if (!to->hand.empty())
-    if (auto text = is_name_text("record_hand", to->hand); !text) return text;
+    if (auto text = is_name_text("record_hand", to->hand, record_hand_mend); !text) return text;
   const RecordingHeader header{.device = stage_->profile,
                                .most_newton = stage_->options.max_force,
                                .virtual_time = clock_ == Clock::unreal,
@@ -320,8 +326,12 @@ Result<RunResult> Session::play() {
     return std::move(served).error();
   player_->finish();
   result_.ticks_run = player_->served();
+  std::unordered_set<std::uint32_t> changes;
+  for (const TickRecord& tick : result_.record.ticks)
+    if (tick.inside) changes.insert(tick.change);
   {
     const std::lock_guard lock(stage_->mutex);
+    result_.patches = std::make_shared<const PatchesInRun>(stage_, stage_->table.published(changes));
     if (stage_->recorder) {
       stage_->recorder->end();
       result_.record_problem = stage_->recorder->ended_early();

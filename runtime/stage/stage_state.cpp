@@ -5,6 +5,8 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "schema/built_for.hpp"
@@ -87,11 +89,20 @@ Result<std::shared_ptr<StageState>> here(std::shared_ptr<StageState> stage, Erro
 }
 
 StageState::StageState(std::unique_ptr<Device> own, Device* others, const DeviceProfile& of, StageOptions how)
-    : owned(std::move(own)), device(owned ? owned.get() : others), profile(of), options(std::move(how)) {}
+    : owned(std::move(own)), device(owned ? owned.get() : others), profile(of), options(std::move(how)) {
+  if (!options.record || options.record->file.empty()) return;
+  // The process may be in another folder when the run begins, and go to another one during it.
+  std::error_code why;
+  const std::filesystem::path whole = std::filesystem::absolute(options.record->file, why);
+  if (!why) options.record->file = whole.string();
+}
 
 Result<> StageState::has(PatchName name) const {
   if (over) return stage_is_gone();
   if (table.wanted(name) != nullptr) return {};
+  if (table.is_reserved(name))
+    return wrong_moment("patch", "the patch is not on the stage before the edit that adds it is committed",
+                        "commit the edit first, or change the patch by calls of that edit");
   return patch_is_gone();
 }
 

@@ -24,6 +24,9 @@ Error stage_was_moved();
 Error another_run();
 Error patch_is_gone();
 
+/// What to do about a `RecordTo::hand` that is no line of text.
+inline constexpr const char* record_hand_mend = "write what moves the handle in one line, as in \"simulated, lateral\"";
+
 /// What a stage, its handles and its runs share. It lives as long as the stage or a run of it.
 struct StageState : std::enable_shared_from_this<StageState> {
   StageState(std::unique_ptr<Device> own, Device* others, const DeviceProfile& of, StageOptions how);
@@ -74,6 +77,10 @@ struct StageState : std::enable_shared_from_this<StageState> {
   Result<Bank> bank(PatchName name) const;
   Result<Snapshot> snapshot(PatchName name);
   Now now() const noexcept;
+
+  /// The stage of a handle.
+  static const std::weak_ptr<StageState>& of(const Patch& patch) { return patch.stage_; }
+  static PatchName name_of(const Patch& patch) { return {patch.number_, patch.generation_}; }
 };
 
 /// A stage that a call may use. Errors: `gone` for null; `wrong_moment` in a child of `fork`, whose parent has made it.

@@ -169,6 +169,16 @@ static void wrong_readings(void) {
   wale_loop_exerted(loop, (WaleVector){NAN, INFINITY});
   CHECK(force.x == 0 && force.y == 0);
   CHECK(wale_stage_now(stage, &now) == 0 && now.position.x == 0 && now.guards.lost == 1);
+  /* A reading that sets a field which this library does not know is not read as if it did not. */
+  struct {
+    WaleReading known;
+    int64_t newer;
+  } longer = {.known = {.size = sizeof longer}};
+  wale_loop_step(loop, &longer.known, 1);
+  CHECK(wale_stage_now(stage, &now) == 0 && now.guards.stale == 0);
+  longer.newer = 1;
+  wale_loop_step(loop, &longer.known, 1);
+  CHECK(wale_stage_now(stage, &now) == 0 && now.guards.stale == 1);
   wale_loop_free(loop), wale_stage_free(stage);
 }
 

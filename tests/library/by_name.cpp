@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -14,6 +17,25 @@
 
 namespace wale::by_name_test {
 namespace {
+
+/// An environment variable that has another value for a while.
+class EnvironmentVariable {
+ public:
+  EnvironmentVariable(const char* name, const std::string& value) : name_(name) {
+    if (const char* const before = std::getenv(name)) before_ = before;
+    setenv(name, value.c_str(), 1);
+  }
+  ~EnvironmentVariable() {
+    if (before_) setenv(name_, before_->c_str(), 1);
+    else unsetenv(name_);
+  }
+  EnvironmentVariable(const EnvironmentVariable&) = delete;
+  EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
 
 using Bytes = std::vector<std::byte>;
 
@@ -165,6 +187,69 @@ TEST(ByName, AFolderThatDoesNotExistIsAnErrorOfEachProgram) {
     EXPECT_EQ(result.error().place.text, missing);
   }
   EXPECT_TRUE(Library({.folders = {folder.path().string()}}).folders_exist());
+}
+
+TEST(ByName, AFolderThatIsNoneIsToldByWhatItIs) {
+  const TemporaryFolder folder;
+  const auto told = [](std::vector<std::string> folders) {
+    const auto exist = Library({.folders = std::move(folders)}).folders_exist();
+    return exist ? std::string() : exist.error().sentence;
+  };
+  EXPECT_NE(told({folder.write("a.wale", "wale 1\n")}).find("is a file"), std::string::npos);
+  EXPECT_NE(told({""}).find("empty text"), std::string::npos);
+  EXPECT_NE(told({folder / "none"}).find("no such folder"), std::string::npos);
+}
+
+TEST(ByName, AWrongFolderOfTheEnvironmentIsAnError) {
+  const TemporaryFolder folder;
+  const EnvironmentVariable variable("WALE_LIBRARY", folder / "none");
+  const auto found = Library().find("denim");
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, Code::unreadable_file);
+  EXPECT_EQ(found.error().place.name, "WALE_LIBRARY");
+  EXPECT_EQ(found.error().place.text, folder / "none");
+}
+
+TEST(ByName, FoldersStayWhereTheyWereWhenTheLibraryWasMade) {
+  const TemporaryFolder folder;
+  folder.write("shelf/mine.wale", "wale 1\nmaterial mine { physical { force = vector(0.5 N * sin(x / 1 mm), 0 N) } }\n");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const Library library({.folders = {"shelf"}});
+  std::filesystem::current_path("/");
+  const auto found = library.find("mine");
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(found) << in_words(found.error());
+}
+
+TEST(ByName, AnErrorInTheOwnersDevicesIsToldWithADeviceThatIsUnknown) {
+  const TemporaryFolder folder;
+  folder.write("wale/devices.wale", "wale 1\nexport device mine { rubbish }\n");
+  const EnvironmentVariable variable("XDG_CONFIG_HOME", folder.path().string());
+  const Library library;
+  EXPECT_TRUE(library.find("denim")) << "shipped devices do not depend on that file";
+  const CompileOptions mine{.device = "mine"};
+  for (const auto& result : {library.find("denim", mine), library.level("roughness", "0.5", mine)}) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, Code::unknown_device);
+    ASSERT_EQ(result.error().others.size(), 1u);
+    EXPECT_NE(result.error().others.front().place.name.find("devices.wale"), std::string::npos);
+    EXPECT_NE(result.error().mend.find("devices.wale"), std::string::npos);
+  }
+}
+
+TEST(ByName, ALevelThatTheDeviceCannotRenderIsAnError) {
+  const Library library;
+  for (const char* device : {"gamepad", "touch_pad"}) {
+    const auto lost = library.level("viscosity", "0.9", {.device = device});
+    ASSERT_FALSE(lost) << device;
+    EXPECT_EQ(lost.error().code, Code::percept_unrealised);
+    EXPECT_EQ(lost.error().place.name, "percept");
+    EXPECT_NE(lost.error().sentence.find(device), std::string::npos);
+    EXPECT_FALSE(lost.error().mend.empty());
+    EXPECT_TRUE(library.level("roughness", "0.5", {.device = device})) << device;
+  }
+  EXPECT_TRUE(library.level("viscosity", "0.9"));
 }
 
 TEST(ByName, ErrorsInATextHaveTheirPlaceAndTheirParts) {

@@ -31,6 +31,10 @@ def test_devices(library: wale.Library) -> None:
         assert code_of(lambda: wale.open_device("simulated:sandpaper", **wrong)) == wale.Code.malformed_value
     with pytest.raises(ValueError):
         wale.open_device("simulated:sandpaper", motion=wale.Motion.trace([0, 1]))
+    assert code_of(lambda: wale.open_device("simulated:sandpaper", motion=wale.Motion.rest())) == wale.Code.malformed_value
+    with wale.Stage(library.open_device("simulated", motion=wale.Motion.rest())) as still:
+        still.add(library.level("roughness", 0.5))
+        assert np.abs(still.run(1, virtual_time=True).ticks["position"]).max() < 1e-3
     hand = wale.Hand(0.5)
     for motion in [wale.Motion.rest(), wale.Motion.circular(0.01, 1), wale.Motion.press(0.01, 1),
                    wale.Motion.trace([[0, 0, 0], [1, 0.01, 0]])]:
@@ -289,9 +293,63 @@ def test_recordings(device: wale.Device, corduroy: wale.Program, tmp_path) -> No
 
 def test_places_are_two_numbers(stage: wale.Stage, corduroy: wale.Program) -> None:
     patch = stage.add(corduroy)
-    for wrong in [lambda: patch.move((0, 0, 0)), lambda: patch.move(1), lambda: stage.add(corduroy, at=("a", 0))]:
-        with pytest.raises(ValueError, match="expected two numbers, x and y"):
+    with pytest.raises(ValueError, match="to: expected two numbers, x and y"):
+        patch.move((0, 0, 0))
+    with pytest.raises(TypeError, match="to: expected two numbers, x and y"):
+        patch.move(1)
+    with pytest.raises(TypeError, match="at: expected a number, found 'a'"):
+        stage.add(corduroy, at=("a", 0))
+
+
+def test_arguments_of_a_wrong_type_are_told_by_name(stage: wale.Stage, corduroy: wale.Program, library: wale.Library) -> None:
+    patch = stage.add(corduroy)
+    run = stage.run(0.1, virtual_time=True)
+    loop = wale.Loop(wale.Stage(wale.profile("sandpaper")))
+    edit = stage.edit()
+    for name, wrong in [
+        ("program", lambda: stage.add("corduroy")), ("shape", lambda: stage.add(corduroy, shape="round")),
+        ("size", lambda: stage.add(corduroy, size=5)), ("size", lambda: stage.add(corduroy, size=("a", 1))),
+        ("layer", lambda: stage.add(corduroy, layer="front")), ("program", lambda: patch.replace(None)),
+        ("parameter", lambda: patch.set(3, 1)), ("value", lambda: patch.set("wale", "0.003")),
+        ("layer", lambda: patch.bring("front")), ("enabled", lambda: patch.enable("no")), ("patch", lambda: run.measure("p")),
+        ("settling", lambda: run.measure(patch, settling="long")), ("seconds", lambda: stage.run("1")),
+        ("virtual_time", lambda: stage.run(1, virtual_time="yes")), ("workspace", lambda: stage.add_workspace(corduroy)),
+        ("patch", lambda: edit.move(corduroy, (0, 0))), ("device", lambda: wale.Stage("simulated")),
+        ("record", lambda: wale.Stage(wale.profile("sandpaper"), record=3)), ("stage", lambda: wale.Loop(corduroy)),
+        ("counts", lambda: loop.step(5)), ("counts", lambda: loop.step((0.5, 0))), ("contact", lambda: loop.step((0, 0), contact="ok")),
+        ("periods", lambda: loop.step((0, 0), periods=1.5)), ("receive", lambda: stage.on_contact("hear")),
+        ("receive", lambda: stage.on_contact(0)), ("hand", lambda: wale.open_device("simulated", hand=0.5)),
+        ("motion", lambda: wale.open_device("simulated", motion="rest")), ("spelling", lambda: wale.open_device(3)),
+        ("name", lambda: library.find(None)), ("percept", lambda: library.level(1, 1)), ("level", lambda: library.level("roughness", None)),
+        ("path", lambda: library.open(3)), ("data", lambda: library.open_bytes("wale 1")), ("data", lambda: wale.Program.load(7)),
+        ("folders", lambda: wale.Library(3)), ("folders", lambda: wale.Library([3])), ("name", lambda: wale.profile(1)),
+        ("corners", lambda: wale.Shape.polygon("abc")), ("cells", lambda: wale.Shape.mask([["a"]], 0.01)),
+        ("side", lambda: wale.Shape.mask([[1]], "a")), ("half_width", lambda: wale.Shape.ellipse("a", 1)),
+        ("settings", lambda: wale.batch(corduroy, np.zeros((1, 2)), settings=[("wale", 1)])),
+        ("wale", lambda: wale.batch(corduroy, np.zeros((1, 2)), settings={"wale": "wide"})),
+        ("position", lambda: wale.batch(corduroy, "here")), ("program", lambda: wale.batch("corduroy", np.zeros((1, 2)))),
+        ("time", lambda: wale.batch(corduroy, np.zeros((1, 2)), time=["now"])),
+    ]:
+        with pytest.raises(TypeError, match=f"^{name}: expected "):
             wrong()
+    with pytest.raises(ValueError, match="cells: expected true or false"):
+        wale.Shape.mask([[math.nan, 1]], 0.01)
+    with pytest.raises(ValueError, match="corners: expected an array"):
+        wale.Shape.polygon([(0, 0), (1,)])
+    assert loop.step((2**40, 0)) == (0, 0)  # beyond every device: a lost reading
+
+
+def test_a_receiver_that_is_false_still_receives(stage: wale.Stage, corduroy: wale.Program) -> None:
+    class Heard(list):  # empty, so it is false
+        def __call__(self, contact: wale.Contact) -> None:
+            self.append(contact)
+
+    stage.add(corduroy, size=(0.01, 0.01))
+    heard = Heard()
+    stage.on_contact(heard)
+    stage.run(1, virtual_time=True)
+    stage.poll()
+    assert len(heard) > 0
 
 
 def test_the_ticks_before_a_cut_can_be_read(device: wale.Device, corduroy: wale.Program, tmp_path) -> None:

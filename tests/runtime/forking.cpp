@@ -11,6 +11,7 @@
 #include "tests/runtime/forked.hpp"
 #include "tests/runtime/programs.hpp"
 #include "wale/batch.hpp"
+#include "wale/devices.hpp"
 #include "wale/loop.hpp"
 #include "wale/stage.hpp"
 
@@ -82,6 +83,23 @@ TEST(Forking, LeavesLoopsToTheParent) {
     return 0;
   });
   EXPECT_EQ(left, 0);
+}
+
+TEST(Forking, LeavesOpenedDevicesToTheParentAlsoSimulatedOnes) {
+  auto device = open_device("simulated:sandpaper", {.hand = normal_hand()});
+  ASSERT_TRUE(device) << in_words(device.error());
+  Stage made_before(**device);
+  const int left = in_a_child([&] {
+    if ((*device)->sample().contact != Contact::lost || (*device)->command({1, 1}) != Force(0)) return 1;
+    Stage stage(**device);
+    const auto started = stage.start();
+    if (!is_wrong_moment(started) || started.error().place.name != "device") return 2;
+    device->reset();
+    return 0;
+  });
+  EXPECT_EQ(left, 0);
+  EXPECT_TRUE(made_before.start());
+  EXPECT_TRUE(made_before.stop());
 }
 
 TEST(MovedFrom, ThingsSayIt) {

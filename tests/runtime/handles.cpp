@@ -196,6 +196,23 @@ TEST(Edits, WithAMistakeChangeNothing) {
   EXPECT_EQ(stage.size(), 2u);
 }
 
+TEST(Edits, APatchOfAnEditIsNotThereBeforeTheCommit) {
+  Stage stage(sandpaper());
+  StageEdit edit = stage.edit();
+  Patch added = *edit.add(push(1));
+  const auto early = added.set("push", 2);
+  ASSERT_FALSE(early);
+  EXPECT_EQ(early.error().code, Code::wrong_moment);
+  EXPECT_NE(early.error().mend.find("commit"), std::string::npos);
+  EXPECT_FALSE(added.exists());
+  ASSERT_TRUE(edit.commit());
+  EXPECT_TRUE(added.set("push", 2));
+  std::optional<StageEdit> abandoned(stage.edit());
+  Patch never = *abandoned->add(push(1));
+  abandoned.reset();
+  EXPECT_EQ(never.set("push", 2).error().mend.find("commit"), std::string::npos) << "nobody can commit it any more";
+}
+
 TEST(Handles, NumbersOfRemovedPatchesAreUsedAgain) {
   for (const bool running : {false, true}) {
     Stage stage(direct());

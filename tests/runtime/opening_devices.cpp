@@ -62,6 +62,34 @@ TEST(OpeningDevices, TheSimulatedHandMovesAsItShould) {
   }
 }
 
+TEST(OpeningDevices, AMotionNeedsAHand) {
+  for (const Motion& motion : std::initializer_list<Motion>{Lateral{0.02, 1}, Rest{}}) {
+    const auto opened = open_device("simulated", {.motion = motion});
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().place.name, "hand");
+    EXPECT_FALSE(opened.error().mend.empty());
+  }
+  EXPECT_TRUE(open_device("simulated"));
+  EXPECT_TRUE(open_device("simulated", {.hand = {.stiffness = 100}, .motion = Lateral{0.02, 1}}));
+}
+
+TEST(OpeningDevices, TheForceOfTheUserLimitsASimulatedOneToo) {
+  constexpr double most = 0.5;
+  const auto opened = open_device("simulated", {.max_force = most, .hand = hand});
+  ASSERT_TRUE(opened);
+  float largest = 0;
+  for (int i = 0; i < 360; ++i) {
+    const double turn = i * 0.0174533;
+    const Force exerted = (*opened)->command({9 * std::cos(turn), 9 * std::sin(turn)});
+    largest = std::max(largest, std::hypot(exerted.x, exerted.y));
+    EXPECT_LE(std::hypot(exerted.x, exerted.y), most) << i;
+  }
+  EXPECT_GT(largest, most - 0.02);
+  EXPECT_EQ((*opened)->command({0.25f, 0}), (*open_device("simulated", {.hand = hand}))->command({0.25f, 0}));
+  const auto least = open_device("simulated", {.max_force = 1e-9, .hand = hand});
+  EXPECT_EQ((*least)->command({9, 9}), Force(0));
+}
+
 TEST(OpeningDevices, RefusesNumbersThatAreNoneInAnyPlace) {
   for (const double none : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     for (double HandModel::*part : {&HandModel::mass, &HandModel::damping, &HandModel::stiffness}) {
@@ -100,6 +128,7 @@ TEST(OpeningDevices, RefusesWhatMakesNoSense) {
     EXPECT_EQ(code_of(open_device("simulated", {.priority = priority, .hand = hand})), Code::malformed_value);
   EXPECT_EQ(code_of(open_device("simulated", {.hand = {.mass = -10}})), Code::malformed_value);
   EXPECT_EQ(open_device("falcom").error().place.name, "spelling");
+  EXPECT_NE(open_device("").error().mend.find("simulated"), std::string::npos) << "and no name of a material";
 }
 
 }  // namespace

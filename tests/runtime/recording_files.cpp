@@ -269,6 +269,24 @@ TEST(RecordingFile, OtherFilesAreRefusedWithAReason) {
   EXPECT_EQ(missing.error().place.name, folder / "none.wrec");
 }
 
+TEST(RecordingFile, IsWhereItsPathLedWhenTheStageWasMade) {
+  const TemporaryFolder folder;
+  Puppet device(roaming);
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  Stage stage(device, {.record = RecordTo{"a.wrec", "in\ntwo lines"}}), good(device, {.record = RecordTo{"b.wrec", {}}});
+  ASSERT_TRUE(stage.add(oil(1)) && good.add(oil(1)));
+  fs::current_path("/");
+  const auto lines = stage.run({.seconds = 0.01, .virtual_time = true});
+  const auto run = good.run({.seconds = 0.01, .virtual_time = true});
+  fs::current_path(before);
+  ASSERT_FALSE(lines);
+  EXPECT_NE(lines.error().mend.find("moves the handle"), std::string::npos) << lines.error().mend;
+  ASSERT_TRUE(run) << in_words(run.error());
+  EXPECT_FALSE(run->record_problem);
+  EXPECT_TRUE(fs::exists(folder / "b.wrec"));
+}
+
 TEST(RecordingFile, CannotReplaceAFileOrBeInAMissingFolder) {
   const TemporaryFolder folder;
   Puppet device(roaming);
@@ -288,6 +306,13 @@ TEST(RecordingFile, CannotReplaceAFileOrBeInAMissingFolder) {
   EXPECT_EQ(attempt(folder / "none/a.wrec"), folder / "none/a.wrec" + ": there is no such folder; make it first");
   EXPECT_EQ(attempt(folder / "a.wrec/b.wrec"),
             folder / "a.wrec/b.wrec" + ": a part of the path is a file and no folder; choose another folder");
+  EXPECT_EQ(attempt(folder.path().string()), folder.path().string() + ": this is a folder; name a new file in it, as in `" +
+                                                 folder.path().string() + "/run.wrec`");
+  EXPECT_EQ(attempt("/dev/full"),
+            "/dev/full: this is a device or a pipe, and a recording is a regular file; name a file that does not exist yet");
+  fs::create_symlink(folder / "nowhere", folder / "link");
+  EXPECT_EQ(attempt(folder / "link"),
+            folder / "link" + ": this is a link to a file that does not exist; name that file itself, or remove the link");
   const std::string long_name = folder / std::string(300, 'x');  // a file system's names have 255 bytes
   EXPECT_EQ(attempt(long_name), long_name + ": the name of the file is too long; choose a shorter one");
   device.profile_.mass = -1;

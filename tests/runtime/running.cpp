@@ -212,6 +212,14 @@ TEST(Stage, WithoutADeviceTakesNothing) {
   EXPECT_EQ(stage.start().error().code, Code::wrong_moment);
 }
 
+TEST(Stage, WithoutADeviceHasNoLoop) {
+  Stage stage{std::unique_ptr<Device>()};
+  const auto loop = Loop::begin(stage);
+  ASSERT_FALSE(loop);
+  EXPECT_EQ(loop.error().code, Code::wrong_moment);
+  EXPECT_NE(loop.error().sentence.find("has no device"), std::string::npos);
+}
+
 TEST(Snapshots, HaveTheStatesOfATick) {
   // The bead follows a hand that has moved 20 mm; by semi-implicit Euler its place is known.
   Scripted device([](long tick) { return Reading{.counts = {tick < 5 ? 0 : 358, 0}}; });

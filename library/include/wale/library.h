@@ -20,7 +20,9 @@ typedef struct WaleFuture WaleFuture;
 /* All 0 is the default. */
 typedef struct WaleLibraryOptions {
   size_t size;
-  const WaleText* folders; /* searched for materials and imports besides the shipped library; read during the call only */
+  const WaleText* folders; /* searched for materials and imports besides the shipped library, as are those of the environment
+                              variable WALE_LIBRARY; paths count from the current folder of the process now; read during the
+                              call only */
   size_t folder_count;
   int32_t unsandboxed_pictures; /* 1: decodes a stranger's picture also where the system offers no sandbox */
   int32_t reserved;             /* 0 */
@@ -44,23 +46,26 @@ typedef struct WaleWorkspaceOptions {
   int32_t reserved;   /* 0 */
 } WaleWorkspaceOptions;
 
-/* `options` may be NULL. The owner's devices are read once, here. Errors: malformed_value; unreadable_file for a folder that
-   does not exist. */
+/* `options` may be NULL. The owner's devices are read once, here. Errors: malformed_value; unreadable_file for a
+   folder of `folders` or of WALE_LIBRARY that does not exist or is none. */
 WALE_API WaleCode wale_library_create(const WaleLibraryOptions* options, WaleLibrary** library, WaleError** error);
 /* Waits for the work that is under way, at most. Futures that were not begun then give wrong_moment. */
 WALE_API void wale_library_free(WaleLibrary* library);
 
 /* All: `options` may be NULL; `program` gets a handle to free. Errors in a text have its place; those about an argument have the
    argument's name as `place`, its value as `place_text`, and for an unknown name up to three that may have been meant.
-   All: unknown_device for a device that nothing declares; invalid_encoding for an argument that is not UTF-8;
+   All: unknown_device for a device that nothing declares (an error in the owner's devices.wale is then among the others); invalid_encoding for an argument that is not UTF-8;
    malformed_value for a name that is empty, blank or of several lines. */
 
-/* A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL.
+/* A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL. Materials
+   in the current folder of the process take precedence over the shipped ones, and so do those of the whole project if a file
+   wale.project lies in that folder or above it, and those of `folders`: `taken` of WaleProgramDetails says so. The name thus
+   may mean another material in another folder; wale_library_open does not depend on it.
    Errors: unknown_name, for a kind ("fabric") with three of its materials as nearest; ambiguous_material. */
 WALE_API WaleCode wale_library_find(WaleLibrary* library, WaleText name, const WaleCompileOptions* options,
                                     WaleProgram** program, WaleError** error);
 /* A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6").
-   Errors: unknown_name, level_out_of_range, malformed_value, and those of a percept that the device cannot render. */
+   Errors: unknown_name, level_out_of_range, malformed_value, percept_unrealised if the device cannot render it. */
 WALE_API WaleCode wale_library_level(WaleLibrary* library, WaleText percept, WaleText level,
                                      const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
 /* The text of a Wale file. Errors: those in the text. */
@@ -93,7 +98,8 @@ WALE_API WaleCode wale_library_compile_later(WaleLibrary* library, WaleText text
 WALE_API WaleCode wale_library_open_later(WaleLibrary* library, WaleText path, const WaleCompileOptions* options,
                                           WaleFuture** future, WaleError** error);
 
-/* Whether it is ready: 1, or 0. It does not wait. 0 for NULL. */
+/* Whether it is ready: 1, or 0. It does not wait. 0 for NULL; 1 for one that was taken, and in a child of fork for one of its
+   parent: wale_future_take then says why there is nothing to take. */
 WALE_API int32_t wale_future_poll(const WaleFuture* future);
 /* Waits until it is ready, for `seconds` at most (0 or less, or not-a-number: not at all; infinite: for as long as it takes).
    Returns as wale_future_poll. */

@@ -27,8 +27,9 @@ struct SimulatedPerson {
 
 struct LibraryOptions {
   /// Folders that are searched for materials and imports besides the shipped library, as by `--library`; those of the
-  /// environment variable WALE_LIBRARY come after them. If one of them is no folder, `folders_exist` and each call that
-  /// makes or checks a program or a workspace give `unreadable_file`.
+  /// environment variable WALE_LIBRARY come after them. Paths count from the folder in which the process is when the
+  /// library is made. If one of them is no folder, `folders_exist` and each call that makes or checks a program or a
+  /// workspace give `unreadable_file`.
   std::vector<std::string> folders = {};
   /// Whether a stranger's picture may be decoded where the system offers no sandbox for its decoder. Otherwise a
   /// material that needs it is an error there (W0807).
@@ -69,7 +70,8 @@ struct Compiled {
 /// `place.text` the line's text; `expected`, `found` and `mend` are the diagnostic's. It is the first error; `others`
 /// has the further errors and warnings. Errors about an argument have the argument's name as `place.name` ("name",
 /// "percept", "level", "device", "material") and its value as `place.text`. For an unknown name `nearest` has up to
-/// three that may have been meant. All calls: `unknown_device` for a device that nothing declares; `invalid_encoding`
+/// three that may have been meant. All calls: `unknown_device` for a device that nothing declares (if the owner's file has
+/// an error, it is among the `others`); `invalid_encoding`
 /// for a name that is not UTF-8 or holds a zero byte; `malformed_value` for one that is empty, blank or of several
 /// lines.
 ///
@@ -83,7 +85,8 @@ class Library {
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 
-  /// Error: `unreadable_file` about the first of `LibraryOptions::folders` that is no folder.
+  /// Error: `unreadable_file` about the first of `LibraryOptions::folders`, then of WALE_LIBRARY, that is no folder.
+  /// `place.name` is "folders" or "WALE_LIBRARY".
   Result<> folders_exist() const;
 
   /// A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL, by
@@ -94,7 +97,8 @@ class Library {
 
   /// A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6"). Errors:
   /// `unknown_name` for an unknown percept or level; `level_out_of_range` for a number outside 0 .. 1;
-  /// `malformed_value` for a level that is neither a name nor a number as Wale writes them (0.5, 5e-1); and the errors of a percept that the device cannot render.
+  /// `malformed_value` for a level that is neither a name nor a number as Wale writes them (0.5, 5e-1);
+  /// `percept_unrealised` for a percept that the device cannot render.
   Result<Compiled> level(const std::string& percept, const std::string& level,
                          const CompileOptions& options = {}) const;
 
@@ -135,7 +139,7 @@ class Library {
   /// the first one in that file.
   Result<TrustedDevices> trusted_devices() const;
   /// As `wale::open_device`, with these declarations. A simulated device is in the hand of a simulated person who rubs
-  /// to and fro, unless the options say otherwise. Errors also: those of `trusted_devices`.
+  /// to and fro, unless the options have another hand (which then rests) or another motion. Errors also: those of `trusted_devices`.
   Result<std::unique_ptr<Device>> open_device(std::string_view spelling = "auto", OpenOptions options = {}) const;
 
   /// The Sandpaper joystick, simulated, in the hand of a simulated person who rubs to and fro.

@@ -1,5 +1,6 @@
 """The shared library, and how its functions are called."""
 
+import operator
 import os
 import sysconfig
 from collections.abc import Sequence
@@ -7,6 +8,7 @@ from pathlib import Path
 from typing import Any, Self
 
 import cffi  # type: ignore[import]
+import numpy as np
 
 from wale import _declarations
 from wale.codes import Code
@@ -55,8 +57,10 @@ class Arguments:
     def __init__(self) -> None:
         self._kept: list[object] = []
 
-    def text(self, text: str | bytes | os.PathLike[str]) -> Any:
-        """A WaleText. Paths may hold bytes that are no UTF-8."""
+    def text(self, text: str | bytes | os.PathLike[str], name: str = "argument") -> Any:
+        """A WaleText. Paths may hold bytes that are no UTF-8. TypeError for what is no text; `name` is its argument's."""
+        if not isinstance(text, (str, bytes, os.PathLike)):
+            raise TypeError(f"{name}: expected a text, found {text!r}")
         data = os.fsencode(text) if not isinstance(text, str) else text.encode("utf-8", "surrogateescape")
         buffer = ffi.from_buffer(data)
         made = ffi.new("WaleText*", (buffer, len(data)))
@@ -64,11 +68,24 @@ class Arguments:
         return made[0]
 
     def struct(self, kind: str, **fields: Any) -> Any:
-        """A struct that begins with its size; texts become WaleText, what is not given is 0."""
+        """A struct that begins with its size; texts become WaleText, what is not given is 0.
+
+        TypeError for a value of another type than the field's, by the field's name; ValueError for one that it cannot hold.
+        """
         made = sized(kind)
+        types = dict(ffi.typeof(kind).fields)
         for name, value in fields.items():
-            if value is not None:
-                setattr(made, name, self.text(value) if isinstance(value, (str, bytes, os.PathLike)) else value)
+            if value is None:
+                continue
+            of = types[name].type
+            if of.cname == "WaleText":
+                value = self.text(value, name)
+            elif of.kind == "primitive":
+                value = number(value, name) if of.cname in ("float", "double") else whole(value, name)
+            try:
+                setattr(made, name, value)
+            except OverflowError as why:
+                raise ValueError(f"{name}: expected a smaller number, found {value!r}") from why
         self._kept.append(made)
         return made
 
@@ -88,13 +105,52 @@ def read(text: Any) -> str:
     return bytes(ffi.buffer(text.data, text.length)).decode("utf-8", "surrogateescape") if text.data else ""
 
 
+def number(value: Any, name: str) -> float:
+    """A number that is an argument. TypeError for anything else."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError("it is a text")
+        return float(value)
+    except (TypeError, ValueError) as why:
+        raise TypeError(f"{name}: expected a number, found {value!r}") from why
+    except OverflowError as why:
+        raise ValueError(f"{name}: expected a smaller number, found {value!r}") from why
+
+
+def whole(value: Any, name: str) -> int:
+    """A whole number, or a yes or no, that is an argument. TypeError for anything else."""
+    if isinstance(value, np.bool_):
+        return int(value)
+    try:
+        return operator.index(value)
+    except TypeError as why:
+        raise TypeError(f"{name}: expected a whole number, found {value!r}") from why
+
+
 def pair(values: Sequence[float], name: str) -> tuple[float, float]:
-    """Two numbers, x and y."""
+    """Two numbers, x and y. ValueError for more or fewer, TypeError for what holds none."""
     try:
         x, y = values
-        return (float(x), float(y))
-    except (TypeError, ValueError) as why:
+    except ValueError as why:
         raise ValueError(f"{name}: expected two numbers, x and y, found {values!r}") from why
+    except TypeError as why:
+        raise TypeError(f"{name}: expected two numbers, x and y, found {values!r}") from why
+    return (number(x, name), number(y, name))
+
+
+def bytes_of(data: Any, name: str) -> tuple[Any, int]:
+    """The memory of bytes that are an argument, and how many they are. TypeError for anything else."""
+    try:
+        return ffi.from_buffer(data), memoryview(data).nbytes
+    except TypeError as why:
+        raise TypeError(f"{name}: expected bytes, found {type(data).__name__}") from why
+
+
+def held(value: Any, kind: "type[Handle]", name: str) -> Any:
+    """The pointer of a handle that is an argument. TypeError for anything else."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{name}: expected a {kind.__name__}, found {value!r}")
+    return value._pointer
 
 
 def or_none(figure: float) -> float | None:

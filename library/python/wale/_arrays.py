@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wale._abi import ffi
+from wale._abi import ffi, number
 
 _plain = {"float": np.float32, "double": np.float64, "int32_t": np.int32, "uint32_t": np.uint32, "int64_t": np.int64}
 
@@ -23,9 +23,29 @@ def dtype_of(kind: str) -> np.dtype[np.void]:
     return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ffi.sizeof(kind)})
 
 
+def numbers(values: ArrayLike, dtype: Any, name: str) -> NDArray[Any]:
+    """A contiguous array of a type of numbers. TypeError for what holds none, ValueError for rows of different lengths."""
+    try:
+        array = np.asarray(values)
+    except ValueError as why:
+        raise ValueError(f"{name}: expected an array, found rows of different lengths") from why
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"{name}: expected numbers, found an array of {array.dtype}")
+    with np.errstate(over="ignore"):  # what is too large for a float is infinite, and the call says so
+        return np.ascontiguousarray(array, dtype=dtype)
+
+
+def yes_or_no(values: ArrayLike, dtype: Any, name: str) -> NDArray[Any]:
+    """The same of truths: 0 is no, and any other number yes. ValueError for not-a-number."""
+    array = numbers(values, None, name)
+    if array.dtype.kind == "f" and np.isnan(array).any():
+        raise ValueError(f"{name}: expected true or false, found not-a-number")
+    return np.ascontiguousarray(array.astype(np.bool_), dtype=dtype)
+
+
 def vectors(values: ArrayLike, name: str) -> NDArray[np.float32]:
     """Contiguous pairs of floats."""
-    array = np.ascontiguousarray(values, dtype=np.float32)
+    array: NDArray[np.float32] = numbers(values, np.float32, name)
     if array.ndim == 0 or array.shape[-1] != 2:
         raise ValueError(f"{name}: expected an array whose last axis is x and y, found the shape {array.shape}")
     return array
@@ -33,8 +53,13 @@ def vectors(values: ArrayLike, name: str) -> NDArray[np.float32]:
 
 def size_in_full(size: Sequence[float]) -> tuple[float, float, float]:
     """Width, height and rim of a patch, where the rim may be left out."""
-    if len(size) not in (2, 3):
-        raise ValueError(f"size: expected width, height and perhaps a rim, found {len(size)} numbers")
+    try:
+        count = len(size)
+    except TypeError as why:
+        raise TypeError(f"size: expected width, height and perhaps a rim, found {size!r}") from why
+    if count not in (2, 3):
+        raise ValueError(f"size: expected width, height and perhaps a rim, found {count} numbers")
+    size = [number(each, "size") for each in size]
     if size[0] == 0 and size[1] == 0:
         raise ValueError("size: expected positive sides")  # in the C interface two zeros mean the program's own size
     return (size[0], size[1], size[2] if len(size) == 3 else 0.0)

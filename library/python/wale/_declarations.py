@@ -83,7 +83,7 @@ typedef struct WaleDeviceInfo {
   int32_t is_generic;
 } WaleDeviceInfo;
 enum {
-  WALE_MOTION_rest = 0, WALE_MOTION_lateral = 1, WALE_MOTION_circular = 2, WALE_MOTION_press = 3, WALE_MOTION_trace = 4
+  WALE_MOTION_rest = 0, WALE_MOTION_lateral = 1, WALE_MOTION_circular = 2, WALE_MOTION_press = 3, WALE_MOTION_trace = 4, WALE_MOTION_hold = 5
 };
 typedef struct WaleDeviceOptions {
   size_t size;

@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wale._abi import Arguments, call, ffi, lib
-from wale._arrays import pointer, size_in_full, vectors
+from wale._abi import Arguments, call, ffi, held, lib, number
+from wale._arrays import numbers, pointer, size_in_full, vectors, yes_or_no
 from wale.program import Program
 
 
@@ -39,25 +39,27 @@ def batch(program: Program, position: ArrayLike, *, velocity: ArrayLike | None =
         arguments.keep(array)
         setattr(options, name, pointer(array, "WaleVector"))
     if time is not None:
-        times = np.ascontiguousarray(time, dtype=np.float64)
+        times = numbers(time, np.float64, "time")
         if times.shape != (ticks,):
             raise ValueError(f"time: expected {ticks} numbers, found the shape {times.shape}")
         arguments.keep(times)
         options.time = pointer(times, "double")
     if button is not None:
-        pressed = np.ascontiguousarray(button, dtype=np.bool_)
+        pressed = yes_or_no(button, np.bool_, "button")
         if pressed.shape != at.shape[:-1]:
             raise ValueError(f"button: expected the shape {at.shape[:-1]}, found {pressed.shape}")
         arguments.keep(pressed)
         options.button = pointer(pressed, "uint8_t")
+    if settings is not None and not isinstance(settings, Mapping):
+        raise TypeError(f"settings: expected parameters by name, found {settings!r}")
     if settings:
         given = ffi.new("WaleSetting[]", len(settings))
         for each, (name, value) in zip(given, settings.items()):
-            each.name, each.value = arguments.text(name), value
+            each.name, each.value = arguments.text(name, "settings"), number(value, name)
         options.settings, options.setting_count = given, len(settings)
         arguments.keep(given)
     if size is not None:
         options.width, options.height, options.rim = size_in_full(size)
     forces = np.empty_like(at)
-    call(lib.wale_batch, program._pointer, options, pointer(forces, "WaleVector"))
+    call(lib.wale_batch, held(program, Program, "program"), options, pointer(forces, "WaleVector"))
     return forces

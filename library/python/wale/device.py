@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wale._abi import Arguments, Handle, call, described, ffi, lib, made, read, sized
+from wale._abi import Arguments, Handle, call, described, ffi, lib, made, number, pair, read, sized
+from wale._arrays import numbers
 from wale.codes import DeviceKind
 from wale.errors import Error
 
@@ -58,7 +59,7 @@ def profile_of(of: Any) -> Profile:
 def profile(name: str) -> Profile:
     """The figures of a shipped device by the name of its profile."""
     arguments, of = Arguments(), sized("WaleProfile")
-    call(lib.wale_profile, arguments.text(name), of)
+    call(lib.wale_profile, arguments.text(name, "name"), of)
     return profile_of(of)
 
 
@@ -105,7 +106,10 @@ def devices() -> Sequence[DeviceInfo]:
 
 @dataclass(frozen=True)
 class Hand:
-    """A simulated person's hand and arm: a mass (kg) on a spring (N/m) and a damper (N s/m)."""
+    """A simulated person's hand and arm: a mass (kg) on a spring (N/m) and a damper (N s/m).
+
+    Spring and damper pull to where the motion aims. A hand with neither is only a mass.
+    """
 
     mass: float
     damping: float = 0.0
@@ -126,7 +130,7 @@ class Motion:
     @staticmethod
     def rest(position: tuple[float, float] = (0.0, 0.0)) -> "Motion":
         """A place, m."""
-        return Motion("rest", centre=position)
+        return Motion("hold", centre=position)
 
     @staticmethod
     def lateral(amplitude: float, frequency: float, *, centre: tuple[float, float] = (0.0, 0.0),
@@ -151,6 +155,9 @@ class Motion:
         return Motion("trace", points=points)
 
 
+_kinds = ("rest", "hold", "lateral", "circular", "press", "trace")
+
+
 class Device(Handle):
     """An opened joystick or pad. A stage that has it keeps it, so it may be closed at any time."""
 
@@ -168,19 +175,26 @@ def device_options(arguments: Arguments, *, built_for: str, transport: str, keep
                    max_force: float, priority: int, disregard_owner: bool, hand: Hand | None,
                    motion: Motion | None) -> Any:
     """A WaleDeviceOptions."""
-    options = arguments.struct("WaleDeviceOptions", built_for=built_for, transport=transport, keeper=os.fspath(keeper),
-                               max_force=max_force, priority=priority, disregard_owner=int(disregard_owner))
+    options = arguments.struct("WaleDeviceOptions", built_for=built_for, transport=transport, keeper=keeper,
+                               max_force=max_force, priority=priority, disregard_owner=disregard_owner)
     if hand is not None:
-        options.hand_mass, options.hand_damping, options.hand_stiffness = hand.mass, hand.damping, hand.stiffness
+        if not isinstance(hand, Hand):
+            raise TypeError(f"hand: expected a Hand, found {hand!r}")
+        options.hand_mass, options.hand_damping = number(hand.mass, "mass"), number(hand.damping, "damping")
+        options.hand_stiffness = number(hand.stiffness, "stiffness")
     if motion is not None:
+        if not isinstance(motion, Motion):
+            raise TypeError(f"motion: expected a Motion, found {motion!r}")
+        if motion.kind not in _kinds:
+            raise ValueError(f"motion: expected one of {', '.join(_kinds)}, found {motion.kind!r}")
         options.motion = getattr(lib, "WALE_MOTION_" + motion.kind)
-        options.amplitude, options.frequency = motion.amplitude, motion.frequency
-        options.centre_x, options.centre_y = motion.centre
-        options.direction_x, options.direction_y = motion.direction
+        options.amplitude, options.frequency = number(motion.amplitude, "amplitude"), number(motion.frequency, "frequency")
+        options.centre_x, options.centre_y = pair(motion.centre, "centre")
+        options.direction_x, options.direction_y = pair(motion.direction, "direction")
         if motion.points is not None:
-            rows = np.ascontiguousarray(motion.points, dtype=np.float64)
+            rows = numbers(motion.points, np.float64, "points")
             if rows.ndim != 2 or rows.shape[1] != 3:
-                raise ValueError("expected rows of time, x and y")
+                raise ValueError("points: expected rows of time, x and y")
             arguments.keep(rows)
             options.points, options.count = ffi.cast("double*", rows.ctypes.data), len(rows)
     return options
@@ -191,10 +205,11 @@ def open_device(spelling: str = "auto", *, built_for: str = "", transport: str =
                 disregard_owner: bool = False, hand: Hand | None = None, motion: Motion | None = None) -> Device:
     """Opens a device as `--device` of the command line spells it, without the declarations of its owner.
 
-    `max_force`: N at the handle, 0: no other limit than its own. `hand` and `motion` hold a simulated one.
-    `Library.open_device` knows the owner's declarations and brings a hand.
+    `max_force`: N at the handle, 0: no other limit than its own. `hand` and `motion` are those of a person at a simulated
+    one, which nothing holds without a hand; a motion without one is an error. `Library.open_device` knows the owner's
+    declarations and brings a hand.
     """
     arguments = Arguments()
     options = device_options(arguments, built_for=built_for, transport=transport, keeper=keeper, max_force=max_force,
                              priority=priority, disregard_owner=disregard_owner, hand=hand, motion=motion)
-    return Device(made(lib.wale_device_open, "WaleDevice", arguments.text(spelling), options))
+    return Device(made(lib.wale_device_open, "WaleDevice", arguments.text(spelling, "spelling"), options))

@@ -1,10 +1,10 @@
 """Materials and levels by name."""
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from wale._abi import Arguments, Handle, call, ffi, lib, made, sized
+from wale._abi import Arguments, Handle, bytes_of, call, ffi, lib, made, number, sized
 from wale.device import Device, DeviceInfo, Hand, Motion, Profile, device_options, devices_of, profile_of
 from wale.program import Program
 from wale.workspace import Workspace
@@ -22,7 +22,7 @@ class Future(Handle):
 
     def wait(self, seconds: float = float("inf")) -> bool:
         """Waits until it is ready, for so many seconds at most. Returns whether it is."""
-        return bool(lib.wale_future_wait(self._pointer, seconds))
+        return bool(lib.wale_future_wait(self._pointer, number(seconds, "seconds")))
 
     def take(self) -> Program:
         """Waits and gives the program, once."""
@@ -39,40 +39,46 @@ class Library(Handle):
     def __init__(self, folders: Iterable[str | os.PathLike[str]] = (), *, unsandboxed_pictures: bool = False) -> None:
         if isinstance(folders, (str, bytes, os.PathLike)):
             raise TypeError(f"folders: expected a list of folders, found one: write [{folders!r}]")
+        if not isinstance(folders, Iterable):
+            raise TypeError(f"folders: expected a list of folders, found {folders!r}")
         arguments = Arguments()
-        texts = [arguments.text(os.fspath(each)) for each in folders]
+        texts = [arguments.text(each, "folders") for each in folders]
         array = ffi.new("WaleText[]", texts) if texts else ffi.NULL
         options = arguments.struct("WaleLibraryOptions", folders=array, folder_count=len(texts),
-                                   unsandboxed_pictures=int(unsandboxed_pictures))
+                                   unsandboxed_pictures=unsandboxed_pictures)
         super().__init__(made(lib.wale_library_create, "WaleLibrary", options), lib.wale_library_free)
 
-    def _make(self, function: Any, texts: list[str], kind: str, **options: str) -> Any:
+    def _make(self, function: Any, texts: Mapping[str, str | os.PathLike[str]], kind: str, **options: str) -> Any:
         arguments = Arguments()
-        wanted = [arguments.text(each) for each in texts]
+        wanted = [arguments.text(each, name) for name, each in texts.items()]
         return made(function, kind, self._pointer, *wanted, arguments.struct("WaleCompileOptions", **options))
 
     def find(self, name: str, *, device: str = "", material: str = "") -> Program:
-        """A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim")."""
-        return Program(self._make(lib.wale_library_find, [name], "WaleProgram", device=device, material=material))
+        """A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim").
+
+        Materials in the current folder take precedence over the shipped ones, and so do those of the whole project if a
+        file `wale.project` lies in that folder or above it, and those of `folders`: `Program.taken` says so.
+        """
+        return Program(self._make(lib.wale_library_find, {"name": name}, "WaleProgram", device=device, material=material))
 
     def level(self, percept: str, level: str | float, *, device: str = "") -> Program:
         """A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1."""
-        return Program(self._make(lib.wale_library_level, [percept, _level(level)], "WaleProgram", device=device))
+        return Program(self._make(lib.wale_library_level, {"percept": percept, "level": _level(level)}, "WaleProgram", device=device))
 
     def compile(self, text: str, *, device: str = "", material: str = "", name: str = "text") -> Program:
         """The text of a Wale file; errors call it `name`."""
-        return Program(self._make(lib.wale_library_compile, [text], "WaleProgram", device=device, material=material, name=name))
+        return Program(self._make(lib.wale_library_compile, {"text": text}, "WaleProgram", device=device, material=material, name=name))
 
     def open(self, path: str | os.PathLike[str], *, device: str = "", material: str = "") -> Program:
         """A Wale file (.wale) or a patch program (.wpp)."""
         return Program(
-            self._make(lib.wale_library_open, [os.fspath(path)], "WaleProgram", device=device, material=material))
+            self._make(lib.wale_library_open, {"path": path}, "WaleProgram", device=device, material=material))
 
     def open_bytes(self, data: bytes, *, device: str = "", material: str = "", name: str = "text") -> Program:
         """The same for the bytes of such a file."""
         arguments = Arguments()
         options = arguments.struct("WaleCompileOptions", device=device, material=material, name=name)
-        return Program(made(lib.wale_library_open_bytes, "WaleProgram", self._pointer, ffi.from_buffer(data), len(data), options))
+        return Program(made(lib.wale_library_open_bytes, "WaleProgram", self._pointer, *bytes_of(data, "data"), options))
 
     def _workspace(self, function: Any, text: str | os.PathLike[str], **options: str | int) -> Workspace:
         arguments = Arguments()
@@ -86,28 +92,28 @@ class Library(Handle):
         With `legibility` it warns also of what a hand cannot tell, which takes up to a second for each material.
         """
         return self._workspace(lib.wale_library_workspace, text, device=device, workspace=workspace, name=name,
-                               legibility=int(legibility))
+                               legibility=legibility)
 
     def open_workspace(self, path: str | os.PathLike[str], *, device: str = "", workspace: str = "",
                        legibility: bool = False) -> Workspace:
         """The same of a Wale file (.wale), or a workspace file (.wws)."""
-        return self._workspace(lib.wale_library_open_workspace, os.fspath(path), device=device, workspace=workspace,
-                               legibility=int(legibility))
+        return self._workspace(lib.wale_library_open_workspace, path, device=device, workspace=workspace,
+                               legibility=legibility)
 
     def find_later(self, name: str, *, device: str = "", material: str = "") -> Future:
         """As `find`, on a thread of the library's own; so the other calls that end in `_later`."""
-        return Future(self._make(lib.wale_library_find_later, [name], "WaleFuture", device=device, material=material))
+        return Future(self._make(lib.wale_library_find_later, {"name": name}, "WaleFuture", device=device, material=material))
 
     def level_later(self, percept: str, level: str | float, *, device: str = "") -> Future:
-        return Future(self._make(lib.wale_library_level_later, [percept, _level(level)], "WaleFuture", device=device))
+        return Future(self._make(lib.wale_library_level_later, {"percept": percept, "level": _level(level)}, "WaleFuture", device=device))
 
     def compile_later(self, text: str, *, device: str = "", material: str = "", name: str = "text") -> Future:
         return Future(
-            self._make(lib.wale_library_compile_later, [text], "WaleFuture", device=device, material=material, name=name))
+            self._make(lib.wale_library_compile_later, {"text": text}, "WaleFuture", device=device, material=material, name=name))
 
     def open_later(self, path: str | os.PathLike[str], *, device: str = "", material: str = "") -> Future:
         return Future(
-            self._make(lib.wale_library_open_later, [os.fspath(path)], "WaleFuture", device=device, material=material))
+            self._make(lib.wale_library_open_later, {"path": path}, "WaleFuture", device=device, material=material))
 
     def devices(self) -> Sequence[DeviceInfo]:
         """As `wale.devices`, with the declarations of the owner of this computer."""
@@ -116,7 +122,7 @@ class Library(Handle):
     def profile(self, name: str) -> Profile:
         """As `wale.profile`, also of a device that the owner declares."""
         arguments, of = Arguments(), sized("WaleProfile")
-        call(lib.wale_library_profile, self._pointer, arguments.text(name), of)
+        call(lib.wale_library_profile, self._pointer, arguments.text(name, "name"), of)
         return profile_of(of)
 
     def open_device(self, spelling: str = "auto", *, built_for: str = "", transport: str = "",
@@ -129,8 +135,8 @@ class Library(Handle):
         arguments = Arguments()
         options = device_options(arguments, built_for=built_for, transport=transport, keeper=keeper,
                                  max_force=max_force, priority=priority, disregard_owner=False, hand=hand, motion=motion)
-        return Device(made(lib.wale_library_open_device, "WaleDevice", self._pointer, arguments.text(spelling), options))
+        return Device(made(lib.wale_library_open_device, "WaleDevice", self._pointer, arguments.text(spelling, "spelling"), options))
 
 
 def _level(level: str | float) -> str:
-    return level if isinstance(level, str) else repr(float(level))
+    return level if isinstance(level, str) else repr(number(level, "level"))

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wale._abi import Handle, call, described, ffi, lib, made, read, sized
+from wale._abi import Handle, bytes_of, call, described, ffi, lib, made, read, sized
 from wale.errors import Error
 
 
@@ -66,7 +66,7 @@ class Program(Handle):
     @staticmethod
     def load(data: bytes) -> "Program":
         """Reads and verifies the bytes of a .wpp file."""
-        return Program(made(lib.wale_program_load, "WaleProgram", ffi.from_buffer(data), len(data)))
+        return Program(made(lib.wale_program_load, "WaleProgram", *bytes_of(data, "data")))
 
     def __bytes__(self) -> bytes:
         """The bytes of its .wpp file; equal programs give equal bytes on every machine."""

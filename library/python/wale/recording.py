@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wale._abi import Arguments, Handle, call, lib, made, read, sized
+from wale._abi import Arguments, Handle, call, lib, made, read, sized, whole
 from wale._arrays import dtype_of, pointer
 
 
@@ -29,8 +29,10 @@ class Recording(Handle):
 
     def __init__(self, path: str | os.PathLike[str], *, most_ticks: int | None = None) -> None:
         arguments, of = Arguments(), sized("WaleRecordingDetails")
-        super().__init__(made(lib.wale_recording_open_part, "WaleRecording", arguments.text(os.fspath(path)),
-                              2**63 if most_ticks is None else most_ticks),
+        if most_ticks is not None and whole(most_ticks, "most_ticks") < 0:
+            raise ValueError(f"most_ticks: expected a number that is not negative, found {most_ticks}")
+        super().__init__(made(lib.wale_recording_open_part, "WaleRecording", arguments.text(path, "path"),
+                              2**63 if most_ticks is None else min(whole(most_ticks, "most_ticks"), 2**63)),
                          lib.wale_recording_free)
         call(lib.wale_recording_details, self._pointer, of)
         self.device: str = read(of.device)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wale._abi import Arguments, Handle, call, described, ffi, lib, made, or_none, read, sized
+from wale._abi import Arguments, Handle, call, described, ffi, held, lib, made, or_none, read, sized
 from wale._arrays import dtype_of, pointer
 from wale.errors import Error
 
@@ -108,13 +108,18 @@ class Run(Handle):
 
     def measure(self, patch: "Patch", *, settling: float = 0.0, stuck_seconds: float = 0.0, stuck_counts: float = 0.0,
                 least_crossings: int = 0) -> "Felt":
-        """Measures the run, and reads the percepts of a patch's program back through its maps.
+        """Measures what the hand felt of a patch, and reads the percepts of its program back through its maps.
 
-        `settling`: s, left out at the beginning. 0 is the default of each option.
+        Only the ticks on this patch count, and of a patch that was changed during the run those after the last change.
+        `settling`: s, left out at the beginning. 0 is the default of each option. Errors: `wrong_moment` for a patch of
+        another stage, or one that was removed or changed since the run; `not_measured` if the hand was not on it, or the
+        run kept no record (that of `Stage.start`).
         """
         options = Arguments().struct("WaleMeasureOptions", settling=settling, stuck_seconds=stuck_seconds,
                                      stuck_counts=stuck_counts, least_crossings=least_crossings)
-        felt = made(lib.wale_felt_measure, "WaleFelt", self._pointer, patch._pointer, options)
+        from wale.stage import Patch  # which needs this module
+
+        felt = made(lib.wale_felt_measure, "WaleFelt", self._pointer, held(patch, Patch, "patch"), options)
         return _felt_of(ffi.gc(felt, lib.wale_felt_free))
 
 

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from wale._abi import Handle, ffi, lib, made, pair
+from wale._abi import Handle, ffi, lib, made, number, pair
+from wale._arrays import numbers, yes_or_no
 from wale.run import Vector, vector_of
 
 
@@ -21,12 +22,13 @@ class Shape(Handle):
     @staticmethod
     def ellipse(half_width: float, half_height: float) -> "Shape":
         """Half axes, m."""
-        return Shape(made(lib.wale_shape_ellipse, "WaleShape", half_width, half_height))
+        return Shape(made(lib.wale_shape_ellipse, "WaleShape", number(half_width, "half_width"),
+                          number(half_height, "half_height")))
 
     @staticmethod
     def polygon(corners: Sequence[Vector] | npt.NDArray[np.float64]) -> "Shape":
         """3 to 256 corners, in either sense of rotation."""
-        points = np.ascontiguousarray(corners, dtype=np.float32)
+        points = numbers(corners, np.float32, "corners")
         if points.ndim != 2 or points.shape[1] != 2:
             raise ValueError(f"expected corners x 2, found {points.shape}")
         return Shape(made(lib.wale_shape_polygon, "WaleShape", ffi.from_buffer("WaleVector[]", points), len(points)))
@@ -34,11 +36,11 @@ class Shape(Handle):
     @staticmethod
     def mask(cells: npt.ArrayLike, side: float) -> "Shape":
         """Cells that are true, rows x columns from the top left, each a square with this side, m."""
-        bits = np.ascontiguousarray(np.asarray(cells, dtype=bool), dtype=np.uint8)
+        bits = yes_or_no(cells, np.uint8, "cells")
         if bits.ndim != 2:
             raise ValueError(f"expected rows x columns, found {bits.shape}")
         rows, columns = bits.shape
-        return Shape(made(lib.wale_shape_mask, "WaleShape", ffi.from_buffer("uint8_t[]", bits), columns, rows, side))
+        return Shape(made(lib.wale_shape_mask, "WaleShape", ffi.from_buffer("uint8_t[]", bits), columns, rows, number(side, "side")))
 
     @property
     def size(self) -> Vector:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wale._abi import Handle, call, ffi, lib, read, sized
+from wale._abi import Handle, call, ffi, lib, number, pair, read, sized
 from wale._arrays import pointer, vectors
 from wale.codes import MarkKind
 
@@ -64,9 +64,9 @@ class Snapshot(Handle):
     def show(self, position: tuple[float, float] = (0.0, 0.0), velocity: tuple[float, float] = (0.0, 0.0),
              time: float = 0.0) -> list[Mark]:
         """The shapes that the picture shows for a hand (m and m/s from the patch's centre, s), in the order of drawing."""
-        hand = [ffi.new("WaleVector*", each)[0] for each in (position, velocity)]
+        hand = [ffi.new("WaleVector*", pair(each, name))[0] for name, each in (("position", position), ("velocity", velocity))]
         count = ffi.new("size_t*")
-        call(lib.wale_snapshot_show, self._pointer, *hand, time, ffi.NULL, 0, count)
+        call(lib.wale_snapshot_show, self._pointer, *hand, number(time, "time"), ffi.NULL, 0, count)
         marks = ffi.new("WaleMark[]", max(1, count[0]))
         call(lib.wale_snapshot_show, self._pointer, *hand, time, marks, count[0], count)
         return [Mark(MarkKind(marks[i].kind), marks[i].colour, tuple(marks[i].values)) for i in range(count[0])]

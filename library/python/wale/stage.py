@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wale._abi import Arguments, Handle, call, ffi, lib, made, pair, sized
+from wale._abi import Arguments, Handle, call, ffi, held, lib, made, number, pair, sized, whole
 from wale._arrays import size_in_full
 from wale.codes import ContactKind
 from wale.device import Device, Profile
@@ -40,7 +40,7 @@ def _placed(at: Vector, size: Size | None, layer: float, shape: Shape | None) ->
     width, height, rim = size_in_full(size) if size is not None else (0.0, 0.0, 0.0)
     x, y = pair(at, "at")
     return Arguments().struct("WalePatchOptions", x=x, y=y, width=width, height=height, rim=rim, layer=layer,
-                              shape=None if shape is None else shape._pointer)
+                              shape=None if shape is None else held(shape, Shape, "shape"))
 
 
 class Patch(Handle):
@@ -65,7 +65,7 @@ class Patch(Handle):
     def set(self, parameter: str, value: float) -> None:
         """Sets a parameter, in SI units."""
         arguments = Arguments()
-        call(lib.wale_patch_set, self._pointer, arguments.text(parameter), value)
+        call(lib.wale_patch_set, self._pointer, arguments.text(parameter, "parameter"), number(value, "value"))
 
     def move(self, to: Vector) -> None:
         """Moves its centre, m from the workspace's centre."""
@@ -77,15 +77,15 @@ class Patch(Handle):
 
     def replace(self, program: Program) -> None:
         """Another program."""
-        call(lib.wale_patch_replace, self._pointer, program._pointer)
+        call(lib.wale_patch_replace, self._pointer, held(program, Program, "program"))
 
     def enable(self, enabled: bool = True) -> None:
         """A patch that is not enabled is not felt, and keeps its memory."""
-        call(lib.wale_patch_enable, self._pointer, int(enabled))
+        call(lib.wale_patch_enable, self._pointer, whole(enabled, "enabled"))
 
     def bring(self, layer: float = 0.0) -> None:
         """Puts it in front of all patches of a layer."""
-        call(lib.wale_patch_bring, self._pointer, layer)
+        call(lib.wale_patch_bring, self._pointer, number(layer, "layer"))
 
     def remove(self) -> None:
         """Removes the patch from its stage."""
@@ -105,29 +105,29 @@ class Edit(Handle):
     def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0,
             shape: Shape | None = None) -> Patch:
         placed = _placed(at, size, layer, shape)
-        return Patch(made(lib.wale_edit_add, "WalePatch", self._pointer, program._pointer, placed))
+        return Patch(made(lib.wale_edit_add, "WalePatch", self._pointer, held(program, Program, "program"), placed))
 
     def set(self, patch: Patch, parameter: str, value: float) -> None:
         arguments = Arguments()
-        call(lib.wale_edit_set, self._pointer, patch._pointer, arguments.text(parameter), value)
+        call(lib.wale_edit_set, self._pointer, held(patch, Patch, "patch"), arguments.text(parameter, "parameter"), number(value, "value"))
 
     def move(self, patch: Patch, to: Vector) -> None:
-        call(lib.wale_edit_move, self._pointer, patch._pointer, *pair(to, "to"))
+        call(lib.wale_edit_move, self._pointer, held(patch, Patch, "patch"), *pair(to, "to"))
 
     def resize(self, patch: Patch, size: Size) -> None:
-        call(lib.wale_edit_resize, self._pointer, patch._pointer, *size_in_full(size))
+        call(lib.wale_edit_resize, self._pointer, held(patch, Patch, "patch"), *size_in_full(size))
 
     def replace(self, patch: Patch, program: Program) -> None:
-        call(lib.wale_edit_replace, self._pointer, patch._pointer, program._pointer)
+        call(lib.wale_edit_replace, self._pointer, held(patch, Patch, "patch"), held(program, Program, "program"))
 
     def enable(self, patch: Patch, enabled: bool = True) -> None:
-        call(lib.wale_edit_enable, self._pointer, patch._pointer, int(enabled))
+        call(lib.wale_edit_enable, self._pointer, held(patch, Patch, "patch"), whole(enabled, "enabled"))
 
     def bring(self, patch: Patch, layer: float = 0.0) -> None:
-        call(lib.wale_edit_bring, self._pointer, patch._pointer, layer)
+        call(lib.wale_edit_bring, self._pointer, held(patch, Patch, "patch"), number(layer, "layer"))
 
     def remove(self, patch: Patch) -> None:
-        call(lib.wale_edit_remove, self._pointer, patch._pointer)
+        call(lib.wale_edit_remove, self._pointer, held(patch, Patch, "patch"))
 
     def commit(self) -> None:
         """Makes all changes. If one has an error, nothing has changed. Afterwards the edit is empty and may be used again."""
@@ -186,18 +186,20 @@ class Stage(Handle):
     """Patches on a device's workspace, and the loop that lets the hand feel the front-most one under it.
 
     `priority`: 1 .. 99, SCHED_FIFO for the loop if it is permitted. `max_force`: N, 0: only the device's own limit.
-    `record`: a file for the run's recording; it must not exist yet.
+    `record`: a file for the run's recording; it must not exist yet. Its path counts from the current folder now.
     """
 
     def __init__(self, device: Device | Profile, *, priority: int = 0, lock_memory: bool = False,
                  low_latency: bool = False, max_force: float = 0.0, record: str | os.PathLike[str] = "",
                  record_hand: str = "") -> None:
         arguments = Arguments()
-        options = arguments.struct("WaleStageOptions", priority=priority, lock_memory=int(lock_memory),
-                                   low_latency=int(low_latency), max_force=max_force, record=os.fspath(record),
+        options = arguments.struct("WaleStageOptions", priority=priority, lock_memory=lock_memory,
+                                   low_latency=low_latency, max_force=max_force, record=record,
                                    record_hand=record_hand)
         if isinstance(device, Device):
             stage = _created(lib.wale_stage_create, device._pointer, options)
+        elif not isinstance(device, Profile):
+            raise TypeError(f"device: expected a Device or a Profile, found {device!r}")
         else:
             figures = {name: value for name, value in vars(device).items() if not isinstance(value, bool)}
             given = arguments.struct("WaleProfile", vibrates=int(device.vibrates), has_position=int(device.has_position),
@@ -216,12 +218,13 @@ class Stage(Handle):
         `shape`: the part of its rectangle that it covers, stretched to its size.
         """
         placed = _placed(at, size, layer, shape)
-        return Patch(made(lib.wale_stage_add, "WalePatch", self._pointer, program._pointer, placed))
+        return Patch(made(lib.wale_stage_add, "WalePatch", self._pointer, held(program, Program, "program"), placed))
 
     def add_workspace(self, workspace: Workspace) -> list[Patch]:
         """Puts all patches of a workspace on the stage at once, the last in front, and gives them in their order."""
+        pointer = held(workspace, Workspace, "workspace")
         places = ffi.new("WalePatch*[]", max(1, len(workspace)))
-        call(lib.wale_stage_add_workspace, self._pointer, workspace._pointer, places)
+        call(lib.wale_stage_add_workspace, self._pointer, pointer, places)
         return [Patch(places[i]) for i in range(len(workspace))]
 
     def edit(self) -> Edit:
@@ -238,7 +241,7 @@ class Stage(Handle):
     def run(self, seconds: float, *, virtual_time: bool = False, kept_seconds: float = 0.0) -> Run:
         """Runs for so many seconds, in real time or as fast as possible. An interrupt (Ctrl-C) ends it."""
         options = Arguments().struct("WaleRunOptions", seconds=seconds, kept_seconds=kept_seconds,
-                                     virtual_time=int(virtual_time))
+                                     virtual_time=virtual_time)
         pointer, done, over = self._pointer, list[Any](), threading.Event()
 
         def serve() -> None:
@@ -278,8 +281,13 @@ class Stage(Handle):
         return now_of(of)
 
     def on_contact(self, receive: Callable[[Contact], None] | None) -> None:
-        """What `poll` calls for each contact; None ends it. Contacts are noted only while there is one."""
-        call(lib.wale_stage_on_contact, self._pointer, _hear if receive else ffi.NULL, self._hears)
+        """What `poll` calls for each contact; None ends it. Contacts are noted only while there is one.
+
+        What it raises comes out of `poll`; the contacts after that one wait for the next `poll`.
+        """
+        if receive is not None and not callable(receive):
+            raise TypeError(f"receive: expected something to call, or None, found {receive!r}")
+        call(lib.wale_stage_on_contact, self._pointer, ffi.NULL if receive is None else _hear, self._hears)
         self._receive = receive
 
     def poll(self) -> int:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wale._abi import Handle, call, described, ffi, lib, made, or_none, read, sized
+from wale._abi import Handle, bytes_of, call, described, ffi, lib, made, or_none, read, sized
 from wale.errors import Error
 from wale.program import Program
 from wale.run import Vector
@@ -58,7 +58,7 @@ class Workspace(Handle):
     @staticmethod
     def load(data: bytes) -> "Workspace":
         """Reads and verifies the bytes of a .wws file."""
-        return Workspace(made(lib.wale_workspace_load, "WaleWorkspace", ffi.from_buffer(data), len(data)))
+        return Workspace(made(lib.wale_workspace_load, "WaleWorkspace", *bytes_of(data, "data")))
 
     def __bytes__(self) -> bytes:
         """The bytes of its .wws file; equal workspaces give equal bytes on every machine."""

@@ -57,11 +57,12 @@ typedef struct WaleDeviceInfo {
 } WaleDeviceInfo;
 
 enum {
-  WALE_MOTION_rest = 0,     /* aims at `centre` */
+  WALE_MOTION_rest = 0,     /* aims at `centre`; at 0, 0 it is no motion of its own: see `hand_mass` */
   WALE_MOTION_lateral = 1,  /* a sine of `amplitude` along `direction` about `centre` */
   WALE_MOTION_circular = 2, /* a circle of radius `amplitude` */
   WALE_MOTION_press = 3,    /* pushes of depth `amplitude` along `direction` that begin at `centre` */
-  WALE_MOTION_trace = 4     /* through `points`: `count` rows of time (s), x and y (m), times rising */
+  WALE_MOTION_trace = 4,    /* through `points`: `count` rows of time (s), x and y (m), times rising */
+  WALE_MOTION_hold = 5      /* aims at `centre`, also at 0, 0 */
 };
 
 /* How to open a device; all 0 is the default. `hand` and `motion` are those of the simulated person at a simulated device. */
@@ -70,11 +71,13 @@ typedef struct WaleDeviceOptions {
   WaleText built_for;    /* only the device of this profile; empty: any */
   WaleText transport;    /* one of the ways to drive a real device, as "hidraw"; empty: its driver chooses */
   WaleText keeper;       /* the program wale-keeper; empty: it is found beside the executable or the library */
-  double max_force;      /* N at the handle: every packet to a real device keeps within it; 0: no other limit than its own */
+  double max_force;      /* N at the handle (of a pad m/s^2): what is sent to the device keeps within it, also to a simulated
+                            one; 0: no other limit than its own */
   int32_t priority;      /* 1 .. 99: SCHED_FIFO for the threads that serve a real device, if it is permitted; 0: ordinary */
   int32_t disregard_owner; /* 1: with the runtime alone, do not refuse a real device whose owner declares devices */
-  double hand_mass;      /* kg; 0: nothing holds it (wale_library_open_device: an ordinary hand, which
-                            rubs to and fro unless there is a motion) */
+  double hand_mass;      /* kg; with damping and stiffness 0 too nothing holds it, which is an error with a motion
+                            (wale_library_open_device: then an ordinary hand, which rubs to and fro unless there is a
+                            motion). Damping and stiffness pull to where the motion aims */
   double hand_damping;   /* N s/m */
   double hand_stiffness; /* N/m */
   int32_t motion;        /* WALE_MOTION_… */

@@ -63,7 +63,8 @@ struct OpenOptions {
   std::optional<TrustedDevices> trusted = {};
   /// The device that a program is built for, by the name of its profile; others are refused then. Empty: any.
   std::string built_for = {};
-  double max_force = HUGE_VAL;  ///< N at the handle: every packet to a real device keeps within it; positive
+  /// N at the handle (of a pad m/s^2): what is sent to the device keeps within it, also to a simulated one; positive.
+  double max_force = HUGE_VAL;
   std::string transport = {};   ///< one of the ways to drive a real device, as "hidraw"; empty: its driver chooses
   /// SCHED_FIFO with this priority, 1 .. 99, for the threads that serve a real device, if it is permitted. Otherwise
   /// they have an ordinary one.
@@ -73,8 +74,11 @@ struct OpenOptions {
   /// The program `wale-keeper`, which lets a real device go when this process cannot. Empty: it is found where Wale is
   /// installed (libexec/wale), seen from this library or from the executable, or beside the executable.
   std::string keeper = {};
-  HandModel hand = {};  ///< that holds a simulated device; of mass 0 nothing holds it; finite, not negative
-  Motion motion = {};   ///< of the person with that hand; finite; a trace as wale/trace.hpp says
+  /// That holds a simulated device; finite, not negative. All 0: nothing holds it, which is an error with a motion. Its
+  /// spring and its damper pull to where the person aims, so a hand with neither is only a mass.
+  HandModel hand = {};
+  /// Of the person with that hand; finite; a trace as wale/trace.hpp says. None: at rest in the middle.
+  std::optional<Motion> motion = {};
 };
 
 /// Opens a device as `--device` of the command line spells it: "auto" (the best real one, else a simulated one), "usb",
@@ -85,6 +89,8 @@ struct OpenOptions {
 /// watches over it from the start, and lets it go when this process dies, hangs or is stopped; without a keeper no
 /// device that can hurt is opened. Unplugged and plugged in again it goes on by itself. May take a second; from any
 /// thread, not from a real-time one.
+///
+/// In a child of `fork` an opened device is lost and exerts nothing, also a simulated one: a stage does not run on it.
 ///
 /// Errors: `unknown_device` for a spelling that means nothing; `absent_device` if it is not plugged in;
 /// `unusable_device` and other obstacles; `other_device` if it is not that of `built_for`; `untrusted_device` if its

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "wale/patch.hpp"
 #include "wale/program.hpp"
 #include "wale/record.hpp"
+#include "wale/run.hpp"
 
 namespace wale {
 
@@ -23,6 +26,7 @@ struct MeasureOptions {
   double stuck_seconds = 0.05;    ///< the hand counts as stuck if within this time it moves by no more than
   double stuck_counts = 2;        ///< this many encoder counts on each axis
   bool vibrates = false;          ///< the record is of a pad
+  std::optional<std::uint32_t> change = {};  ///< only the ticks with this `TickRecord::change` count; empty: all do
 };
 
 /// How a pad shook over the ticks within the patch.
@@ -81,6 +85,21 @@ struct LevelBack {
 /// the patch. A level is an error if there are fewer than `least_crossings` crossings of a texture, if the hand's
 /// motion could not show the carrier, or if the carrier is not the only force.
 std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long least_crossings = 50);
+
+/// What a hand felt of one patch.
+struct FeltPatch {
+  Felt felt;
+  std::vector<LevelBack> levels;  ///< of all percepts of its program
+};
+
+/// Measures what the hand felt of one patch in a run of its stage, and reads its percepts back. Only the ticks on this
+/// patch count, and if its program, parameters or size changed during the run, only those after the last change. Of
+/// `options` the times and `stuck_counts` count; the rest comes from the stage. From any thread. Errors:
+/// - `wrong_moment`: the patch was removed, its stage is gone, the run was one of another stage, or the patch's
+///   program, parameters or size have changed since the run;
+/// - `not_measured`: the run kept no record, or the hand was not on the patch after `options.settling`.
+Result<FeltPatch> measure(const RunResult& run, const Patch& patch, const MeasureOptions& options = {},
+                          long least_crossings = 50);
 
 /// The lateral force (N) or a pad's acceleration (m/s^2) that the program aims at, for `MeasureOptions`. It belongs to
 /// the first percept that has one; without any it is 0.

@@ -15,6 +15,11 @@ namespace wale {
 
 struct StageState;
 
+/// What `Patch::id` gives for a number on the stage and a generation of it.
+constexpr std::uint64_t patch_id(std::uint32_t number, std::uint32_t generation) noexcept {
+  return (std::uint64_t{generation} + 1) << 32 | number;
+}
+
 /// Where a patch goes, and how large it is.
 struct PatchOptions {
   glm::vec2 at{0.0f};                  ///< m from the workspace's centre, of the patch's centre; finite
@@ -91,7 +96,7 @@ class Patch {
   /// Its number on the stage, as in recordings. A later patch may get the number of a removed one.
   std::uint32_t number() const { return number_; }
   /// Never 0, and never that of another patch of the same stage.
-  std::uint64_t id() const { return (std::uint64_t{generation_} + 1) << 32 | number_; }
+  std::uint64_t id() const { return patch_id(number_, generation_); }
 
  private:
   friend class StageEdit;

@@ -19,7 +19,9 @@ struct TickRecord {
   Force interaction{0};       ///< N from hand to handle over the period before; not-a-number where unknown
   float lateness = 0;         ///< s, how long after its deadline the tick began
   std::uint32_t skipped = 0;  ///< periods that were not served just before this tick
-  bool inside = false;        ///< the hand was within the patch
+  bool inside = false;        ///< the hand was within a patch
+  std::uint32_t change = 0;   ///< another number after each change of that patch's program, parameters or size
+  std::uint64_t patch = 0;    ///< `Patch::id` of that patch; 0: the hand was on none
 };
 
 /// A run, tick by tick.

@@ -113,8 +113,8 @@ typedef struct WaleMeasureOptions {
 /* N (of a pad m/s^2, where the hand was on the patch); not-a-number where it was not measured. */
 typedef struct WaleFeltFigures {
   size_t size;
-  int64_t ticks;         /* measured: after settling */
-  int64_t ticks_rubbing; /* of them, within the patch with the hand not stuck; of a pad within the patch */
+  int64_t ticks;         /* measured: on the patch, after settling */
+  int64_t ticks_rubbing; /* of them, those with the hand not stuck; of a pad all */
   int64_t crossings;     /* flanks of a texture that the hand crossed */
   double stuck;          /* share of the ticks within the patch */
   double force_p99, force_maximum, force_rms;                   /* the actuator's */
@@ -140,8 +140,11 @@ typedef struct WaleFeltLevel {
   const WaleError* problem;  /* why there is none: not_measured; NULL if there is one */
 } WaleFeltLevel;
 
-/* Measures a run, and reads the percepts of a patch's program back through its maps. `options` may be NULL.
-   Errors: wrong_moment if the patch is gone; malformed_value. */
+/* Measures what the hand felt of a patch in a run of its stage, and reads the percepts of its program back through its maps.
+   Only the ticks on this patch count, and if its program, parameters or size changed during the run, only those after the last
+   change. `options` may be NULL. Errors: malformed_value; wrong_moment if the patch is gone, is on another stage than the run
+   was, or has other parameters, another size or program since the run; not_measured if the hand was not on the patch after
+   `settling`, or the run kept no record, as that of wale_stage_start. */
 WALE_API WaleCode wale_felt_measure(const WaleRun* run, const struct WalePatch* patch, const WaleMeasureOptions* options,
                                     WaleFelt** felt, WaleError** error);
 WALE_API void wale_felt_free(WaleFelt* felt);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -105,6 +106,8 @@ struct TickCosts {
 /// "sample", "find", …
 std::string_view name_of(TickCosts::Step step);
 
+struct PatchesInRun;
+
 struct RunResult {
   long ticks_run = 0;
   long ticks_missed = 0;  ///< periods without a tick; they are skipped and not made up for
@@ -114,6 +117,8 @@ struct RunResult {
   std::string scheduling;               ///< one line: what the loop asked of the system, and what it got
   Record record;                        ///< of `run`; empty after `start`, which keeps none
   std::optional<Error> record_problem;  ///< why the recording ended before the run; empty if it did not
+  /// What the run's last patches were, for `measure` of wale/felt.hpp.
+  std::shared_ptr<const PatchesInRun> patches;
 };
 
 }  // namespace wale

@@ -29,7 +29,8 @@ typedef struct WaleStageOptions {
   int32_t low_latency;  /* 1: keeps processors out of deep sleep during a run, for the whole system */
   int32_t reserved;     /* 0 */
   double max_force;     /* N (of a pad m/s^2), the largest that the user allows; 0: only the device's own limit */
-  WaleText record;      /* records the run in this file, which must not exist yet; empty: does not. It is mapped, and
+  WaleText record;      /* records the run in this file, which must not exist yet; empty: does not. Its path counts from the
+                           current folder of the process when the stage is made. It is mapped, and
                            read-only to others until the run ends; who truncates it in spite of that, as the superuser
                            may, ends this process (SIGBUS) */
   WaleText record_hand; /* what moves the handle, kept in the recording: "simulated, lateral"; one line, may be empty */
@@ -47,7 +48,7 @@ typedef struct WalePatchOptions {
 } WalePatchOptions;
 
 /* `device` is kept by the stage; a device serves one stage at a time. `options` may be NULL.
-   Errors: malformed_value; wrong_moment if another stage has the device. */
+   Errors: malformed_value; wrong_moment if another stage has the device, or in a child of fork, whose parent has opened it. */
 WALE_API WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, WaleStage** stage,
                                     WaleError** error);
 /* Without a device, for a loop of one's own (wale/loop.h). Of a pad the profile must be that of wale_profile or

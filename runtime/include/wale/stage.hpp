@@ -22,7 +22,7 @@ inline constexpr int usual_priority = 80;
 
 /// A recording to make of a run.
 struct RecordTo {
-  std::string file;  ///< must not exist yet; usually NAME.wrec
+  std::string file;  ///< must not exist yet; usually NAME.wrec; counts from the current folder when the stage is made
   /// What moves the handle, kept in the recording: "simulated, lateral"; one line of UTF-8, or empty. Otherwise the
   /// run gives `invalid_encoding` or `malformed_value`.
   std::string hand;
@@ -44,7 +44,8 @@ struct StageOptions {
   /// system; needs permission, and costs power).
   bool low_latency = false;
   double max_force = HUGE_VAL;  ///< N, the largest force that the user allows (on a pad m/s^2); positive
-  /// Records the run in this file, tick by tick as it happens. It must not exist yet, so a stage that records has one
+  /// Records the run in this file, tick by tick as it happens. Until the run ends the file is read-only (0444), and one
+  /// whose process was killed stays so. It must not exist yet, so a stage that records has one
   /// run: another one is refused while the file is there.
   std::optional<RecordTo> record = {};
 };
@@ -124,7 +125,8 @@ class Stage {
   /// - `malformed_value`: the time is not positive, the record would keep more than 2^24 ticks, the largest force is
   ///   not positive, or the priority is not in 1 .. 99;
   /// - `wrong_moment`: nothing is on the stage, it has no device, or another run is under way on it, or one that
-  ///   `start` began waits for its `stop`, or another stage runs on its device;
+  ///   `start` began waits for its `stop`, or another stage runs on its device, or the device was opened by the parent
+  ///   of this process;
   /// - `unusable_device`: the device's profile lacks a figure that a loop needs;
   /// - `unwritable_file`: the recording cannot be made;
   /// - `short_of_resources`: the system gives no thread.
@@ -148,7 +150,8 @@ class Stage {
   void on_contact(std::function<void(const ContactEvent&)> receive);
   /// Calls the receiver for all contacts since the last poll, in their order, on the calling thread. Two threads that
   /// poll take turns; a `poll` within a receiver does nothing and returns 0. Returns how many contacts were dropped
-  /// because `most_contacts_waiting` were waiting.
+  /// because `most_contacts_waiting` were waiting. What a receiver throws comes out of `poll`; the contact that it was
+  /// called for is gone, and the others wait for the next `poll`.
   std::size_t poll();
 
  private:
