@@ -125,13 +125,13 @@ Result<double> read_length(const Declarations& known, const std::string& option,
   return read_above_0(known, option, text, "length", {"a length above 0 mm", option + " \"40 mm\""});
 }
 
-Result<std::pair<double, double>> read_lengths_between(const Declarations& known, const std::string& option,
-                                                       const std::string& text) {
-  const Expected expected{"two lengths, the smaller one first", option + " \"0 mm, 1 mm\""};
+Result<HeightsBetween> read_heights_between(const Declarations& known, const std::string& option, const std::string& text) {
+  const Expected expected{"two heights, the smaller one first", option + " \"0 mm, 1 mm\", or " + option + " \"0, 1\""};
   const Dimension length = known.dimension("length");
-  const auto values = read_list(known, option, text, {length, length}, 2, expected);
-  if (!values) return values.error();
-  if ((*values)[0] < (*values)[1]) return std::pair((*values)[0], (*values)[1]);
+  const auto lengths = read_list(known, option, text, {length, length}, 2, expected);
+  const auto plain = lengths ? lengths : read_list(known, option, text, {Dimension{}, Dimension{}}, 2, expected);
+  if (!plain) return lengths.error();
+  if ((*plain)[0] < (*plain)[1]) return HeightsBetween{(*plain)[0], (*plain)[1], lengths.has_value()};
   return unexpected(Code::value_out_of_range, option, text, expected);
 }
 

@@ -21,8 +21,12 @@ Result<Hand> read_hand(const Declarations& known, const std::string& option, con
 Result<double> read_force(const Declarations& known, const std::string& option, const std::string& text);
 /// A length in m, above 0: "40 mm".
 Result<double> read_length(const Declarations& known, const std::string& option, const std::string& text);
-/// Two lengths in m, the first below the second: "0 mm, 1 mm".
-Result<std::pair<double, double>> read_lengths_between(const Declarations& known, const std::string& option, const std::string& text);
+/// Two heights, the first below the second: "0 mm, 1 mm", or "0, 1" of a relief that is a plain number.
+struct HeightsBetween {
+  double low = 0, high = 0;  ///< m, or plain numbers
+  bool is_length = true;
+};
+Result<HeightsBetween> read_heights_between(const Declarations& known, const std::string& option, const std::string& text);
 
 /// A value for a parameter, in SI and in its range.
 struct ParameterValue {

@@ -231,10 +231,10 @@ CLI::Option* offer_length(CLI::App& verb, const char* option, std::optional<doub
   return offer_value(verb, option, "LENGTH", into, about, read);
 }
 
-CLI::Option* offer_lengths_between(CLI::App& verb, const char* option, std::optional<std::pair<double, double>>& into,
+CLI::Option* offer_heights_between(CLI::App& verb, const char* option, std::optional<HeightsBetween>& into,
                                    const char* about) {
   const auto read = [](const char* name, const std::string& text) {
-    return read_lengths_between(common_modules()->declarations, name, text);
+    return read_heights_between(common_modules()->declarations, name, text);
   };
   return offer_value(verb, option, "LOW,HIGH", into, about, read);
 }

@@ -8,6 +8,7 @@
 
 #include "compiler/command/command.hpp"
 #include "compiler/command/verb.hpp"
+#include "compiler/quantity.hpp"
 #include "compiler/typed_number.hpp"
 #include "wale/program.hpp"
 
@@ -105,8 +106,8 @@ CLI::Option* offer_hand(CLI::App& verb, const char* option, std::optional<Hand>&
 CLI::Option* offer_force(CLI::App& verb, const char* option, std::optional<double>& into, const char* about);
 /// A length above 0, in m: "40 mm".
 CLI::Option* offer_length(CLI::App& verb, const char* option, std::optional<double>& into, const char* about);
-/// Two lengths in m, the first below the second: "0 mm, 1 mm".
-CLI::Option* offer_lengths_between(CLI::App& verb, const char* option, std::optional<std::pair<double, double>>& into,
+/// Two heights, the first below the second: "0 mm, 1 mm" or "0, 1".
+CLI::Option* offer_heights_between(CLI::App& verb, const char* option, std::optional<HeightsBetween>& into,
                                    const char* about);
 
 }  // namespace wale::command

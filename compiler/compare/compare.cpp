@@ -31,6 +31,13 @@ bool is_direction(CueKind kind) {
          kind == CueKind::coarsest_axis || is_full_direction(kind);
 }
 
+/// Whether a cue only says how large something is whose course no cue tells. The threshold for a texture's amplitude says
+/// when such sizes are surely told apart. It does not say that those which differ by less feel alike.
+bool is_of_unread(CueKind kind) {
+  return kind == CueKind::other_force || kind == CueKind::small_feature || kind == CueKind::uneven_drag ||
+         kind == CueKind::changing_drag || kind == CueKind::uneven_vibration;
+}
+
 /// Up to where two values that are read are the same, and nobody has measured what people notice: as well as the
 /// direction of what travels, and by chance the rate of a noise, are read.
 double same_of(CueKind kind) {
@@ -38,7 +45,7 @@ double same_of(CueKind kind) {
     case CueKind::travel: return 0.015;
     case CueKind::noise_rate: return 0.35;
     case CueKind::coming: return 0.05;
-    default: return same;
+    default: return is_of_unread(kind) ? 0.02 : same;
   }
 }
 
@@ -78,12 +85,10 @@ std::optional<double> Comparer::noticeable(const CueFacts& facts, const Cues& of
   const std::optional<double> a = value_of(facts.kind, of_a), b = value_of(facts.kind, of_b);
   const auto whole = whole_of(facts.kind);
   if (!facts.exerts && (!a || !b)) {
-    // Unless only one of the two changes at all, which other cues tell, they change in another way.
-    if (facts.kind == CueKind::travel || facts.kind == CueKind::coming) return std::nullopt;
     // If only one material has a texture, its other cues tell the two apart. If both have one, and only one of them has
-    // a period or a direction, they differ, and nobody has measured how plainly.
-    const bool both = whole && of_a[*whole] && of_b[*whole];
-    return both && (a || b) ? std::nullopt : std::optional(0.0);
+    // a period or a direction, they differ, and nobody has measured how plainly. A cue of its own has no other to tell it.
+    const bool told_by_whole = whole && !(of_a[*whole] && of_b[*whole]);
+    return told_by_whole ? std::optional(0.0) : std::nullopt;
   }
   const double x = a.value_or(0), y = b.value_or(0);
   if (is_direction(facts.kind)) {
@@ -91,7 +96,8 @@ std::optional<double> Comparer::noticeable(const CueFacts& facts, const Cues& of
     return std::abs(turned) < same_of(facts.kind) * std::numbers::pi ? std::optional(0.0) : std::nullopt;
   }
   if (std::abs(x - y) <= same_of(facts.kind) * std::max(std::abs(x), std::abs(y))) return 0;
-  return people_[static_cast<std::size_t>(facts.kind)].distance(x, y);
+  const std::optional<double> distance = people_[static_cast<std::size_t>(facts.kind)].distance(x, y);
+  return is_of_unread(facts.kind) && distance && *distance < 1 ? std::nullopt : distance;
 }
 
 template <typename Visit>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/declarations/dimension.hpp"
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
@@ -38,16 +39,17 @@ void report_outside(const PerceptRecord& record, const OutsideRange& outside, Sp
     return readable("{:.3g}{}{}", value / outside.unit_in_si, outside.unit.empty() ? "" : " ", outside.unit);
   };
   const bool from = std::isfinite(outside.low) && outside.low > 0, to = std::isfinite(outside.high);
+  const std::string quantity = with_article(outside.quantity);
   const std::string range = from && to ? fmt::format("from {} to {}", shown(outside.low), shown(outside.high))
                             : from     ? fmt::format("of {} or more", shown(outside.low))
                                        : fmt::format("of {} or less", shown(outside.high));
   diagnostics.report(
-      Advice(fmt::format("beyond it nobody knows how {} grows; choose a {} in this range, or describe the material by "
+      Advice(fmt::format("beyond it nobody knows how {} grows; choose {} in this range, or describe the material by "
                          "its physics alone",
-                         record.name, outside.quantity))
+                         record.name, quantity))
           .fact("found", outside.value / outside.unit_in_si, outside.unit)
           .about(Code::beyond_validity, place,
-                 fmt::format("expected a {} {}, the {} range, found {} ({})", outside.quantity, range,
+                 fmt::format("expected {} {}, the {} range, found {} ({})", quantity, range,
                              outside.assumed ? "assumed" : "measured", shown(outside.value), record.source)));
 }
 

@@ -32,6 +32,13 @@ bool BuiltinCall::plain(std::size_t i) const {
 }
 
 Value BuiltinCall::mismatched(std::size_t a, std::size_t b) const {
+  // A zero without a unit is the one that lacks it, wherever it stands.
+  const auto is_bare_zero = [&](std::size_t i) {
+    return value(i).type == Value::Type::number && value(i).dimension.plain() &&
+           constant_value(terms(), value(i).x) == 0.0;
+  };
+  if (is_bare_zero(a) && !is_bare_zero(b)) std::swap(a, b);
+  const bool zero = is_bare_zero(b);
   const auto sides = reading.dimension_names().side_by_side(value(a).dimension, value(b).dimension);
   const Dimension mass = reading.names->dimension("mass"), force = reading.names->dimension("force");
   const bool weighs = (value(a).dimension == mass && value(b).dimension == force) ||
@@ -45,7 +52,9 @@ Value BuiltinCall::mismatched(std::size_t a, std::size_t b) const {
        .expected = sides[0],
        .found = sides[1],
        .help =
-           weighs ? "a mass is no force: on earth 100 g weigh 0.98 N" : "the arguments must have the same dimension"});
+           weighs ? "a mass is no force: on earth 100 g weigh 0.98 N"
+           : zero ? fmt::format("zero has a unit too: write `0 {}`", customary_unit(*reading.names, value(a).dimension))
+                  : "the arguments must have the same dimension"});
   return failed();
 }
 

@@ -219,9 +219,12 @@ Value check_expression_as(ExpressionReading& reading, const SyntaxTree& tree, Ex
     return failed_value(value.span);
   }
   if (value.type == type) return value;
+  const bool is_name = std::holds_alternative<NameUse>(tree.expr(expr));
   const std::string zero = "0 " + reading.dimension_names().unit(dimension);
   const std::string mend =
       type == Value::Type::vector && measurable ? fmt::format("give both parts, as in `vector({}, {})`", written, zero)
+      : value.type == Value::Type::vector && is_name
+          ? fmt::format("take one of its parts, `{0}.x` or `{0}.y`, or its `length({0})`", written)
       : value.type == Value::Type::vector ? fmt::format("take its `length({})`, or work with `x` and `y`", written)
                                           : make_calculable(value.type);
   auto height = type == Value::Type::vector && value.type == Value::Type::number

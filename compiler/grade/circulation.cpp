@@ -105,6 +105,7 @@ struct Curls {
   std::vector<double> sizes;  ///< N/m, of each hand; 0 if it does not count
   double over_tiles = 0;      ///< N/m, the largest mean over a tile of the patch
   std::size_t counted = 0;    ///< hands whose curl counts
+  double largest = 0;         ///< N, of their forces
 };
 
 Curls curls_of(const LookedAt& looked_at, bool button, glm::vec2 extent, glm::vec2 less_rim) {
@@ -124,12 +125,14 @@ Curls curls_of(const LookedAt& looked_at, bool button, glm::vec2 extent, glm::ve
       const double share = (along / half + 1) / 2 * tiles;
       return static_cast<std::size_t>(std::clamp(share, 0.0, static_cast<double>(tiles - 1)));
     };
+    // In the rim there is a curl that no author means.
+    const bool counts = std::abs(hand.position.x) < less_rim.x && std::abs(hand.position.y) < less_rim.y;
     Sum& sum = sums[tile(hand.position.y, extent.y) * tiles + tile(hand.position.x, extent.x)];
-    sum.count += 1, sum.sum += curl, sum.squares += curl * curl;
+    if (counts) sum.count += 1, sum.sum += curl, sum.squares += curl * curl;
+    found.largest = std::max(found.largest, glm::length(looked_at.at[i].force));
     const double steep = steepness(place);
     squares += steep * steep, hands += 1;
-    if (std::abs(hand.position.x) < less_rim.x && std::abs(hand.position.y) < less_rim.y)
-      found.sizes[i] = std::abs(curl);
+    if (counts) found.sizes[i] = std::abs(curl);
   }
   const double least = share_of_slope * (hands > 0 ? std::sqrt(squares / hands) : 0);
   for (const Sum& sum : sums) {
@@ -151,8 +154,11 @@ Curls curls_of(const LookedAt& looked_at, bool button, glm::vec2 extent, glm::ve
 double curl_with_button(const Bank& bank, const LookedAt& looked_at, bool button, std::span<const ForceStep> jumps,
                         const GradingHand& hand, double least_watt) {
   const glm::vec2 extent = 0.5f * glm::vec2(bank.size().width, bank.size().height);
-  const Curls curls = curls_of(looked_at, button, extent, inside(bank));
-  const double on_tiles = curls.over_tiles * pi * hand.radius * hand.radius * hand.frequency;
+  const glm::vec2 room = inside(bank);
+  const Curls curls = curls_of(looked_at, button, extent, room);
+  // A hand circles where there is room, and gains no more than the force gives all along its way.
+  const double radius = std::min(hand.radius, double{std::min(room.x, room.y)});
+  const double on_tiles = std::min(0.5 * curls.over_tiles * radius, curls.largest) * hand.speed();
   std::vector<Hand> centres;
   const auto circle_at = [&](const Hand& at) { centres.emplace_back(at).button = button; };
   if (curls.counted > 0)

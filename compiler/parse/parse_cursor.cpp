@@ -250,6 +250,10 @@ std::string Parser::mend_here() const {
       if (!ends_value(previous.kind)) return {};
       if (next.kind == TokenKind::name && after.kind == TokenKind::colon && !open_parentheses_.empty())
         return fmt::format("put a comma before `{}`", spelling(next));
+      if (const std::string limit = mend_limit(); !limit.empty()) return limit;
+      // `at 10 mm 20 mm` of a patch of a workspace: nothing is multiplied there.
+      if (in_placed_ && !in_origin_ && open_parentheses_.empty() && next.kind == TokenKind::number)
+        return fmt::format("two values are parted by a comma: write `{}, {}`", value_before(at_), value_at(at_));
       if (begins_another_statement(next, after)) return fmt::format("put `{}` on a line of its own", spelling(next));
       if (next.kind == TokenKind::left_parenthesis)
         return fmt::format("to multiply, write `{} * (…)`", spelling(previous));

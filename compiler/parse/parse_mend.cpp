@@ -91,6 +91,26 @@ std::string_view Parser::value_at(std::size_t index) const {
   return text_.substr(token(index).begin, token(index + (has_unit ? 1 : 0)).end - token(index).begin);
 }
 
+/// The text of the value that ends before the token, or of its last part: a number with its unit.
+std::string_view Parser::value_before(std::size_t index) const {
+  const std::size_t last = index == 0 ? 0 : index - 1;
+  const bool has_unit = (kind(last) == TokenKind::name || kind(last) == TokenKind::percent) && last > statement_begin_ &&
+                        kind(last - 1) == TokenKind::number;
+  return text_.substr(token(last - (has_unit ? 1 : 0)).begin, token(last).end - token(last - (has_unit ? 1 : 0)).begin);
+}
+
+/// What limits a force under another name, or inside of it.
+std::string Parser::mend_limit() const {
+  if (!in_force_ || !at(TokenKind::name)) return {};
+  if (is_word(at_, "limit"))
+    return fmt::format("`limit` ends a force and limits all of it: write `limit {}` at the end of the line, or give this "
+                       "part a force of its own",
+                       begins_number(at_ + 1) ? value_at(at_ + 1) : "…");
+  constexpr std::string_view others[] = {"max", "maximum", "most", "cap", "capped", "upto", "saturate"};
+  if (std::ranges::find(others, spelling(here())) == std::end(others) || !begins_number(at_ + 1)) return {};
+  return fmt::format("a force is limited with `limit`: write `limit {}`", value_at(at_ + 1));
+}
+
 /// `wale = 1.2 mm` and `wale 1.2 mm` in the parentheses of a call.
 std::string Parser::mend_argument() const {
   if (at_ == 0 || kind(at_ - 1) != TokenKind::name || !begins_argument(at_ - 1)) return {};
@@ -174,6 +194,8 @@ std::vector<Fix> Parser::fixes_here() const {
     return {replace(Span{tree_.source, token(at_ - 1).end, here().end}, "", "leave out the second",
                     kind(at_ + 1) == TokenKind::left_parenthesis || kind(at_ + 1) == TokenKind::colon)};
   if (!mend_argument().empty()) return fix_argument();
+  if (!mend_limit().empty())
+    return is_word(at_, "limit") ? std::vector<Fix>{} : std::vector{replace(span_of(here()), "limit", {}, false)};
   if (!mend_origin().empty()) return fix_origin();
   const Token& previous = token(at_ - 1);
   const Token& next = here();

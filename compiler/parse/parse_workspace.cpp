@@ -59,6 +59,9 @@ PlacedPatch Parser::placed_patch() {
     missing("`=`", fmt::format("write `patch {} = oak`, with the material that it is of", material.name.text),
             insert_equals());
   in_origin_ = true;
+  if (at(TokenKind::left_brace))
+    fail("expected a material" + after_previous(), "a material",
+         fmt::format("write the material that it is of before the brace: `patch {} = oak {{ … }}`", material.name.text));
   material.derived_from = expression();
   material.span = since(begin);
   // The brace may be on the next line, since nothing else begins with one.

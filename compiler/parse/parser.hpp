@@ -158,6 +158,8 @@ class Parser {
   bool is_like(std::size_t index) const;
   bool closes_in_line(std::size_t open) const;
   std::string_view value_at(std::size_t index) const;
+  std::string_view value_before(std::size_t index) const;
+  std::string mend_limit() const;
   std::string mend_argument() const;
   std::string mend_other_order() const;
   std::string mend_origin() const;

@@ -170,8 +170,10 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::spring_force:
     case CueKind::stiffness_across:
     case CueKind::stiffness_axis: return CueKind::stiffness;
+    case CueKind::viscosity_limit:
     case CueKind::viscosity_across:
     case CueKind::viscosity_axis: return CueKind::viscosity;
+    case CueKind::friction_rise:
     case CueKind::friction_across:
     case CueKind::friction_axis: return CueKind::friction;
     case CueKind::mass_across:

@@ -168,6 +168,18 @@ void tell_no_law(OpposingForce& found) {
   found.friction_axis = found.damping_axis = {0, 0}, found.friction_grows = found.friction_cut = false;
 }
 
+/// Where motion makes a force that swings, or goes by what is remembered of the place, the mean of it over some strokes is
+/// chance. A law of that mean is none.
+void drop_law_by_chance(OpposingForce& found, const Bank& bank, const std::vector<Stroke>& strokes,
+                        const Outside& outside) {
+  const PatchProgram& program = bank.program().description();
+  if (!found.explained || !remembers_anything(program) || !program.grids.empty()) return;
+  if (found.friction == 0 && found.damping == 0) return;
+  if (steadiness_of(bank, strokes, outside).told_by_mean()) return;
+  tell_no_law(found);
+  found.explained = true, found.exponent = found.scatter = 0;
+}
+
 /// What changes with time is told by the law of its mean, if it has one.
 void tell_changes(OpposingForce& found, const DragByTime& drag) {
   found.changes_in_time = true, found.least_in_time = drag.least, found.most_in_time = drag.most;
@@ -228,7 +240,10 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   if (!whole.directed()) {
     OpposingForce found = law_of(strokes, along_strokes(strokes, opposed), program.device.most());
     found.friction_across = found.friction, found.damping_across = found.damping, found.aside = mean.aside;
-    if (!tell_long_ways(found, ways, least_reach(strokes, program.device.rate))) tell_differences(found, differences);
+    if (!tell_long_ways(found, ways, least_reach(strokes, program.device.rate))) {
+      tell_differences(found, differences);
+      if (settling == 0) drop_law_by_chance(found, bank, strokes, outside);
+    }
     if (in_time.changes) tell_changes(found, in_time);
     found.along = std::move(by_axis);
     return found;
@@ -268,8 +283,10 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   found.explained = one.explained && other.explained;
   found.limit = std::max(one.limit, other.limit);
   found.aside = mean.aside;
-  if (oblique || !tell_long_ways(found, ways, least_reach(strokes, program.device.rate)))
+  if (oblique || !tell_long_ways(found, ways, least_reach(strokes, program.device.rate))) {
     tell_differences(found, differences);
+    if (settling == 0) drop_law_by_chance(found, bank, strokes, outside);
+  }
   if (in_time.changes) tell_changes(found, in_time);
   found.along = std::move(by_axis);
   return found;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 #include "compiler/read/bend.hpp"
 #include "compiler/read/logistic.hpp"
@@ -20,6 +21,9 @@ constexpr double least_gain = 1e-4;     // of what is left, by a step worth goin
 constexpr int tries = 5;
 constexpr double least_pivot = 1e-6;
 constexpr std::size_t rough_places = 300;  // of a jump, that are tried
+constexpr double about_a_jump = 2e-3;      // m on either side of where it was fitted
+constexpr double hardly_off = 5e-6;        // m, at the ends of its line
+constexpr std::size_t fewest_about_a_jump = 32;
 
 glm::dvec2 turned(glm::dvec2 way, double by) {
   by = std::clamp(by, -most_turn, most_turn);
@@ -242,6 +246,50 @@ void ObstacleFit::move_jumps(std::span<const glm::dvec2> places, std::span<const
     for (std::size_t i = 0; i < places.size(); ++i) without[i] += each.at(places[i]);
     const Bend best = best_along(without, each.inward, each.inward, BendKind::bends_and_jumps, 1);
     if (best.left < HUGE_VAL) each.offset = best.at;
+  }
+}
+
+void ObstacleFit::seat_jumps(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+  for (StaticStep& each : found.steps) {
+    if (each.width > 0 || each.change == glm::dvec2(0)) continue;
+    std::vector<glm::dvec2> near, there;
+    double farthest = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (std::abs(glm::dot(places[i], each.way) - each.offset) > about_a_jump) continue;
+      near.push_back(places[i]), there.push_back(forces[i]);
+      farthest = std::max(farthest, std::abs(glm::dot(places[i], glm::dvec2(-each.way.y, each.way.x))));
+    }
+    if (near.size() < fewest_about_a_jump) continue;
+    // Of a jump alone: on which side of the middle between both forces a place lies.
+    const glm::dvec2 of = each.change / glm::dot(each.change, each.change);
+    const std::vector<glm::dvec2> left = rest(near, there);
+    std::vector<double> risen_there;
+    for (std::size_t i = 0; i < near.size(); ++i) risen_there.push_back(glm::dot(left[i] + each.at(near[i]), of));
+    const auto seat = [&](glm::dvec2 way) {
+      // The place at which the fewest lie on the wrong side.
+      std::vector<std::pair<double, bool>> line;
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        line.emplace_back(glm::dot(near[i], way), risen_there[i] > 0.5);
+        wrong += !line.back().second;
+      }
+      std::ranges::sort(line);
+      std::size_t least = wrong;
+      double at = each.offset;
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        wrong = line[i].second ? wrong + 1 : wrong - 1;
+        if (wrong < least) least = wrong, at = 0.5 * (line[i].first + line[i + 1].first);
+      }
+      return std::pair(least, at);
+    };
+    glm::dvec2 way = each.way;
+    auto best = seat(way);
+    for (double step = about_a_jump / farthest; best.first > 0 && step * farthest > hardly_off; step *= 0.5)
+      for (const double by : {step, -step}) {
+        const glm::dvec2 other = turned(way, by);
+        if (const auto here = seat(other); here.first < best.first) best = here, way = other;
+      }
+    each.way = way, each.offset = best.second;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "compiler/read/bend.hpp"
@@ -27,6 +28,7 @@ constexpr int steps_at_means = 8, steps_at_places = 12;  // of a fit, at most
 constexpr double most_noise = 0.2;                       // of what a line leaves
 constexpr double least_beside = 0.012;                   // of the places, on either side of an obstacle
 constexpr double least_push_of_wall = 0.02;              // N, at its deepest
+constexpr double more_than_all = 1.3;                    // times: a change of a fit and that of all forces
 constexpr double mended = 0.2;                           // of a wall's stiffness
 constexpr double alike_ways = 0.94;                      // cosine: two walls that stand so may be a curve ...
 constexpr double left_by_a_curve = 1e-5;                 // ... which leaves more than this of what a line leaves ...
@@ -223,8 +225,26 @@ bool bends_twice(const Obstacles& found) {
   return false;
 }
 
-/// Whether walls and steps are such as stand in a patch: none that is hardly there, no two in the same place.
-bool is_sound(const ObstacleFit& fit, std::span<const glm::dvec2> places) {
+/// N: between the least and the greatest of some forces along an axis of length 1.
+double range_along(std::span<const glm::dvec2> forces, glm::dvec2 axis) {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (const glm::dvec2& force : forces) {
+    const double along = glm::dot(force, axis);
+    least = std::min(least, along), most = std::max(most, along);
+  }
+  return most - least;
+}
+
+/// Whether some change of a force along an axis is more than the forces ever differ by. Parts of a model that cancel
+/// each other are none of the force.
+bool is_more_than_all(glm::dvec2 change, std::span<const glm::dvec2> forces) {
+  const double size = glm::length(change);
+  return size > 0 && size > least_force + more_than_all * range_along(forces, change / size);
+}
+
+/// Whether walls and steps are such as stand in a patch: none that is hardly there, no two in the same place, none that
+/// changes the force by more than the force changes.
+bool is_sound(const ObstacleFit& fit, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
   const auto count = static_cast<double>(places.size());
   const auto share = [&](const auto& beyond) {
     return static_cast<double>(std::ranges::count_if(places, beyond)) / count;
@@ -239,6 +259,7 @@ bool is_sound(const ObstacleFit& fit, std::span<const glm::dvec2> places) {
     if (inside < least_beside || inside > 1 - least_beside || wall.stiffness < least_stiffness ||
         rise < least_push_of_wall || wall.preload < -least_force || wall.preload > rise)
       return false;
+    if (!wall.round() && is_more_than_all((wall.preload + rise) * wall.inward, forces)) return false;
     // A wall that mends what the even force pushes away is no wall.
     const glm::dvec2 in = wall.round() ? glm::dvec2(1, 0) : wall.inward;
     if (glm::dot(in, in.x * fit.even.by_x + in.y * fit.even.by_y) > mended * wall.stiffness) return false;
@@ -261,7 +282,7 @@ bool is_sound(const ObstacleFit& fit, std::span<const glm::dvec2> places) {
           std::abs(step.offset - std::copysign(1.0, cosine) * steps[k].offset) < apart_at_least)
         return false;
     }
-    if (step.width > widest_step) return false;
+    if (step.width > widest_step || is_more_than_all(step.change, forces)) return false;
     const double beyond = share([&](glm::dvec2 place) { return glm::dot(place, step.way) > step.offset; });
     if (beyond < least_beside || beyond > 1 - least_beside || glm::length(step.change) < 2 * least_force) return false;
   }
@@ -406,10 +427,13 @@ class ObstacleSearch {
     join_preloads(fit.found);
     // What leaves far too much at few places does so at more.
     fit_exactly(fit, places_fitted_roughly);
-    if (unexplained(fit) > times_too_much * left_unexplained * by_line_ || !is_sound(fit, whole_.places)) return {};
+    if (unexplained(fit) > times_too_much * left_unexplained * by_line_ ||
+        !is_sound(fit, whole_.places, forces_))
+      return {};
     if (all_jump && !std::ranges::all_of(fit.found.steps, jumps)) return {};
     fit_exactly(fit, places_fitted_at);
-    if (!explains(fit) || !is_sound(fit, whole_.places) || !fit.fills_its_circles(whole_.places, forces_)) return {};
+    fit.seat_jumps(whole_.places, forces_);
+    if (!explains(fit) || !is_sound(fit, whole_.places, forces_) || !fit.fills_its_circles(whole_.places, forces_)) return {};
     if (bends_twice(fit.found) && unexplained(fit, hidden_curve) > left_by_a_curve * by_line_) return {};
     return fit;
   }
@@ -483,7 +507,8 @@ Obstacles fitted_beside(const Obstacles& found, std::span<const SlowWave> waves,
                                 some = some_of(forces, places_fitted_at);
   fit.even = linear_force(some_places, fit.rest(some_places, some));
   fit.improve(some_places, some, 10);
-  return is_sound(fit, places) ? fit.found : found;
+  fit.seat_jumps(places, forces);
+  return is_sound(fit, places, forces) ? fit.found : found;
 }
 
 }  // namespace wale

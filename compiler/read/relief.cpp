@@ -7,6 +7,7 @@
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/fundamental.hpp"
 #include "compiler/read/relief_figures.hpp"
+#include "compiler/read/slow_sine.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/unlimited.hpp"
 #include "wale/picture.hpp"
@@ -94,7 +95,7 @@ class ReliefReader {
       return found_;
     }
     find_plain_trend(beyond);
-    waves_ = find_waves(field_, whole_, found_.features);
+    waves_ = find_waves(field_, whole_, found_.features, slow_sine_ ? std::optional(slow_sine_->waves) : std::nullopt);
     if (!found_.features.empty() && !waves_.waves.empty() && !waves_.local) {
       refine(found_.features);
       waves_ = find_waves(field_, whole_, found_.features);
@@ -133,7 +134,8 @@ class ReliefReader {
 
   void take_trend_off() {
     find_trend();
-    found_.trend = waves_.trend;
+    // Over hardly more than a period a waveform that is folded takes a little of the line.
+    found_.trend = slow_sine_ && found_.features.empty() && waves_.waves.size() == 1 ? slow_sine_->line : waves_.trend;
     // The relief is what no trend explains. Hills belong to it.
     std::vector<Feature> trends;
     for (const Feature& each : found_.features)
@@ -217,6 +219,9 @@ class ReliefReader {
   void find_plain_trend(const std::vector<glm::dvec2>& beyond) {
     const std::vector<glm::dvec2> bent = cell_means(whole_.side, beyond);
     if (mean_square(bent) < 0.5 * mean_square(beyond)) return;
+    // Over a period or two a sine looks like walls, steps and springs that cancel, which are many more figures.
+    slow_sine_ = slow_sine(whole_);
+    if (slow_sine_) return;
     no_obstacles_in_whole_ = !are_obstacles(whole_.forces);
     if (!no_obstacles_in_whole_) {
       // Steps that repeat are a wave.
@@ -338,6 +343,7 @@ class ReliefReader {
   const std::vector<glm::dvec2>* whole_felt_ = nullptr;  // N, at the same places: of a law that is not felt whole
   StaticForce found_;
   bool no_obstacles_in_whole_ = false;  // they were looked for in all of the force
+  std::optional<SlowSine> slow_sine_;
   FoundWaves waves_;
   std::vector<glm::dvec2> relief_;  // N, at the places of the whole
 };

@@ -229,6 +229,50 @@ std::vector<glm::dvec2> opposed_on(const Bank& bank, const std::vector<Stroke>& 
                                                           : opposed_anywhere(bank, strokes, outside);
 }
 
+Steadiness steadiness_of(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside) {
+  // The second line of each axis.
+  std::vector<Stroke> some;
+  const std::size_t half = strokes.size() / 2, a_line = half / stroke_lines;
+  for (const std::size_t first : {a_line, half + a_line})
+    some.insert(some.end(), strokes.begin() + static_cast<std::ptrdiff_t>(first),
+                strokes.begin() + static_cast<std::ptrdiff_t>(first + a_line));
+  const double rate = bank.program().description().device.rate;
+  Bank own = bank;
+  Memory memory(own.program());
+  const std::vector<std::vector<Force>> resting = felt_in_the_middles(bank, some);
+  Steadiness found;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const Stroke& stroke = some[i];
+    std::vector<Hand> fresh;
+    std::vector<glm::dvec2> moving;
+    std::vector<double> ways;
+    for (long now = 0; now < stroke.ticks(); ++now) {
+      const auto [along, forth] = stroke.at(now, rate);
+      Hand hand = stroke.hand(along, forth);
+      hand.time = static_cast<double>(now) / rate;
+      if (now == 0) memory.enter(own, hand);
+      const Force force = tick(own, memory, hand) - resting[i][std::min<std::size_t>(now, resting[i].size() - 1)];
+      if (now < stroke.pass / 2 || !stroke.counts_at(along) || !outside.at(glm::dvec2(hand.position))) continue;
+      moving.emplace_back(force), ways.push_back(forth ? -1 : 1);
+      // Resting hands that have just come, there and in the middle.
+      for (const double at : {along, 0.0}) fresh.push_back(stroke.hand(at, forth)), fresh.back().time = hand.time;
+    }
+    if (moving.empty()) continue;
+    for (Hand& hand : fresh) hand.velocity = hand.raw_velocity = glm::vec2(0);
+    std::vector<Force> still(fresh.size());
+    tick_all(bank, fresh, still);
+    double sum = 0, squares = 0;
+    for (std::size_t k = 0; k < moving.size(); ++k) {
+      const glm::dvec2 by_motion = moving[k] - glm::dvec2(still[2 * k] - still[2 * k + 1]);
+      const double against = ways[k] * glm::dot(by_motion, stroke.direction);
+      sum += against, squares += against * against;
+    }
+    const auto count = static_cast<double>(moving.size());
+    found.mean += sum / count * sum / count, found.beside += squares / count - sum / count * sum / count;
+  }
+  return found;
+}
+
 std::vector<glm::dvec2> pushed_either_way(const Bank& bank, const std::vector<Stroke>& strokes,
                                           const Outside& outside) {
   const double rate = bank.program().description().device.rate;

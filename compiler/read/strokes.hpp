@@ -65,4 +65,16 @@ std::vector<glm::dvec2> opposed_on(const Bank& bank, const std::vector<Stroke>& 
 /// For a program without memories over the patch.
 std::vector<glm::dvec2> pushed_either_way(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside);
 
+/// What motion makes of a force on strokes, N^2: the square of its mean along each, and the mean square of what is
+/// beside that mean. Forces of the place and of the time, which resting hands feel too, are in neither.
+struct Steadiness {
+  double mean = 0, beside = 0;
+
+  /// Whether the mean says how a hand is resisted. A soft bristle that turns about leaves as much beside it; what swings
+  /// leaves several times as much.
+  bool told_by_mean() const { return 4 * mean >= beside; }
+};
+/// Of a program that remembers, and no grids; on one line of strokes along each axis.
+Steadiness steadiness_of(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside);
+
 }  // namespace wale

@@ -69,8 +69,12 @@ class WaveSearch {
   WaveSearch(const StillField& field, const StillForces& whole, const std::vector<Feature>& features)
       : field_(field), whole_(whole), fitted_(whole, features) {}
 
-  FoundWaves search() {
+  FoundWaves search(const std::optional<glm::dvec2>& known) {
     if (!(fitted_.all() > 0)) return fitted_.finished();
+    if (known) {
+      fitted_.take_off(*known, {.waves = *known, .explained = 1});
+      if (mean_square(found_.rest) < negligible_rest * fitted_.all()) return fitted_.finished();
+    }
     StillForces closer_window;
     std::vector<glm::dvec2> rest_there;
     const StillForces* window = &whole_;
@@ -258,8 +262,9 @@ class WaveSearch {
 
 }  // namespace
 
-FoundWaves find_waves(const StillField& field, const StillForces& whole, const std::vector<Feature>& features) {
-  return WaveSearch(field, whole, features).search();
+FoundWaves find_waves(const StillField& field, const StillForces& whole, const std::vector<Feature>& features,
+                      const std::optional<glm::dvec2>& known) {
+  return WaveSearch(field, whole, features).search(known);
 }
 
 }  // namespace wale

@@ -67,8 +67,10 @@ struct FoundWaves {
 };
 
 /// Finds the waves of the force in the patch without its rim, sampled as `whole`, beside the features that are known.
-/// Finer windows are sampled where the whole has waves that are too fine for it.
-FoundWaves find_waves(const StillField& field, const StillForces& whole, const std::vector<Feature>& features = {});
+/// Finer windows are sampled where the whole has waves that are too fine for it. `known` (periods over a metre) is a wave
+/// that is known to be there, with too few periods to be seen by its repeating.
+FoundWaves find_waves(const StillField& field, const StillForces& whole, const std::vector<Feature>& features = {},
+                      const std::optional<glm::dvec2>& known = std::nullopt);
 
 /// Where the forces of a window change most.
 glm::dvec2 busiest_place(const StillForces& window, const std::vector<glm::dvec2>& forces);

@@ -17,6 +17,7 @@ namespace wale::command {
 namespace {
 
 constexpr std::uint64_t most_columns = 65535;    // two bytes of the file
+constexpr int least_step = 4, most_across = 2;    // of 255: a seam is more than so many times the steps beside it
 constexpr std::uint64_t columns_of_a_wave = 256;  // "a height map array of width 256" (5.2.2)
 
 struct ExportOptions {
@@ -26,7 +27,7 @@ struct ExportOptions {
   bool wave = false;
   std::optional<double> size;  // m
   std::optional<std::uint64_t> columns;
-  std::optional<std::pair<double, double>> heights;  // m
+  std::optional<HeightsBetween> heights;
   std::string out;
 };
 
@@ -39,12 +40,28 @@ Result<> written(const ExportOptions& options, std::string_view bytes) {
 }
 
 /// How the patch of a program is sampled.
-Result<ThesisSampling> sampling_of(const ExportOptions& options, PatchSize size) {
+Result<ThesisSampling> sampling_of(const ExportOptions& options, const Bank& bank) {
+  const PatchSize size = bank.size();
+  const bool is_length = bank.program().description().picture.relief_is_length;
+  std::optional<std::pair<double, double>> heights;
+  if (options.heights) {
+    if (options.heights->is_length != is_length)
+      return misused_option("--heights",
+                            is_length ? "expected two lengths, since the relief is one, found plain numbers"
+                                      : "expected two plain numbers, since the relief is one, found lengths",
+                            is_length ? "for example, `--heights \"0 mm, 1 mm\"`" : "for example, `--heights \"0, 1\"`");
+    heights = {options.heights->low, options.heights->high};
+  }
+  // Beyond the patch nothing is felt.
+  if (options.size && *options.size > size.width * (1 + 1e-6))
+    return misused_option("--size", fmt::format("expected at most the patch's width of {:.6g} mm, found {:.6g} mm", 1000 * size.width,
+                                                1000 * *options.size),
+                          "leave it out for the whole patch");
   if (options.wave) {
     if (!options.size)
       return misused_option("--size", "expected the length of one wave", "for example, `--size \"2.5 mm\"`");
     const auto columns = static_cast<std::uint16_t>(options.columns.value_or(columns_of_a_wave));
-    return ThesisSampling{.width = columns, .height = 1, .cell = *options.size / columns, .heights = options.heights};
+    return ThesisSampling{.width = columns, .height = 1, .cell = *options.size / columns, .heights = heights};
   }
   const double width = options.size.value_or(size.width), height = width * size.height / size.width;
   const double columns = options.columns ? static_cast<double>(*options.columns) : std::max(1.0, std::round(width / thesis_cell));
@@ -54,7 +71,14 @@ Result<ThesisSampling> sampling_of(const ExportOptions& options, PatchSize size)
                  .sentence = fmt::format("expected at most {0} by {0} cells, found {1:g} by {2:g}", most_columns, columns, rows),
                  .mend = "take fewer --columns"};
   return ThesisSampling{.width = static_cast<std::uint16_t>(columns), .height = static_cast<std::uint16_t>(rows), .cell = cell,
-                        .heights = options.heights};
+                        .heights = heights};
+}
+
+/// By how much the height steps from the last cell of a wave to the first of the next one, and at most within it.
+std::pair<int, int> steps_of(const ThesisArray& wave) {
+  int within = 0;
+  for (std::size_t i = 1; i < wave.width; ++i) within = std::max(within, std::abs(wave.cells[i] - wave.cells[i - 1]));
+  return {std::abs(wave.cells[wave.width - 1] - wave.cells.front()), within};
 }
 
 int export_material(const ExportOptions& options) {
@@ -66,10 +90,14 @@ int export_material(const ExportOptions& options) {
   const auto parameters = chosen_parameters(program, options.settings);
   if (!parameters) return refuse(parameters.error());
   const Bank bank(program, *parameters, program.default_size());
-  const auto sampling = sampling_of(options, bank.size());
+  const auto sampling = sampling_of(options, bank);
   if (!sampling) return refuse(sampling.error());
   const auto array = has_ending(options.out, ".shade") ? shading_of(bank, *sampling) : surface_of(bank, *sampling);
   if (!array) return refuse(array.error());
+  if (options.wave)
+    if (const auto [across, within] = steps_of(*array); across > most_across * std::max(within, least_step))
+      print_error("wale: --size: the wave has a seam: from its last cell to its first the height steps by {} of 255, and by {} at most "
+                  "within it; is its period another one?\n", across, within);
   const auto bytes = write_thesis_array(*array);
   if (!bytes) return refuse(bytes.error());
   const auto done_so = written(options, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
@@ -149,9 +177,9 @@ Run declare_export(CLI::App& verb) {
                             "the width that is sampled, around the middle (default: the patch's), or the length of one wave");
   auto* columns = offer_count(verb, "--columns", options->columns, {.least = 1, .most = most_columns, .example = 256},
                               "how many cells that width has (default: of 0.37 mm, a pixel of the thesis's screen; of a wave 256)");
-  auto* heights = offer_lengths_between(verb, "--heights", options->heights,
-                                        "the heights of 0 and 255, as in --heights \"0 mm, 1 mm\", those of an import (default: the "
-                                        "relief's least and greatest)");
+  auto* heights = offer_heights_between(verb, "--heights", options->heights,
+                                        "the heights of 0 and 255, lengths or plain numbers as the relief's are: --heights \"0 mm, 1 mm\" "
+                                        "of an import, --heights \"0, 1\" of a grating (default: its least and greatest)");
   auto* wave = verb.add_flag("--wave", options->wave, "one row of cells, which the thesis repeats");
   auto* movie = must_say(verb.add_option("--movie", options->movie, "writes a movie of the file instead")->type_name("NAME"),
                          "the name of a movie");

@@ -38,7 +38,9 @@ struct Named {
   bool is_wave = false;
   std::optional<ThesisArray> shading;
 
-  bool is_surface() const { return kind == ThesisFileKind::surface || kind == ThesisFileKind::array; }
+  bool is_surface() const {
+    return kind == ThesisFileKind::surface || kind == ThesisFileKind::array || kind == ThesisFileKind::wave;
+  }
 };
 
 Error misused_option(const char* option, std::string sentence, std::string mend) {
@@ -58,11 +60,11 @@ Result<std::vector<Named>> read_all(const ImportOptions& options) {
       return bytes.error();
     }
     Named file{path, *std::move(bytes)};
-    file.is_wave = options.as == "wave";
     file.kind = options.as == "movie"      ? ThesisFileKind::movie
                 : options.as == "shuffle"  ? ThesisFileKind::shuffle
                 : !options.as.empty()      ? ThesisFileKind::array
                                            : kind_of_thesis_file(path, file.bytes);
+    file.is_wave = options.as == "wave" || file.kind == ThesisFileKind::wave;
     if (file.kind == ThesisFileKind::workspace) return unread_thesis_workspace(path);
     if (file.kind == ThesisFileKind::shading) {
       auto shading = read_thesis_array(std::as_bytes(std::span(file.bytes)), path);
@@ -223,7 +225,7 @@ int import(const ImportOptions& options) {
   inputs.insert(inputs.end(), options.into.inputs->begin(), options.into.inputs->end());
   std::erase(inputs, options.into.file);
   Pictures pictures(fs::path(target).parent_path(), inputs);
-  std::string said;
+  std::string said, noted;
   for (const Named& file : *files) {
     auto made = made_of(file, options, workspaces, taken);
     while (made && std::ranges::any_of(made->files, [&](const FileBeside& each) { return pictures.has_other(each); })) {
@@ -236,6 +238,7 @@ int import(const ImportOptions& options) {
     text += made->text + "\n";
     taken.insert(made->name);
     said += fmt::format("{}  {}\n", visible_text(file.path), made->name);
+    if (!made->note.empty()) noted += fmt::format("wale: {}: {}\n", visible_text(file.path), made->note);
     // Workspaces that a movie has declared are there for the next one.
     const std::string declared = "workspace ";
     for (auto at = made->text.find(declared); at != std::string::npos; at = made->text.find(declared, at + 1)) {
@@ -258,6 +261,7 @@ int import(const ImportOptions& options) {
   const auto written = options.into.file.empty() ? write_file(target.empty() ? "-" : target, text, inputs) : replace_file(target, text);
   if (!written) return refuse(written.error());
   pictures.keep();
+  if (!noted.empty()) print_error(noted);
   if (!is_written_as_it_comes(target.empty() ? "-" : target)) print_out(said);
   return done;
 }
@@ -265,12 +269,12 @@ int import(const ImportOptions& options) {
 Run declare_import(CLI::App& verb) {
   const auto options = std::make_shared<ImportOptions>();
   must_say(verb.add_option("FILE", options->files,
-                           "files of the Sandpaper of 1995: arrays (.depth, with how each looks in .shade), waves, movies and "
-                           "shuffles; each becomes a declaration of the name of its file"),
+                           "files of the Sandpaper of 1995: arrays (.depth, with how each looks in .shade), waves (.wave), movies "
+                           "and shuffles; each becomes a declaration of the name of its file"),
            "the path of a file")
       ->required();
   offer_name(verb, "--as", options->as, {"array", "wave", "movie", "shuffle"},
-             "what the files are, where their names and bytes do not say; a wave is never known from an array");
+             "what the files are, where their names and bytes do not say: a wave without the ending .wave looks like an array");
   offer_length(verb, "--size", options->size, "the width of an array, or the length of one wave, as in --size \"40 mm\"");
   offer_force(verb, "--amplitude", options->amplitude,
               "the largest lateral force of an array or a wave, as in --amplitude \"1 N\"");

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "compiler/compile_workspace.hpp"
+#include "compiler/format/format.hpp"
 #include "library/editing/comments.hpp"
+#include "library/editing/kept_text.hpp"
 
 namespace wale {
 namespace {
@@ -86,7 +88,39 @@ void add_areas(Span picture, const CheckedWorkspace& checked, Layout& layout) {
   }
 }
 
-Layout layout_of(const WorkspaceDecl& declared, const CheckedModule& module, std::string_view text) {
+SettingLines setting_lines(const LaidOutPatch& patch);
+
+/// A statement of a workspace in its text: from `at`, where the one before it ended, to `next`, where it ends itself with
+/// its comment.
+std::shared_ptr<const WrittenPatch> written_of(const PlacedStatement& placed, const LaidOutPatch& patch, const SyntaxTree& tree,
+                                               std::string_view text, std::size_t at, std::size_t next) {
+  const Span span = span_of(placed);
+  const std::size_t begin = std::max<std::size_t>(span.begin, at);
+  auto written = std::make_shared<WrittenPatch>();
+  written->lead = text.substr(at, begin - at), written->text = text.substr(begin, next - begin);
+  written->before = patch.before, written->inside = patch.inside, written->verbatim = patch.verbatim;
+  const auto* statement = std::get_if<PlacedPatch>(&placed);
+  if (!statement || !patch.verbatim.empty()) return written;
+  const auto part = [&](const std::string& key, Span of, const std::string& says) {
+    written->parts.push_back({key, says, of.begin - begin, of.end - begin});
+  };
+  written->end = span.end - begin;
+  written->settings = setting_lines(patch);
+  part("name", statement->material.name.span, patch.name);
+  if (statement->material.derived_from) part("made_of", tree.span(*statement->material.derived_from), patch.made_of);
+  std::vector<bool> told(written->settings.size(), false);
+  for (const Setting& each : statement->settings) {
+    const std::string key(each.key.text);
+    std::string says;
+    for (std::size_t i = 0; i < told.size() && says.empty(); ++i)
+      if (!told[i] && written->settings[i].first == key) told[i] = true, says = written->settings[i].second;
+    part(key, each.span, says);
+  }
+  written->has_braces = written->text.substr(0, written->end).ends_with('}');
+  return written;
+}
+
+Layout layout_of(const WorkspaceDecl& declared, const CheckedModule& module, const SyntaxTree& tree, std::string_view text) {
   Layout layout{.name = std::string(declared.name.text),
                 .documentation = std::string(declared.documentation),
                 .begin = with_documentation(text, declared.span.begin),
@@ -94,6 +128,8 @@ Layout layout_of(const WorkspaceDecl& declared, const CheckedModule& module, std
   const CheckedWorkspace* checked = module.workspace(layout.name);
   // The statements begin behind the `{`.
   std::size_t at = text.find('{', declared.span.begin) + 1;
+  auto kept = std::make_shared<WrittenLayout>();
+  kept->head = text.substr(layout.begin, at - layout.begin);
   const std::size_t limit = declared.span.end;
   for (const PlacedStatement& placed : declared.placed) {
     const std::size_t begin = std::max<std::size_t>(span_of(placed).begin, at);
@@ -119,11 +155,17 @@ Layout layout_of(const WorkspaceDecl& declared, const CheckedModule& module, std
       patch.verbatim = text.substr(begin, (behind.empty() ? end : line) - begin);
     }
     patch.before = before;
+    patch.written = written_of(placed, patch, tree, text, at, behind.empty() ? end : line);
+    kept->patches.push_back(patch.written);
     layout.patches.push_back(std::move(patch));
     if (!written && checked) add_areas(span_of(placed), *checked, layout);
     at = behind.empty() ? end : line;
   }
   if (limit > at) layout.trailing = comments_in(text.substr(at, limit - at - 1));
+  kept->rest = text.substr(at, std::max(limit, at) - at);
+  kept->name = layout.name, kept->documentation = layout.documentation, kept->trailing = layout.trailing;
+  // Without its brace at the end it is a text with an error.
+  if (kept->rest.ends_with('}')) layout.written = std::move(kept);
   return layout;
 }
 
@@ -163,36 +205,32 @@ std::string indented(std::string_view lines, std::string_view by) {
   return text;
 }
 
+SettingLines setting_lines(const LaidOutPatch& patch) {
+  SettingLines lines;
+  const auto line = [&](const std::string& key, const std::string& value) { lines.emplace_back(key, key + " " + value); };
+  if (patch.at_is_written || patch.at != glm::dvec2(0)) line("at", millimetres(patch.at.x) + ", " + millimetres(patch.at.y));
+  if (patch.size) line("size", millimetres(patch.size->x) + ", " + millimetres(patch.size->y));
+  if (!patch.shape.empty()) line("shape", patch.shape);
+  if (patch.rim) line("rim", millimetres(*patch.rim));
+  for (const LaidOutMark& mark : patch.marks) lines.emplace_back("mark", mark_text(mark));
+  return lines;
+}
+
 std::string patch_text(const LaidOutPatch& patch) {
   std::string text = indented(patch.before, "  ");
   if (!patch.verbatim.empty()) return text + "  " + patch.verbatim + "\n";
-  std::vector<std::pair<std::string, std::string>> settings;
-  if (patch.at_is_written || patch.at != glm::dvec2(0))
-    settings.emplace_back("at", millimetres(patch.at.x) + ", " + millimetres(patch.at.y));
-  if (patch.size) settings.emplace_back("size", millimetres(patch.size->x) + ", " + millimetres(patch.size->y));
-  if (!patch.shape.empty()) settings.emplace_back("shape", patch.shape);
-  if (patch.rim) settings.emplace_back("rim", millimetres(*patch.rim));
   text += fmt::format("  patch {} = {}", patch.name, patch.made_of);
-  if (settings.empty() && patch.marks.empty() && patch.inside.empty()) return text + "\n";
   std::vector<std::string> lines;
-  for (const auto& [key, value] : settings) lines.push_back(key + " " + value);
-  for (const LaidOutMark& mark : patch.marks) lines.push_back(mark_text(mark));
+  for (const auto& [key, line] : setting_lines(patch)) lines.push_back(line);
+  if (lines.empty() && patch.inside.empty()) return text + "\n";
   if (patch.on_one_line && patch.inside.empty()) return text + fmt::format(" {{ {} }}\n", fmt::join(lines, "; "));
   text += " {\n" + indented(patch.inside, "    ");
   for (const std::string& line : lines) text += "    " + line + "\n";
   return text + "  }\n";
 }
 
-}  // namespace
-
-std::vector<Layout> layouts_in(const SyntaxTree& tree, const CheckedModule& module, std::string_view text) {
-  std::vector<Layout> layouts;
-  for (const Declaration& each : tree.declarations)
-    if (const auto* workspace = std::get_if<WorkspaceDecl>(&each)) layouts.push_back(layout_of(*workspace, module, text));
-  return layouts;
-}
-
-std::string layout_text(const Layout& layout) {
+/// The line that begins a workspace, with its documentation.
+std::string head_text(const Layout& layout) {
   std::string text;
   std::string_view lines = layout.documentation;
   while (!lines.empty()) {
@@ -200,10 +238,71 @@ std::string layout_text(const Layout& layout) {
     text += "/// " + std::string(lines.substr(0, end)) + "\n";
     lines.remove_prefix(std::min(end + 1, lines.size()));
   }
-  text += "workspace " + layout.name + " {\n";
-  for (const LaidOutPatch& each : layout.patches)
-    if (!each.is_of_picture) text += patch_text(each);
-  return text + indented(layout.trailing, "  ") + "}";
+  return text + "workspace " + layout.name + " {";
+}
+
+/// A workspace in the standard style, with `lines` in it.
+std::string standard_workspace(const std::string& head, const std::string& lines) {
+  static const std::string header = "wale 1\n\n";
+  std::string text = head + "\n" + lines + "}";
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto formatted = format(sources, sources.add("workspace", header + text + "\n"), diagnostics);
+  if (!formatted || !formatted->starts_with(header)) return text;
+  text = formatted->substr(header.size());
+  while (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
+/// One patch in the standard style, behind the line before it.
+std::string standard_patch(const LaidOutPatch& patch) {
+  const std::string head = "workspace w {", text = standard_workspace(head, patch_text(patch));
+  return text.substr(head.size(), text.size() - head.size() - 2);  // without the last "\n}"
+}
+
+}  // namespace
+
+std::vector<Layout> layouts_in(const SyntaxTree& tree, const CheckedModule& module, std::string_view text) {
+  std::vector<Layout> layouts;
+  for (const Declaration& each : tree.declarations)
+    if (const auto* workspace = std::get_if<WorkspaceDecl>(&each)) layouts.push_back(layout_of(*workspace, module, tree, text));
+  return layouts;
+}
+
+std::string layout_text(const Layout& layout) {
+  const WrittenLayout* written = layout.written.get();
+  if (!written) {
+    std::string lines;
+    for (const LaidOutPatch& each : layout.patches)
+      if (!each.is_of_picture) lines += patch_text(each);
+    return standard_workspace(head_text(layout), lines + indented(layout.trailing, "  "));
+  }
+  const bool same_head = layout.name == written->name && layout.documentation == written->documentation;
+  std::string text = same_head ? written->head : head_text(layout);
+  const WrittenPatch* before = nullptr;  // the statement that the text ends with, if it was read
+  const auto followed = [&](const WrittenPatch* next) {
+    const auto& all = written->patches;
+    const auto place = [&](const WrittenPatch* of) { return std::ranges::find(all, of, [](const auto& each) { return each.get(); }); };
+    const auto first = before ? place(before) : all.end();
+    if (!before) return all.empty() ? next == nullptr : next == all.front().get();
+    if (first == all.end()) return false;
+    return first + 1 == all.end() ? next == nullptr : next == (first + 1)->get();
+  };
+  bool kept_before = same_head;
+  for (const LaidOutPatch& each : layout.patches) {
+    if (each.is_of_picture) continue;
+    std::string piece = each.written ? edited(*each.written, each, setting_lines(each)) : std::string();
+    const bool kept = !piece.empty();
+    if (!kept) piece = standard_patch(each);
+    // On the line of another statement it may stand only behind the one that it stood behind.
+    const bool in_place = kept && kept_before && followed(each.written.get());
+    if (!in_place && !begins_a_line(piece)) piece = "\n  " + piece;
+    text += piece;
+    before = kept ? each.written.get() : nullptr, kept_before = kept;
+  }
+  if (layout.trailing != written->trailing) return text + "\n" + indented(layout.trailing, "  ") + "}";
+  const bool in_place = kept_before && followed(nullptr);
+  return text + (in_place || begins_a_line(written->rest) ? "" : "\n") + written->rest;
 }
 
 }  // namespace wale

@@ -7,6 +7,7 @@ namespace wale {
 ThesisFileKind kind_of_thesis_file(std::string_view name, std::string_view bytes) {
   if (has_ending(name, ".depth")) return ThesisFileKind::surface;
   if (has_ending(name, ".shade")) return ThesisFileKind::shading;
+  if (has_ending(name, ".wave")) return ThesisFileKind::wave;
   if (bytes.starts_with("Movie:")) return ThesisFileKind::shuffle;
   if (read_thesis_array(std::as_bytes(std::span(bytes)), {})) return ThesisFileKind::array;
   for (const char each : bytes.substr(0, 4096))

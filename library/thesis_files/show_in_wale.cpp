@@ -7,6 +7,7 @@
 
 #include "compiler/format/format.hpp"
 #include "library/thesis_files/in_wale.hpp"
+#include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 #include "wale/thesis_files.hpp"
 
@@ -55,7 +56,7 @@ std::string standard_declarations(const std::string& text) {
 std::string wale_name(std::string_view file_name, const std::set<std::string>& taken) {
   std::string_view stem = file_name.substr(file_name.rfind('/') == file_name.npos ? 0 : file_name.rfind('/') + 1);
   for (const std::string_view ending : {".depth", ".shade", ".wave", ".movie", ".wale"})
-    if (stem.ends_with(ending)) stem.remove_suffix(ending.size());
+    if (has_ending(stem, ending)) stem.remove_suffix(ending.size());
   std::string name;
   for (const char letter : stem.substr(0, 60))
     if (std::isalnum(static_cast<unsigned char>(letter)) && static_cast<unsigned char>(letter) < 0x80) name += letter;

@@ -53,6 +53,10 @@ bool rows_are_alike(const ThesisArray& array) {
   return true;
 }
 
+std::string flat_note(double amplitude) {
+  return fmt::format("all of its cells are alike, so it pushes nothing, and the amplitude of {:.6g} N is left out", amplitude);
+}
+
 std::string amplitude_line(double amplitude) {
   return fmt::format("    param amplitude = {:.6g} N in {:.6g} N .. {:.6g} N \"largest lateral force\"\n", amplitude, softest * amplitude, hardest * amplitude);
 }
@@ -94,6 +98,7 @@ Result<ThesisInWale> surface_in_wale(const ThesisArray& surface, const ThesisSur
                             return 255 - shading->cells[std::size_t{y} * shading->width + x];  // there 0 is white
                           })});
   }
+  if (flat) made.note = flat_note(options.amplitude);
   made.text = standard_declarations(text + "  }\n}\n");
   return made;
 }
@@ -122,6 +127,7 @@ Result<ThesisInWale> wave_in_wale(const ThesisArray& wave, const ThesisSurfaceOp
   const std::string row = alike ? "0 mm" : fmt::format("upwards - {0} mm * round(upwards / {0} mm)", wave.height);
   text += fmt::format("    height surface = cells(vector(across - {0} mm * round(across / {0} mm), {1}))\n", wave.width, row);
   text += flat ? "    force = vector(0 N, 0 N)\n" : "    force = lateral(surface, amplitude: amplitude)\n";
+  if (flat) made.note = flat_note(options.amplitude);
   made.text = standard_declarations(text + "    show relief(surface)\n  }\n}\n");
   return made;
 }

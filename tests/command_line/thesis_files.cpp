@@ -84,6 +84,41 @@ TEST(ThesisFilesOnTheCommandLine, AWaveGoesBothWays) {
   EXPECT_LE(best, 2);
 }
 
+TEST(ThesisFilesOnTheCommandLine, TheEndingTellsAWaveAndWhatIsLeftOutIsSaid) {
+  const TemporaryFolder folder;
+  std::string cells;
+  for (int i = 0; i < 64; ++i) cells += static_cast<char>(std::lround(127.5 + 127.5 * std::sin(2 * M_PI * i / 64)));
+  const std::string wave = folder.write("SEED.WAVE", array(64, 1, cells)), file = folder / "seed.wale";
+  const Outcome made = wale({"import", wave, "--size", "2.5 mm", "--amplitude", "1 N", "-o", file});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_TRUE(contains(bytes_of(file), "material SEED {")) << bytes_of(file);
+  EXPECT_TRUE(contains(bytes_of(file), "param period")) << bytes_of(file);
+  EXPECT_EQ(made.err, "");
+  const std::string flat = folder.write("flat.depth", array(8, 8, std::string(64, 'a')));
+  const Outcome level = wale({"import", flat, "--size", "40 mm", "--amplitude", "2 N", "-o", folder / "flat.wale"});
+  EXPECT_EQ(level.status, 0) << level.err;
+  EXPECT_TRUE(contains(level.err, "the amplitude of 2 N is left out")) << level.err;
+  // 2.5 mm is the wave; 2 mm cuts it off, and more than the patch is nowhere felt.
+  const Outcome whole = wale({"export", file, "--wave", "--size", "2.5 mm", "-o", folder / "whole.wave"});
+  EXPECT_EQ(whole.err, "");
+  const Outcome cut = wale({"export", file, "--wave", "--size", "2 mm", "-o", folder / "cut.wave"});
+  EXPECT_EQ(cut.status, 0) << cut.err;
+  EXPECT_TRUE(contains(cut.err, "seam")) << cut.err;
+  const Outcome far = wale({"export", file, "--size", "500 mm", "-o", folder / "far.depth"});
+  EXPECT_EQ(far.status, 2) << far.err;
+  EXPECT_TRUE(contains(far.err, "expected at most the patch's width of 160 mm, found 500 mm")) << far.err;
+}
+
+TEST(ThesisFilesOnTheCommandLine, HeightsAreOfTheReliefsKind) {
+  const TemporaryFolder folder;
+  const std::string plain = folder.write("plain.wale", "wale 1\n\nmaterial plain {\n  physical {\n    height h = 0.5 + 0.4 * sin(x / 5 mm)\n    force = lateral(h)\n    show relief(h)\n  }\n}\n");
+  const Outcome taken = wale({"export", plain, "--heights", "0, 1", "-o", folder / "a.depth"});
+  EXPECT_EQ(taken.status, 0) << taken.err;
+  const Outcome other = wale({"export", plain, "--heights", "0 mm, 1 mm", "-o", folder / "b.depth"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "--heights \"0, 1\"")) << other.err;
+}
+
 TEST(ThesisFilesOnTheCommandLine, MoviesAndShufflesGoBothWays) {
   const TemporaryFolder folder;
   const Outcome shown = wale({"import", golden + "demo.movie"});

@@ -103,5 +103,18 @@ TEST(CompareUnlike, AVibrationHasAnAxis) {
   for (const std::string& each : {along_x, along_y, round}) EXPECT_EQ(verdict_between(each, each), Verdict::alike);
 }
 
+// Of these a size is read, and nobody has measured how well people know it again.
+TEST(CompareUnlike, ASizeWithoutAThresholdOfItsOwnIsNeverCalledAlike) {
+  const std::pair<const char*, const char*> pairs[] = {
+      {"force = vector(if button then 2 N else 0 N, 0 N)", "force = vector(if button then 2.1 N else 0 N, 0 N)"},
+      {"force = -2 N s/m * (1 + x / 100 mm) * velocity", "force = -2 N s/m * (1 + x / 106 mm) * velocity"},
+      {"force = viscous(4 N s/m)", "force = viscous(4 N s/m) limit 1 N"}};
+  for (const auto& [one, other] : pairs) {
+    EXPECT_NE(verdict_between(one, other), Verdict::alike) << one << '\n' << other;
+    EXPECT_EQ(verdict_between(one, one), Verdict::alike) << one;
+    EXPECT_EQ(verdict_between(other, other), Verdict::alike) << other;
+  }
+}
+
 }  // namespace
 }  // namespace wale::compare_test

@@ -106,6 +106,17 @@ TEST(Grade, ARotationalFieldGivesItsCurlTimesTheArea) {
   EXPECT_NEAR(grade.energy.watt(), 30 * pi * 0.04 * 0.04, 1e-3);  // curl 2 k, circles of 40 mm at 1 Hz
 }
 
+// The largest force all along the way of the hand, which goes round at 2 pi 40 mm a second, is more than any hand gains.
+TEST(Grade, ASmallPatchGivesNoMorePowerThanItsForceDoes) {
+  for (const std::string law :
+       {"height h = 0.5 + x / 8 mm\n    force = lateral(h, amplitude: 1 N)",
+        "height h = fract(x / 2 mm)\n    force = lateral(h, amplitude: 1 N)",
+        "force = vector(1 N * sign(sin(2 pi * y / 1 mm)), 0 N)", "force = vector(1 N * sin(2 pi * y / 0.5 mm), 0 N)",
+        "force = 1 N * normalise(perpendicular(hand))"})
+    for (const std::string patch : {"4 mm, 4 mm", "4 mm, 8 mm", "20 mm, 20 mm"})
+      EXPECT_LE(graded("    patch " + patch + "\n    " + law).energy.watt(), 2 * pi * 0.04 * 1) << patch << ' ' << law;
+}
+
 TEST(Grade, AntiViscosityGivesItsPower) {
   const Grade grade = graded("    force = 2 N s/m * velocity");
   EXPECT_EQ(grade.standing, Standing::active);

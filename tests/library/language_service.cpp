@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <random>
 #include <set>
 
@@ -140,6 +141,65 @@ TEST(LanguageService, ALayoutIsReadAsItWasWritten) {
       EXPECT_EQ(one.inside, other.inside) << text;
     }
   }
+}
+
+const std::string by_hand = R"(wale 1
+// my header comment
+material   a {  physical { force = spring( 50 N/m ) } }  // trailing
+workspace w {
+  // left one
+  patch p = a { size 40 mm, 40 mm; at -50 mm, 0 mm } // why
+  patch q = corduroy { at 50.00 mm, 0 mm
+     size 5 cm, 4 cm // in cm
+     rim 2 mm }
+
+  patch   r=oak   // as it is
+  // the last word
+}
+)";
+
+std::string rewritten(const std::function<void(Layout&)>& change, const std::string& text = by_hand) {
+  const auto checked = service().check(text);
+  EXPECT_FALSE(checked.has_errors()) << text;
+  Layout layout = checked.layouts.at(0);
+  change(layout);
+  const std::string now = text.substr(0, layout.begin) + layout_text(layout) + text.substr(layout.end);
+  EXPECT_FALSE(service().check(now).has_errors()) << now;
+  return now;
+}
+
+std::string with(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  EXPECT_NE(at, text.npos) << what;
+  return at == text.npos ? text : text.replace(at, what.size(), by);
+}
+
+TEST(LanguageService, WhatHasNotChangedIsWrittenAsItsAuthorWroteIt) {
+  EXPECT_EQ(rewritten([](Layout&) {}), by_hand);
+  EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[0].at.x = 0.01; }), with(by_hand, "at -50 mm, 0 mm", "at 10 mm, 0 mm"));
+  EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[1].size = glm::dvec2(0.05, 0.03); }),
+            with(by_hand, "size 5 cm, 4 cm", "size 50 mm, 30 mm"));
+  EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[1].made_of = "corduroy(wale: 3 mm)"; }),
+            with(by_hand, "= corduroy {", "= corduroy(wale: 3 mm) {"));
+  EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[0].rim = 0.001; }),
+            with(by_hand, "{ size 40 mm, 40 mm;", "{ rim 1 mm; size 40 mm, 40 mm;"));
+  EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[2].at = {0.03, -0.04}; }),
+            with(by_hand, "r=oak ", "r=oak { at 30 mm, -40 mm } "));
+  EXPECT_EQ(rewritten([](Layout& layout) { layout.patches.erase(layout.patches.begin() + 1); }),
+            with(by_hand, R"(  patch q = corduroy { at 50.00 mm, 0 mm
+     size 5 cm, 4 cm // in cm
+     rim 2 mm }
+)", ""));
+  // Each comment stays with its patch where the order changes.
+  const std::string turned = rewritten([](Layout& layout) { std::swap(layout.patches[0], layout.patches[2]); });
+  EXPECT_NE(turned.find("r=oak   // as it is\n"), turned.npos) << turned;
+  EXPECT_NE(turned.find("  // left one\n  patch p = a { size 40 mm, 40 mm; at -50 mm, 0 mm } // why\n"), turned.npos) << turned;
+  EXPECT_LT(turned.find("r=oak"), turned.find("patch p")) << turned;
+  const std::string one_line = "wale 1\nworkspace w { patch a = oak; patch b = denim }\n";
+  EXPECT_EQ(rewritten([](Layout&) {}, one_line), one_line);
+  rewritten([](Layout& layout) { std::swap(layout.patches[0], layout.patches[1]); }, one_line);
+  rewritten([](Layout& layout) { layout.patches.erase(layout.patches.begin()); }, one_line);
+  rewritten([](Layout& layout) { layout.patches.push_back({.name = "c", .made_of = "oak"}); }, one_line);
 }
 
 TEST(LanguageService, TellsWhatAMaterialReadsAs) {

@@ -142,6 +142,8 @@ TEST(ThesisFiles, MalformedShufflesAreRefusedWithTheirLine) {
 TEST(ThesisFiles, KindsAreSeen) {
   EXPECT_EQ(kind_of_thesis_file("a.depth", "x"), ThesisFileKind::surface);
   EXPECT_EQ(kind_of_thesis_file("a.shade", "x"), ThesisFileKind::shading);
+  EXPECT_EQ(kind_of_thesis_file("a.wave", golden("ramp.depth")), ThesisFileKind::wave);
+  EXPECT_EQ(kind_of_thesis_file("A.WAVE", golden("ramp.depth")), ThesisFileKind::wave);
   EXPECT_EQ(kind_of_thesis_file("a", golden("ramp.depth")), ThesisFileKind::array);
   EXPECT_EQ(kind_of_thesis_file("a", golden("demo.shuffle")), ThesisFileKind::shuffle);
   EXPECT_EQ(kind_of_thesis_file("a", golden("demo.movie")), ThesisFileKind::movie);

@@ -8,6 +8,7 @@
 #include <QToolButton>
 #include <cmath>
 #include <wale/patch_program.hpp>
+#include <set>
 #include <wale/recording.hpp>
 
 #include "driven_window.hpp"
@@ -236,6 +237,13 @@ TEST_F(Files, WhatIsFeltIsRecordedAndHeard) {
   }
   const auto recording = wale::Recording::open(path("run.wrec").toStdString());
   ASSERT_TRUE(recording) << wale::in_words(recording.error());
+  std::set<std::string> names;
+  for (const wale::RecordedProgram& each : recording->programs()) {
+    const auto program = wale::Program::load(each.bytes);
+    ASSERT_TRUE(program);
+    names.insert(program->description().material);
+  }
+  EXPECT_TRUE(names.contains("ridges")) << testing::PrintToString(names);
   const auto again = wale::replay(*recording);
   ASSERT_TRUE(again) << wale::in_words(again.error());
   const std::string sound = read(path("run.wav"));
@@ -272,6 +280,19 @@ TEST_F(Files, ADocumentOfAWordProcessorIsNamedAsSuch) {
   const wale::Error& first = window->document().problems().front().error;
   EXPECT_NE(first.sentence.find("word processor"), std::string::npos) << first.sentence;
   EXPECT_NE(first.mend.find("plain text"), std::string::npos) << first.mend;
+}
+
+TEST_F(Files, SavingKeepsWhatIsWrittenByHand) {
+  const std::string by_hand =
+      "wale 1 \n// mine\nworkspace w {\n  patch p = oak { size 40 mm, 40 mm; at -50 mm, 0 mm } // why\n"
+      "  patch q = denim { at 50.00 mm, 0 mm\n     size 5 cm, 4 cm // in cm\n     rim 2 mm }\n}\n";
+  ASSERT_TRUE(window->open(write("hand.wale", by_hand)));
+  EXPECT_EQ(window->document().text(), by_hand);
+  window->document().change_placed("Move", {placed("p").id}, [](Placed& each) { each.patch.at.x = -0.02; });
+  ASSERT_TRUE(window->document().save(path("hand.wale")));
+  std::string moved = by_hand;
+  moved.replace(moved.find("-50 mm"), 6, "-20 mm");
+  EXPECT_EQ(read(path("hand.wale")), moved);
 }
 
 }  // namespace

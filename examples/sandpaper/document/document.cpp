@@ -90,6 +90,7 @@ Contents Document::read(const std::string& text, const QString& workspace) {
                     .trailing = layout.trailing,
                     .head = text.substr(0, layout.begin),
                     .tail = text.substr(std::min(layout.end, text.size())),
+                    .written = layout.written,
                     .file = file_.toStdString()};
   // A patch that has the same name as before is the same patch.
   for (const wale::LaidOutPatch& each : layout.patches) {
@@ -179,15 +180,8 @@ std::string Document::text() const {
 }
 
 std::string Document::text_of(const Contents& contents) const {
-  // Only the workspace is written in the standard style: the rest stays as its author wrote it.
-  static const std::string header = "wale 1\n\n";
-  std::string workspace = wale::layout_text(contents.layout());
-  if (auto formatted = language_.format(header + workspace); formatted && formatted->starts_with(header)) {
-    workspace = formatted->substr(header.size());
-    while (workspace.ends_with("\n")) workspace.pop_back();
-  }
-  std::string text = contents.head + workspace + contents.tail;
-  if (!text.ends_with("\n")) text += "\n";
+  std::string text = contents.head + wale::layout_text(contents.layout()) + contents.tail;
+  if (!contents.written && !text.ends_with("\n")) text += "\n";
   return text;
 }
 

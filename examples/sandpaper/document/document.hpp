@@ -38,7 +38,8 @@ class Document : public QObject {
   /// Takes over the text of a file that was not saved, from the autosave.
   void restore(const QString& file, const std::string& text);
 
-  /// The whole file as it would be saved: the workspace in the standard style, the rest as it was written.
+  /// The whole file as it would be saved: what has not changed as it was written, to the byte, what is new in the standard
+  /// style.
   std::string text() const;
   /// The same of other contents.
   std::string text_of(const Contents& contents) const;

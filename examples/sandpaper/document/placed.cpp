@@ -167,7 +167,7 @@ std::set<std::string> Contents::declared() const {
 std::string Contents::new_declared_name(const std::string& like) const { return free_name(like, declared()); }
 
 wale::Layout Contents::layout() const {
-  wale::Layout layout{.name = name, .documentation = documentation, .trailing = trailing};
+  wale::Layout layout{.name = name, .documentation = documentation, .trailing = trailing, .written = written};
   for (const PlacedRef& each : placed) layout.patches.push_back(each->patch);
   return layout;
 }

@@ -33,6 +33,7 @@ struct Contents {
   std::string name, documentation, trailing;  ///< of the workspace
   std::vector<PlacedRef> placed;              ///< the last in front
   std::string head, tail;                     ///< the file's text before and behind the workspace
+  std::shared_ptr<const wale::WrittenLayout> written = {};  ///< where the workspace was read
   std::string file;                           ///< the path beside which imports and pictures are looked for
 
   const Placed* find(std::uint64_t id) const;

@@ -1,11 +1,34 @@
 #include "feeling/programs.hpp"
 
+#include <cctype>
 #include <functional>
 
 namespace sandpaper {
 namespace {
 
 constexpr const char* patch_material = "patch_of_the_workspace";
+constexpr std::size_t longest_name = 60;
+
+/// What a recording and an exported program call the material of a patch: "denim" of `denim(roughness: 0.3)`,
+/// "wet_glass" of `"wet glass"`, "n0_5_oak_0_5_denim" of a mixture.
+std::string material_name(const std::string& made_of) {
+  std::string name;
+  for (const char letter : made_of.substr(0, made_of.find('(')))
+    if (std::isalnum(static_cast<unsigned char>(letter))) name += letter;
+    else if (!name.empty() && name.back() != '_') name += '_';
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front()))) name = "n" + name;
+  return name.substr(0, longest_name);
+}
+
+/// The same program under another name.
+std::optional<wale::Program> renamed(const std::optional<wale::Program>& program, const std::string& name) {
+  if (!program) return std::nullopt;
+  wale::PatchProgram described = program->description();
+  described.material = name;
+  auto loaded = wale::Program::load(std::move(described));
+  return loaded ? std::optional(*std::move(loaded)) : program;
+}
 
 }  // namespace
 
@@ -28,7 +51,7 @@ MaterialProgramRef Programs::find(const std::string& surroundings, const std::st
   thread_.post(urgency, key, [this, key, made_of, text, options, generation = generation_] {
     wale::CompiledText compiled = language_.compile(text, options);
     auto program = std::make_shared<MaterialProgram>();
-    program->program = std::move(compiled.program), program->problems = std::move(compiled.problems);
+    program->program = renamed(compiled.program, material_name(made_of)), program->problems = std::move(compiled.problems);
     QMetaObject::invokeMethod(this, [this, key, made_of, program, generation] { keep(key, made_of, program, generation); });
   });
   return nullptr;

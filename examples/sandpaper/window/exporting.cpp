@@ -54,19 +54,20 @@ void Exchange::add_to(QMenu& menu, QWidget& window) {
     action->setObjectName(name);
     connect(action, &QAction::triggered, this, act);
   };
-  const auto saved_as = [this, &window](const QString& title, const QString& name, const QString& filter) {
-    const QString folder = document_.file().isEmpty() ? QString() : QFileInfo(document_.file()).path() + "/";
+  const auto folder_of_file = [this] { return document_.file().isEmpty() ? QString() : QFileInfo(document_.file()).path() + "/"; };
+  const auto saved_as = [folder_of_file, &window](const QString& title, const QString& name, const QString& filter) {
+    const QString folder = folder_of_file();
     return QFileDialog::getSaveFileName(&window, title, folder + name, filter);
   };
-  add(menu, "merge", tr("&Merge another workspace …"), [this, &window] {
-    const QString file = QFileDialog::getOpenFileName(&window, tr("Merge a workspace"), {}, tr("Wale files (*.wale)"));
+  add(menu, "merge", tr("&Merge another workspace …"), [this, folder_of_file, &window] {
+    const QString file = QFileDialog::getOpenFileName(&window, tr("Merge a workspace"), folder_of_file(), tr("Wale files (*.wale)"));
     if (!file.isEmpty()) merge(file);
   });
   QMenu& imports = *menu.addMenu(tr("&Import"));
   for (const bool waves : {false, true})
     add(imports, waves ? "import_waves" : "import_files", waves ? tr("&Waves of the thesis …") : tr("&Arrays, movies and shuffles of the thesis …"),
-        [this, waves, &window] {
-          import_files(QFileDialog::getOpenFileNames(&window, tr("Import files of the Sandpaper of 1995")), waves);
+        [this, waves, folder_of_file, &window] {
+          import_files(QFileDialog::getOpenFileNames(&window, tr("Import files of the Sandpaper of 1995"), folder_of_file()), waves);
         });
   QMenu& exports = *menu.addMenu(tr("&Export"));
   const auto add_export = [&, saved_as](const char* name, const QString& text, const QString& ending, const QString& filter,

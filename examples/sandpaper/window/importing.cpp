@@ -99,7 +99,7 @@ void Exchange::import_files(QStringList files, bool waves) {
     } else if (const auto array = wale::read_thesis_array(std::as_bytes(std::span(text)), path.toStdString()); !array) {
       emit refused(array.error());
     } else {
-      return import_array(path, *array, waves, files);
+      return import_array(path, *array, waves || kind == wale::ThesisFileKind::wave, files);
     }
   }
 }

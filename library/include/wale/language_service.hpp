@@ -66,6 +66,9 @@ struct LaidOutMark {
   double unit_in_si = 1;
 };
 
+struct WrittenPatch;   // private to the library: a patch in the text that it was read from
+struct WrittenLayout;  // and a workspace
+
 /// A patch as a workspace declares it, with all that its author wrote.
 struct LaidOutPatch {
   std::string name;
@@ -85,6 +88,7 @@ struct LaidOutPatch {
   std::string verbatim;
   /// It is an area of a picture, laid out by the statement that is kept before it: it is felt, and is not written itself.
   bool is_of_picture = false;
+  std::shared_ptr<const WrittenPatch> written = {};  ///< where it was read; null for a new one
 };
 
 /// A workspace as its file declares it: what a window changes and writes back.
@@ -94,10 +98,13 @@ struct Layout {
   std::vector<LaidOutPatch> patches;   ///< the last in front
   std::string trailing;                ///< the comments behind the last patch, in whole lines
   std::size_t begin = 0, end = 0;      ///< bytes of the declaration with its documentation in the text that was read
+  std::shared_ptr<const WrittenLayout> written = {};  ///< where it was read; null for a new one
 };
 
 /// The declaration of a workspace as text, without a newline at its end. What `check` reads in it is the same layout
-/// again; `LanguageService::format` gives it the standard style.
+/// again. What was read from a text and has not changed is as its author wrote it, to the byte: of a patch only the
+/// settings that changed are written anew. New patches, and those that lost a setting or a comment, have the standard
+/// style.
 std::string layout_text(const Layout& layout);
 
 /// A Wale text after the checks that need no device.

@@ -96,6 +96,7 @@ enum class ThesisFileKind {
   surface,    ///< its name ends in ".depth": an array of heights
   shading,    ///< its name ends in ".shade": an array of luminance
   array,      ///< an array or a wave: nothing but its author's word tells which
+  wave,       ///< its name ends in ".wave"
   shuffle,    ///< it begins with "Movie:"
   movie,      ///< another text
   workspace,  ///< binary, and perhaps a workspace: not read
@@ -118,6 +119,7 @@ struct ThesisInWale {
   std::string name;  ///< of the material or the movie
   std::string text;
   std::vector<FileBeside> files = {};
+  std::string note = {};  ///< what of the options it has no use for; mostly empty
 };
 
 /// A name of the language for a file's name, "grid_3" for "grid 3.depth", that is not among `taken`.
