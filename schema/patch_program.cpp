@@ -7,7 +7,8 @@ namespace wale {
 
 long cost_of(std::span<const Instruction> code) {
   long cost = 0;
-  for (const Instruction& instruction : code) cost += operation_table[instruction.operation].cost;
+  for (const Instruction& instruction : code)
+    if (const OperationFacts* known = operation_facts(instruction.operation)) cost += known->cost;
   return cost;
 }
 

@@ -194,7 +194,7 @@ int identify(const DevicesOptions& options) {
   chosen.trusted = chosen.trusted->as_built();
   const auto say = [](std::string_view what) { print_error("{}\n", what); };
   const auto opened = open_device(connections, chosen,
-                                  {.priority = loop_priority - 1,
+                                  {.priority = usual_priority - 1,
                                    .ask = say,
                                    .stop = &stop,
                                    .transport = options.transport,

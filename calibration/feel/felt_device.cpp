@@ -82,7 +82,7 @@ Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& 
     return FeltDevice{*std::move(opened), nullptr, "simulated", std::move(hand), options.virtual_time};
   }
   auto opened = open_device(*device.connections, chosen,
-                            {.priority = loop_priority - 1,
+                            {.priority = usual_priority - 1,
                              .ask = say,
                              .stop = &stop,
                              .transport = options.transport,

@@ -103,12 +103,13 @@ double strongest_circle(const Bank& bank, std::span<const Hand> centres, const G
 /// The curl of hands at rest, and the usual slope of their force.
 struct Curls {
   std::vector<double> sizes;  ///< N/m, of each hand; 0 if it does not count
-  double over_tiles = 0;      ///< N/m, the largest mean over a tile of the patch
+  double over_blocks = 0;     ///< N, the most of: half of a mean over a block of tiles, times a circle's radius in it
   std::size_t counted = 0;    ///< hands whose curl counts
   double largest = 0;         ///< N, of their forces
 };
 
-Curls curls_of(const LookedAt& looked_at, bool button, glm::vec2 extent, glm::vec2 less_rim) {
+/// `radius`: m, of the largest circle of a hand.
+Curls curls_of(const LookedAt& looked_at, bool button, glm::vec2 extent, glm::vec2 less_rim, double radius) {
   struct Sum {
     double count = 0, sum = 0, squares = 0;
   };
@@ -135,13 +136,25 @@ Curls curls_of(const LookedAt& looked_at, bool button, glm::vec2 extent, glm::ve
     if (counts) found.sizes[i] = std::abs(curl);
   }
   const double least = share_of_slope * (hands > 0 ? std::sqrt(squares / hands) : 0);
-  for (const Sum& sum : sums) {
-    if (sum.count < 8) continue;
-    const double mean = sum.sum / sum.count;
-    const double error = std::sqrt(std::max(0.0, sum.squares / sum.count - mean * mean) / sum.count);
+  // What has a curl in one tile alone is circled in that tile.
+  const double half_tile = std::min(extent.x, extent.y) / static_cast<double>(tiles);
+  const auto look_at_block = [&](std::size_t row, std::size_t column, std::size_t side) {
+    Sum all;
+    for (std::size_t r = row; r < row + side; ++r)
+      for (std::size_t c = column; c < column + side; ++c) {
+        const Sum& sum = sums[r * tiles + c];
+        all.count += sum.count, all.sum += sum.sum, all.squares += sum.squares;
+      }
+    if (all.count < 8) return;
+    const double mean = all.sum / all.count;
+    const double error = std::sqrt(std::max(0.0, all.squares / all.count - mean * mean) / all.count);
     if (std::abs(mean) > significant * error && std::abs(mean) > least)
-      found.over_tiles = std::max(found.over_tiles, std::abs(mean));
-  }
+      found.over_blocks = std::max(found.over_blocks,
+                                   0.5 * std::abs(mean) * std::min(radius, static_cast<double>(side) * half_tile));
+  };
+  for (std::size_t side = 1; side <= tiles; ++side)
+    for (std::size_t row = 0; row + side <= tiles; ++row)
+      for (std::size_t column = 0; column + side <= tiles; ++column) look_at_block(row, column, side);
   for (double& size : found.sizes)
     if (size > least)
       ++found.counted;
@@ -155,10 +168,9 @@ double curl_with_button(const Bank& bank, const LookedAt& looked_at, bool button
                         const GradingHand& hand, double least_watt) {
   const glm::vec2 extent = 0.5f * glm::vec2(bank.size().width, bank.size().height);
   const glm::vec2 room = inside(bank);
-  const Curls curls = curls_of(looked_at, button, extent, room);
   // A hand circles where there is room, and gains no more than the force gives all along its way.
-  const double radius = std::min(hand.radius, double{std::min(room.x, room.y)});
-  const double on_tiles = std::min(0.5 * curls.over_tiles * radius, curls.largest) * hand.speed();
+  const Curls curls = curls_of(looked_at, button, extent, room, std::min(hand.radius, double{std::min(room.x, room.y)}));
+  const double on_tiles = std::min(curls.over_blocks, curls.largest) * hand.speed();
   std::vector<Hand> centres;
   const auto circle_at = [&](const Hand& at) { centres.emplace_back(at).button = button; };
   if (curls.counted > 0)

@@ -4,7 +4,7 @@
 
 #include "runtime/device/choose_device.hpp"
 #include "runtime/device/hot_plugged_device.hpp"
-#include "runtime/stage/scheduling.hpp"
+#include "wale/stage.hpp"
 
 namespace wale {
 
@@ -13,6 +13,6 @@ namespace wale {
 /// the options say otherwise. It exerts no force until it is commanded. After it was unplugged it is found again at its
 /// port, or at a port that had no device like it when this one was opened. Errors: those of `Driver::open`.
 Result<std::unique_ptr<HotPluggedDevice>> open_device(const Connections& connections, const ChosenDevice& chosen,
-                                                      DeviceOptions options = {.priority = loop_priority - 1});
+                                                      DeviceOptions options = {.priority = usual_priority - 1});
 
 }  // namespace wale

@@ -40,8 +40,8 @@ struct LegalFields {
 };
 
 constexpr auto legal_fields = [] {
-  std::array<LegalFields, operation_table.size()> table{};
-  for (std::size_t number = 0; number < table.size(); ++number) {
+  std::array<LegalFields, 256> table{};
+  for (std::size_t number = 0; number < operation_table.size(); ++number) {
     const OperationFacts& known = operation_table[number];
     if (known.name.empty()) continue;
     table[number].known = true;
@@ -401,8 +401,9 @@ class Verifier {
   }
 
   static std::string place(const Section& section, std::size_t number, const Instruction& instruction) {
+    const OperationFacts* known = operation_facts(instruction.operation);
     return section.name + " " + std::to_string(number) + " `" +
-           std::string(operation_table[instruction.operation].name) + "`";
+           (known != nullptr ? std::string(known->name) : "operation " + std::to_string(instruction.operation)) + "`";
   }
 
   /// The last instruction before number `end` that writes the register.

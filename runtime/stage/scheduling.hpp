@@ -7,9 +7,6 @@
 
 namespace wale {
 
-/// Threads that serve a device should have a priority just below this one.
-inline constexpr int loop_priority = usual_priority;
-
 /// Makes the calling thread as punctual as the options ask and the system permits: SCHED_FIFO, its stack locked, the
 /// processors kept out of sleep states that are slow to leave. The stack is touched in any case. The destructor
 /// releases stack and processors. `status` says in one line what the system granted.

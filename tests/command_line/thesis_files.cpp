@@ -111,7 +111,7 @@ TEST(ThesisFilesOnTheCommandLine, TheEndingTellsAWaveAndWhatIsLeftOutIsSaid) {
 
 TEST(ThesisFilesOnTheCommandLine, HeightsAreOfTheReliefsKind) {
   const TemporaryFolder folder;
-  const std::string plain = folder.write("plain.wale", "wale 1\n\nmaterial plain {\n  physical {\n    height h = 0.5 + 0.4 * sin(x / 5 mm)\n    force = lateral(h)\n    show relief(h)\n  }\n}\n");
+  const std::string plain = folder.write("plain.wale", "wale 1\n\nmaterial plain {\n  physical {\n    height h = 0.5 + 0.4 * sin(x / 5 mm)\n    force = lateral(h, amplitude: 1 N)\n    show relief(h)\n  }\n}\n");
   const Outcome taken = wale({"export", plain, "--heights", "0, 1", "-o", folder / "a.depth"});
   EXPECT_EQ(taken.status, 0) << taken.err;
   const Outcome other = wale({"export", plain, "--heights", "0 mm, 1 mm", "-o", folder / "b.depth"});
@@ -178,7 +178,8 @@ TEST(ThesisFilesOnTheCommandLine, WhatAFileDoesNotSayIsAskedFor) {
   EXPECT_EQ(wale({"export", corduroy}).status, 2);
   EXPECT_EQ(wale({"export", corduroy, "--movie", "x", "-o", out}).status, 2);
   EXPECT_EQ(wale({"export", corduroy, "--heights", "1 mm, 0 mm", "-o", out}).status, 2);
-  EXPECT_EQ(wale({"export", corduroy, "--heights", "5 mm, 6 mm", "-o", out}).status, 1);
+  EXPECT_EQ(wale({"export", corduroy, "--heights", "5, 6", "-o", out}).status, 1);
+  EXPECT_EQ(wale({"export", corduroy, "--heights", "5 mm, 6 mm", "-o", out}).status, 2);  // its relief has no unit
   EXPECT_EQ(wale({"export", corduroy, "-o", folder / "a.shade"}).status, 1);  // it shows no colour
   EXPECT_TRUE(is_empty(folder));
 }

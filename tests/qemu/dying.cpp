@@ -58,7 +58,7 @@ std::unique_ptr<PluggedDevice> open_to_push(const Found& found, const std::strin
   }
   HidPidDevice::Options options;
   options.timeout = options.set_up_timeout = patience;
-  options.priority = loop_priority - 1;
+  options.priority = usual_priority - 1;
   options.transport = read_transport_kind(way);
   options.keeper.emplace();
   return taken(HidPidDevice::open(found.context, found.info, trusted(joystick_profile()), options));
@@ -216,7 +216,7 @@ void push_until_dead(const std::string& by, std::uint16_t vendor, std::uint16_t 
   std::vector<char> memory(96 << 20, 'x');  // whose dump takes its time
   const Found found = find(vendor, product);
   const auto device = open_to_push(found, by);
-  make_real_time(loop_priority);
+  make_real_time(usual_priority);
   while (device->sample().contact != Contact::lost) {
     device->command({3, 0});
     if (is_to_crash != 0) *static_cast<volatile char*>(nullptr) = memory[4711];

@@ -90,7 +90,7 @@ class Feeling : public testing::Test {
     return library_.open(corduroy, {.device = device.declared->profile.name})->program;
   }
   std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device) const {
-    auto result = open_device(connections_, device, {.priority = loop_priority - 1, .keeper = {WALE_KEEPER}});
+    auto result = open_device(connections_, device, {.priority = usual_priority - 1, .keeper = {WALE_KEEPER}});
     if (!result) throw std::runtime_error(result.error().sentence);
     return *std::move(result);
   }
@@ -465,15 +465,15 @@ TEST_F(Feeling, ThreadsOfADeviceHaveAPriorityJustBelowTheLoops) {
   std::atomic<bool> is_permitted{false};
   std::thread([&] {
     sched_param parameters{};
-    parameters.sched_priority = loop_priority;
+    parameters.sched_priority = usual_priority;
     is_permitted = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
   }).join();
   if (!is_permitted) GTEST_SKIP() << "SCHED_FIFO is not permitted here";
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   const ChosenDevice device = chosen("auto", 1);
-  EXPECT_EQ(threads_with(loop_priority - 1), 0);
+  EXPECT_EQ(threads_with(usual_priority - 1), 0);
   const auto joystick = opened(device);
-  EXPECT_EQ(threads_with(loop_priority - 1), 2) << "one thread for libusb's events, one that submits forces";
+  EXPECT_EQ(threads_with(usual_priority - 1), 2) << "one thread for libusb's events, one that submits forces";
   mock_.unplug(stick);
   await([&] { return joystick->sample().contact == Contact::lost; });
   mock_.plug(PidModel(openffboard()), 1);
@@ -481,7 +481,7 @@ TEST_F(Feeling, ThreadsOfADeviceHaveAPriorityJustBelowTheLoops) {
     joystick->elapse(1);
     return joystick->sample().contact == Contact::good;
   });
-  EXPECT_EQ(threads_with(loop_priority - 1), 2) << "the same after a second set-up";
+  EXPECT_EQ(threads_with(usual_priority - 1), 2) << "the same after a second set-up";
 }
 
 }  // namespace

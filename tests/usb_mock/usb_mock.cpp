@@ -30,7 +30,7 @@ std::atomic<std::int64_t> microseconds_passed{0};
 /// if that is not permitted; drivers may then have to wait.
 bool go_before_all_others() {
   sched_param parameters{};
-  parameters.sched_priority = loop_priority + 1;
+  parameters.sched_priority = usual_priority + 1;
   return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
 }
 

@@ -23,9 +23,10 @@ struct OperationFacts {
   int operands = 0;         ///< how many of a, b, c are registers; they come first
 };
 
-/// The facts of all operations, by number. An unused number has an empty name.
+/// The facts of all operations, by number. An unused number has an empty name. In a file that is not verified an operation
+/// may have a number beyond the table: `operation_facts` knows.
 inline constexpr auto operation_table = [] {
-  std::array<OperationFacts, 256> table{};
+  std::array<OperationFacts, 32> table{};
   // clang-format off
 #define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
   table[number] = {#name, fields, results, cost};
