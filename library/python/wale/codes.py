@@ -117,14 +117,6 @@ class Code(enum.IntEnum):
     no_threshold = 805  # a percept whose just noticeable difference nobody has published
     missing_library = 806  # a library or program that this Wale needs for this and does not find
     no_sandbox = 807  # a system that offers no sandbox for foreign pictures
-    incomplete_material = 901  # a material without all that a library needs
-    no_licence = 902  # a material without a licence
-    unfit_licence = 903  # a licence under which a shared library cannot pass a material on
-    taken_name = 904  # a name that another material of the library has
-    feels_the_same = 905  # a material that nobody tells from another one of its kind
-    elsewhere_in_library = 906  # a file in another folder than that of its kind
-    unformatted_file = 907  # a file that is not in the standard style
-    still_there = 908  # a material that another one replaces, and that is still there
 
 
 class DeviceKind(enum.IntEnum):
