@@ -9,6 +9,8 @@ namespace wale {
 
 /// What to do about a text that is no name.
 inline constexpr const char* usual_name_mend = "write a name, as in \"corduroy\" or \"roughness\"";
+/// The same where it names a device.
+inline constexpr const char* device_name_mend = "write the name of a device's profile, as in \"sandpaper\"";
 
 /// Whether a text that a program hands over may be a name at all. `argument` is the name of that argument, `mend` what to
 /// do if the text is empty, blank or of several lines. Errors:

@@ -221,6 +221,35 @@ std::vector<glm::dvec2> opposed_on_the_way(const Bank& bank, const std::vector<S
   return sums;
 }
 
+/// A hand on a stroke, and what hands feel that rest where it goes.
+struct WalkedStroke {
+  std::vector<glm::dvec2> moving;  ///< N, at each tick that counts; what rests in the middle feels then is taken off
+  std::vector<bool> forth;         ///< whether the hand goes forth then
+  std::vector<Force> still;        ///< N, two for each such tick: of hands that have just come, there and in the middle
+};
+
+/// `own` and `memory` are those of `bank`'s program, and `resting` what a hand in the stroke's middle feels.
+WalkedStroke walked(const Bank& bank, Bank& own, Memory& memory, const Stroke& stroke, std::span<const Force> resting,
+                    const Outside& outside) {
+  const double rate = bank.program().description().device.rate;
+  WalkedStroke found;
+  std::vector<Hand> fresh;
+  for (long now = 0; now < stroke.ticks(); ++now) {
+    const auto [along, forth] = stroke.at(now, rate);
+    Hand hand = stroke.hand(along, forth);
+    hand.time = static_cast<double>(now) / rate;
+    if (now == 0) memory.enter(own, hand);
+    const Force force = tick(own, memory, hand) - resting[std::min<std::size_t>(now, resting.size() - 1)];
+    if (now < stroke.pass / 2 || !stroke.counts_at(along) || !outside.at(glm::dvec2(hand.position))) continue;
+    found.moving.emplace_back(force), found.forth.push_back(forth);
+    for (const double at : {along, 0.0}) fresh.push_back(stroke.hand(at, forth)), fresh.back().time = hand.time;
+  }
+  for (Hand& hand : fresh) hand.velocity = hand.raw_velocity = glm::vec2(0);
+  found.still.resize(fresh.size());
+  if (!fresh.empty()) tick_all(bank, fresh, found.still);
+  return found;
+}
+
 }  // namespace
 
 std::vector<glm::dvec2> opposed_on(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside,
@@ -236,38 +265,20 @@ Steadiness steadiness_of(const Bank& bank, const std::vector<Stroke>& strokes, c
   for (const std::size_t first : {a_line, half + a_line})
     some.insert(some.end(), strokes.begin() + static_cast<std::ptrdiff_t>(first),
                 strokes.begin() + static_cast<std::ptrdiff_t>(first + a_line));
-  const double rate = bank.program().description().device.rate;
   Bank own = bank;
   Memory memory(own.program());
   const std::vector<std::vector<Force>> resting = felt_in_the_middles(bank, some);
   Steadiness found;
   for (std::size_t i = 0; i < some.size(); ++i) {
-    const Stroke& stroke = some[i];
-    std::vector<Hand> fresh;
-    std::vector<glm::dvec2> moving;
-    std::vector<double> ways;
-    for (long now = 0; now < stroke.ticks(); ++now) {
-      const auto [along, forth] = stroke.at(now, rate);
-      Hand hand = stroke.hand(along, forth);
-      hand.time = static_cast<double>(now) / rate;
-      if (now == 0) memory.enter(own, hand);
-      const Force force = tick(own, memory, hand) - resting[i][std::min<std::size_t>(now, resting[i].size() - 1)];
-      if (now < stroke.pass / 2 || !stroke.counts_at(along) || !outside.at(glm::dvec2(hand.position))) continue;
-      moving.emplace_back(force), ways.push_back(forth ? -1 : 1);
-      // Resting hands that have just come, there and in the middle.
-      for (const double at : {along, 0.0}) fresh.push_back(stroke.hand(at, forth)), fresh.back().time = hand.time;
-    }
-    if (moving.empty()) continue;
-    for (Hand& hand : fresh) hand.velocity = hand.raw_velocity = glm::vec2(0);
-    std::vector<Force> still(fresh.size());
-    tick_all(bank, fresh, still);
+    const WalkedStroke felt = walked(bank, own, memory, some[i], resting[i], outside);
+    if (felt.moving.empty()) continue;
     double sum = 0, squares = 0;
-    for (std::size_t k = 0; k < moving.size(); ++k) {
-      const glm::dvec2 by_motion = moving[k] - glm::dvec2(still[2 * k] - still[2 * k + 1]);
-      const double against = ways[k] * glm::dot(by_motion, stroke.direction);
+    for (std::size_t k = 0; k < felt.moving.size(); ++k) {
+      const glm::dvec2 by_motion = felt.moving[k] - glm::dvec2(felt.still[2 * k] - felt.still[2 * k + 1]);
+      const double against = (felt.forth[k] ? -1 : 1) * glm::dot(by_motion, some[i].direction);
       sum += against, squares += against * against;
     }
-    const auto count = static_cast<double>(moving.size());
+    const auto count = static_cast<double>(felt.moving.size());
     found.mean += sum / count * sum / count, found.beside += squares / count - sum / count * sum / count;
   }
   return found;
@@ -275,33 +286,20 @@ Steadiness steadiness_of(const Bank& bank, const std::vector<Stroke>& strokes, c
 
 std::vector<glm::dvec2> pushed_either_way(const Bank& bank, const std::vector<Stroke>& strokes,
                                           const Outside& outside) {
-  const double rate = bank.program().description().device.rate;
   Bank own = bank;
   Memory memory(own.program());
   const std::vector<std::vector<Force>> resting = felt_in_the_middles(bank, strokes);
   std::vector<glm::dvec2> means(strokes.size());
   for (std::size_t i = 0; i < strokes.size(); ++i) {
-    const Stroke& stroke = strokes[i];
+    const WalkedStroke felt = walked(bank, own, memory, strokes[i], resting[i], outside);
     std::array<glm::dvec2, 2> sums{};
     std::array<long, 2> counts{};
-    std::vector<Hand> fresh;
-    for (long now = 0; now < stroke.ticks(); ++now) {
-      const auto [along, forth] = stroke.at(now, rate);
-      Hand hand = stroke.hand(along, forth);
-      hand.time = static_cast<double>(now) / rate;
-      if (now == 0) memory.enter(own, hand);
-      const Force force = tick(own, memory, hand) - resting[i][std::min<std::size_t>(now, resting[i].size() - 1)];
-      if (now < stroke.pass / 2 || !stroke.counts_at(along) || !outside.at(glm::dvec2(hand.position))) continue;
-      sums[forth] += glm::dvec2(force), ++counts[forth];
-      // A resting hand that has just come, there and in the middle.
-      for (const double at : {along, 0.0}) fresh.push_back(stroke.hand(at, forth)), fresh.back().time = hand.time;
+    glm::dvec2 by_place{0};
+    for (std::size_t k = 0; k < felt.moving.size(); ++k) {
+      sums[felt.forth[k]] += felt.moving[k], ++counts[felt.forth[k]];
+      by_place += glm::dvec2(felt.still[2 * k] - felt.still[2 * k + 1]);
     }
     if (counts[0] == 0 || counts[1] == 0) continue;
-    for (Hand& hand : fresh) hand.velocity = hand.raw_velocity = glm::vec2(0);
-    std::vector<Force> still(fresh.size());
-    tick_all(bank, fresh, still);
-    glm::dvec2 by_place{0};
-    for (std::size_t k = 0; k < still.size(); k += 2) by_place += glm::dvec2(still[k] - still[k + 1]);
     means[i] = 0.5 * (sums[0] / static_cast<double>(counts[0]) + sums[1] / static_cast<double>(counts[1])) -
                by_place / static_cast<double>(counts[0] + counts[1]);
   }

@@ -109,7 +109,7 @@ struct Library::Parts {
   Result<> is_sound(const CompileOptions& options) const {
     if (missing) return *missing;
     if (!options.device.empty())
-      if (auto name = is_name_text("device", options.device, "write the name of a device's profile, as in \"sandpaper\""); !name) return name;
+      if (auto name = is_name_text("device", options.device, device_name_mend); !name) return name;
     if (!options.material.empty())
       if (auto name = is_name_text("material", options.material); !name) return name;
     if (!options.name.empty()) return is_name_text("name", options.name);
@@ -153,11 +153,8 @@ struct Library::Parts {
   /// The error for a device that nothing declares. The owner's file may do so and have an error elsewhere.
   Error unknown_device(const std::string& device, const std::vector<std::string>& known) const {
     Error error = unknown(Code::unknown_device, "device", device, known);
-    if (auto problem = owners_problem()) {
-      error.mend += "; if your own devices.wale declares it, mend that first: " + in_words(*problem);
-      error.others.push_back(*std::move(problem));
-    }
-    return error;
+    const auto problem = owners_problem();
+    return problem ? with_owners_problem(std::move(error), *problem) : error;
   }
 
   Result<CompiledWorkspace> laid(NamedFile named, const WorkspaceOptions& options) const {

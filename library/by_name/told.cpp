@@ -69,4 +69,10 @@ Error unknown(Code code, const std::string& argument, const std::string& name, c
           .nearest = std::move(nearest)};
 }
 
+Error with_owners_problem(Error error, const Error& problem) {
+  error.mend += "; if your own devices.wale declares it, mend that first: " + in_words(problem);
+  error.others.push_back(problem);
+  return error;
+}
+
 }  // namespace wale

@@ -20,4 +20,7 @@ Error about(Error error, const Place& argument);
 /// "no percept is called `rougness`", with the nearest of `known`. If none is near, the mend lists them.
 Error unknown(Code code, const std::string& argument, const std::string& name, const std::vector<std::string>& known);
 
+/// The error for a device that nothing declares, where the owner's devices.wale may declare it and has this problem.
+Error with_owners_problem(Error error, const Error& problem);
+
 }  // namespace wale

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "library/by_name/told.hpp"
 #include "runtime/c/device.hpp"
 #include "runtime/c/profile.hpp"
 #include "runtime/c/program.hpp"
@@ -303,10 +304,7 @@ WaleCode wale_library_profile(WaleLibrary* library, WaleText name, WaleProfile* 
     if (given || given.error().code != wale::Code::unknown_device) return given;
     const auto trusted = library->library.trusted_devices();
     if (trusted) return given;
-    wale::Error error = std::move(given).error();
-    error.mend += "; if your own devices.wale declares it, mend that first: " + in_words(trusted.error());
-    error.others.push_back(trusted.error());
-    return error;
+    return wale::with_owners_problem(std::move(given).error(), trusted.error());
   });
 }
 

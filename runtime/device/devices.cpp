@@ -21,7 +21,8 @@
 namespace wale {
 namespace {
 
-constexpr const char* device_mend = "write the name of a device's profile, as in \"sandpaper\"";
+constexpr const char* spelling_mend = "spell a device, as in \"auto\", \"simulated\" or \"1-2\"";
+constexpr const char* transport_mend = "name one, as in \"hidraw\"";
 constexpr std::string_view pointer_driver_name = "pointer";
 
 Result<std::vector<TrustedDevice>> all_of(const TrustedDevices& trusted) {
@@ -160,11 +161,13 @@ std::vector<DeviceInfo> devices(const TrustedDevices& trusted) {
 }
 
 Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const OpenOptions& options) {
-  if (auto name = is_name_text("spelling", spelling, "spell a device, as in \"auto\", \"simulated\" or \"1-2\""); !name) return std::move(name.error());
+  if (auto name = is_name_text("spelling", spelling, spelling_mend); !name) return std::move(name.error());
   if (!options.built_for.empty())
-    if (auto name = is_name_text("built_for", options.built_for, device_mend); !name) return std::move(name.error());
+    if (auto name = is_name_text("built_for", options.built_for, device_name_mend); !name)
+      return std::move(name.error());
   if (!options.transport.empty())
-    if (auto name = is_name_text("transport", options.transport, "name one, as in \"hidraw\""); !name) return std::move(name.error());
+    if (auto name = is_name_text("transport", options.transport, transport_mend); !name)
+      return std::move(name.error());
   if (auto sound = is_sound(options); !sound) return std::move(sound.error());
   const auto trusted = all_of(options.trusted.value_or(TrustedDevices()));
   if (!trusted) return trusted.error();

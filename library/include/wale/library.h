@@ -54,8 +54,8 @@ WALE_API void wale_library_free(WaleLibrary* library);
 
 /* All: `options` may be NULL; `program` gets a handle to free. Errors in a text have its place; those about an argument have the
    argument's name as `place`, its value as `place_text`, and for an unknown name up to three that may have been meant.
-   All: unknown_device for a device that nothing declares (an error in the owner's devices.wale is then among the others); invalid_encoding for an argument that is not UTF-8;
-   malformed_value for a name that is empty, blank or of several lines. */
+   All: unknown_device for a device that nothing declares (an error in the owner's devices.wale is then among the others);
+   invalid_encoding for an argument that is not UTF-8; malformed_value for a name that is empty, blank or of several lines. */
 
 /* A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL. Materials
    in the current folder of the process take precedence over the shipped ones, and so do those of the whole project if a file

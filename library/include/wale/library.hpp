@@ -139,7 +139,8 @@ class Library {
   /// the first one in that file.
   Result<TrustedDevices> trusted_devices() const;
   /// As `wale::open_device`, with these declarations. A simulated device is in the hand of a simulated person who rubs
-  /// to and fro, unless the options have another hand (which then rests) or another motion. Errors also: those of `trusted_devices`.
+  /// to and fro, unless the options have another hand (which then rests) or another motion. Errors also:
+  /// those of `trusted_devices`.
   Result<std::unique_ptr<Device>> open_device(std::string_view spelling = "auto", OpenOptions options = {}) const;
 
   /// The Sandpaper joystick, simulated, in the hand of a simulated person who rubs to and fro.

@@ -127,14 +127,20 @@ def whole(value: Any, name: str) -> int:
         raise TypeError(f"{name}: expected a whole number, found {value!r}") from why
 
 
-def pair(values: Sequence[float], name: str) -> tuple[float, float]:
-    """Two numbers, x and y. ValueError for more or fewer, TypeError for what holds none."""
+def two(values: Any, name: str, of: str) -> tuple[Any, Any]:
+    """Two values `of` a kind, x and y. ValueError for more or fewer, TypeError for what holds none."""
     try:
         x, y = values
     except ValueError as why:
-        raise ValueError(f"{name}: expected two numbers, x and y, found {values!r}") from why
+        raise ValueError(f"{name}: expected two {of}, x and y, found {values!r}") from why
     except TypeError as why:
-        raise TypeError(f"{name}: expected two numbers, x and y, found {values!r}") from why
+        raise TypeError(f"{name}: expected two {of}, x and y, found {values!r}") from why
+    return (x, y)
+
+
+def pair(values: Sequence[float], name: str) -> tuple[float, float]:
+    """Two numbers, x and y. ValueError for more or fewer, TypeError for what holds none."""
+    x, y = two(values, name, "numbers")
     return (number(x, name), number(y, name))
 
 

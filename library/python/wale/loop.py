@@ -1,6 +1,6 @@
 """A run whose ticks the program serves itself."""
 
-from wale._abi import Handle, ffi, held, lib, made, pair, sized, whole
+from wale._abi import Handle, ffi, held, lib, made, pair, sized, two, whole
 from wale.codes import ReadingContact
 from wale.run import Vector, vector_of
 from wale.stage import Stage
@@ -22,12 +22,7 @@ class Loop(Handle):
         say that more than 20 ms were missed.
         """
         of = self._reading
-        try:
-            x, y = counts
-        except ValueError as why:
-            raise ValueError(f"counts: expected two whole numbers, x and y, found {counts!r}") from why
-        except TypeError as why:
-            raise TypeError(f"counts: expected two whole numbers, x and y, found {counts!r}") from why
+        x, y = two(counts, "counts", "whole numbers")
         of.counts_x, of.counts_y = _count(x), _count(y)
         of.button, of.contact = whole(button, "button"), whole(contact, "contact")
         of.measures_interaction = int(interaction is not None)
