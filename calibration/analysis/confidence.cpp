@@ -89,7 +89,7 @@ Result<ConfidenceAnalysis> analyse_confidence(const Trials& trials) {
       return Error{.code = Code::malformed_value,
                    .sentence = "expected a rating from 0 to 100",
                    .mend = "name the column of the ratings",
-                   .place = {.name = trials.file, .number = trials.line[i]}};
+                   .place = trials.place(i)};
     all.add(rating);
     of_stimuli[trials.stimulus[i]].add(rating);
     of_observers[trials.observer[i]].add(rating);

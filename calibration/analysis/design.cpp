@@ -70,7 +70,7 @@ class DesignBuilder {
         return Error{.code = Code::malformed_value,
                      .sentence = "a " + name + " of zero or below has no logarithm",
                      .mend = "leave such trials out by rule",
-                     .place = {.name = trials_.file, .number = trials_.line[i]}};
+                     .place = trials_.place(i)};
       logs(static_cast<Index>(i)) = std::log10(size->values[i]);
     }
     logs.array() -= logs.mean();

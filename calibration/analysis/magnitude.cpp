@@ -124,7 +124,7 @@ class MagnitudeAnalyst {
       return Error{.code = Code::malformed_value,
                    .sentence = "there is no size `" + options_.size + "` in the trials",
                    .mend = "name the column of the commanded size",
-                   .place = {.name = trials_.file}};
+                   .place = {.name = trials_.files.front()}};
     size_ = size;
     analysis_.size = size->name, analysis_.unit = size->unit;
     const auto [low, high] = std::ranges::minmax(size->values);
@@ -310,7 +310,7 @@ Result<MeansRegression> regress_means(const Trials& trials, const std::string& s
       return Error{.code = Code::malformed_value,
                    .sentence = "a " + size + " of zero or below has no logarithm",
                    .mend = "leave such trials out by rule",
-                   .place = {.name = trials.file, .number = trials.line[i]}};
+                   .place = trials.place(i)};
   MeansRegression result;
   result.equalised = equalise;
   result.means = means_of_stimuli(trials, log_answers(trials), equalise);

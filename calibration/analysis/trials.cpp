@@ -70,22 +70,33 @@ std::optional<double> choice_in(std::string_view cell) {
 /// Reads the rows of one table.
 class TrialReader {
  public:
-  TrialReader(const Table& table, const TrialColumns& columns) : table_(table), columns_(columns) {
-    trials_.file = table.file();
-    trials_.notes = table.notes();
+  TrialReader(const Table* tables, std::size_t count, const TrialColumns& columns)
+      : tables_(tables), count_(count), columns_(columns) {
+    for (const SizeColumn& each : columns.sizes) trials_.sizes.push_back({each.name, "", {}});
+    for (const std::string& each : columns.factors) trials_.factors.push_back({each, {}, {}});
+    factor_names_.resize(columns.factors.size());
   }
 
   Result<Trials> read() {
-    if (const auto found = find_columns(); !found) return found.error();
+    if (count_ == 0)
+      return Error{.code = Code::malformed_value, .sentence = "there is no table of trials", .mend = "name one"};
     reserve();
-    for (std::size_t row = 0; row < table_.rows(); ++row)
-      if (const auto done = read_row(row); !done) return done.error();
+    std::size_t rows = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      table_ = &tables_[i];
+      trials_.files.push_back(table_->file());
+      for (const std::string& note : table_->notes()) trials_.notes.push_back((count_ > 1 ? table_->file() + ": " : "") + note);
+      if (const auto found = find_columns(); !found) return found.error();
+      for (std::size_t row = 0; row < table_->rows(); ++row)
+        if (const auto done = read_row(row); !done) return done.error();
+      rows += table_->rows();
+    }
     if (trials_.size() == 0)
       return Error{.code = Code::malformed_value,
-                   .sentence = "no trial is left: each of the " + std::to_string(table_.rows()) +
+                   .sentence = "no trial is left: each of the " + std::to_string(rows) +
                                " rows is excluded" + (trials_.rules.empty() ? "" : ", as by: " + trials_.rules.front()),
                    .mend = "look at the rules of the exclusions",
-                   .place = {.name = table_.file()}};
+                   .place = {.name = table_->file()}};
     finish_names();
     if (const auto varied = require_varied(); !varied) return varied.error();
     number_stimuli();
@@ -95,20 +106,20 @@ class TrialReader {
 
  private:
   Result<std::size_t> column(const std::string& name) const {
-    if (const auto found = table_.column(name)) return *found;
+    if (const auto found = table_->column(name)) return *found;
     Error error{.code = Code::malformed_value,
                 .sentence = "there is no column " + quoted(name),
                 .mend = "its columns are ",
-                .place = {.name = table_.file()}};
-    for (std::size_t i = 0; i < std::min<std::size_t>(table_.columns().size(), 20); ++i)
-      error.mend += (i == 0 ? "" : ", ") + quoted(table_.columns()[i]);
-    if (table_.columns().size() > 20) error.mend += " and " + std::to_string(table_.columns().size() - 20) + " more";
+                .place = {.name = table_->file()}};
+    for (std::size_t i = 0; i < std::min<std::size_t>(table_->columns().size(), 20); ++i)
+      error.mend += (i == 0 ? "" : ", ") + quoted(table_->columns()[i]);
+    if (table_->columns().size() > 20) error.mend += " and " + std::to_string(table_->columns().size() - 20) + " more";
     return error;
   }
 
   /// A column that may be missing unless it is named.
   Result<std::optional<std::size_t>> column_if(const std::string& named, const char* usual) const {
-    if (named.empty()) return table_.column(usual);
+    if (named.empty()) return table_->column(usual);
     const auto found = column(named);
     if (!found) return found.error();
     return std::optional(*found);
@@ -119,20 +130,20 @@ class TrialReader {
     if (!observer) return observer.error();
     if (!answer) return answer.error();
     observer_ = *observer, answer_ = *answer;
-    for (const SizeColumn& each : columns_.sizes) {
+    sizes_.clear(), factors_.clear(), keep_.clear(), stated_.clear();
+    for (std::size_t i = 0; i < columns_.sizes.size(); ++i) {
+      const SizeColumn& each = columns_.sizes[i];
       const auto found = column(each.column.empty() ? each.name : each.column);
       if (!found) return found.error();
       sizes_.push_back(*found);
-      const std::string unit = each.unit.empty() ? unit_in_name(table_.columns()[*found]) : each.unit;
-      trials_.sizes.push_back({each.name, unit, {}});
+      const std::string unit = each.unit.empty() ? unit_in_name(table_->columns()[*found]) : each.unit;
+      if (!unit.empty()) trials_.sizes[i].unit = unit;
       stated_.push_back(!unit.empty());
     }
     for (const std::string& each : columns_.factors) {
       const auto found = column(each);
       if (!found) return found.error();
       factors_.push_back(*found);
-      factor_names_.emplace_back();
-      trials_.factors.push_back({each, {}, {}});
     }
     for (const Selection& each : columns_.keep) {
       const auto found = column(each.column);
@@ -145,44 +156,46 @@ class TrialReader {
     if (!trial) return trial.error();
     if (!device) return device.error();
     run_ = *run, trial_ = *trial, device_ = *device;
-    grade_ = table_.column("grade");
-    if (columns_.by_study) excluded_ = table_.column("excluded"), type_ = table_.column("trial_type");
+    grade_ = table_->column("grade");
+    if (columns_.by_study) excluded_ = table_->column("excluded"), type_ = table_->column("trial_type");
     return {};
   }
 
   void reserve() {
-    const std::size_t rows = table_.rows();
+    std::size_t rows = 0;
+    for (std::size_t i = 0; i < count_; ++i) rows += tables_[i].rows();
     trials_.observer.reserve(rows), trials_.run.reserve(rows), trials_.answer.reserve(rows), trials_.line.reserve(rows);
     for (SizeValues& each : trials_.sizes) each.values.reserve(rows);
     for (FactorValues& each : trials_.factors) each.values.reserve(rows);
-    if (trial_) seen_.reserve(rows);
+    seen_.reserve(rows);
+    trials_.file.reserve(rows);
   }
 
   void exclude(std::size_t row, const std::string& rule) {
     auto at = std::ranges::find(trials_.rules, rule);
     if (at == trials_.rules.end()) at = trials_.rules.insert(at, rule);
-    trials_.exclusions.push_back({table_.line(row), static_cast<std::size_t>(at - trials_.rules.begin())});
+    trials_.exclusions.push_back({trials_.files.size() - 1, table_->line(row), static_cast<std::size_t>(at - trials_.rules.begin())});
   }
 
   Result<> read_row(std::size_t row) {
     for (std::size_t i = 0; i < keep_.size(); ++i) {
       const Selection& each = columns_.keep[i];
-      if ((table_.cell(row, keep_[i]) == each.text) == each.is) continue;
+      if ((table_->cell(row, keep_[i]) == each.text) == each.is) continue;
       exclude(row, "only rows whose " + each.column + (each.is ? " is " : " is not ") + visible_text(each.text));
       return {};
     }
-    if (excluded_ && !is_missing(table_.cell(row, *excluded_))) {
-      exclude(row, visible_text(table_.cell(row, *excluded_)));
+    if (excluded_ && !is_missing(table_->cell(row, *excluded_))) {
+      exclude(row, visible_text(table_->cell(row, *excluded_)));
       return {};
     }
-    if (type_ && table_.cell(row, *type_) == "practice") {
+    if (type_ && table_->cell(row, *type_) == "practice") {
       exclude(row, "practice");
       return {};
     }
-    const std::string_view observer = table_.cell(row, observer_);
-    if (is_missing(observer)) return table_error(table_, row, "this row names no observer", "write an identifier");
+    const std::string_view observer = table_->cell(row, observer_);
+    if (is_missing(observer)) return table_error(*table_, row, "this row names no observer", "write an identifier");
     if (const auto once = require_once(row, observer); !once) return once;
-    const std::string_view answer_cell = table_.cell(row, answer_);
+    const std::string_view answer_cell = table_->cell(row, answer_);
     if (is_missing(answer_cell)) {
       exclude(row, "no answer");
       return {};
@@ -199,17 +212,18 @@ class TrialReader {
       trials_.sizes[i].values.push_back(*value);
     }
     for (std::size_t i = 0; i < factors_.size(); ++i) {
-      const std::string_view cell = table_.cell(row, factors_[i]);
+      const std::string_view cell = table_->cell(row, factors_[i]);
       if (is_missing(cell))
-        return table_error(table_, row, "the " + trials_.factors[i].name + " is missing", "leave the row out, or say it");
+        return table_error(*table_, row, "the " + trials_.factors[i].name + " is missing", "leave the row out, or say it");
       trials_.factors[i].values.push_back(factor_names_[i].number_of(cell));
     }
     if (const auto same = require_one_device(row); !same) return same;
-    trials_.simulated |= grade_ && table_.cell(row, *grade_) == "simulated";
+    trials_.simulated |= grade_ && table_->cell(row, *grade_) == "simulated";
     trials_.observer.push_back(observers_.number_of(observer));
-    trials_.run.push_back(run_ ? runs_.number_of(table_.cell(row, *run_)) : 0);
+    trials_.run.push_back(run_ ? runs_.number_of(table_->cell(row, *run_)) : 0);
     trials_.answer.push_back(*answer);
-    trials_.line.push_back(table_.line(row));
+    trials_.file.push_back(static_cast<std::uint32_t>(trials_.files.size() - 1));
+    trials_.line.push_back(table_->line(row));
     return {};
   }
 
@@ -218,15 +232,15 @@ class TrialReader {
     if (!trial_) return {};
     key_.assign(observer);
     key_ += '\n';
-    if (run_) key_ += table_.cell(row, *run_);
+    if (run_) key_ += table_->cell(row, *run_);
     key_ += '\n';
-    key_ += table_.cell(row, *trial_);
-    if (is_missing(table_.cell(row, *trial_))) return {};
-    const auto [at, is_new] = seen_.try_emplace(key_, table_.line(row));
+    key_ += table_->cell(row, *trial_);
+    if (is_missing(table_->cell(row, *trial_))) return {};
+    const auto [at, is_new] = seen_.try_emplace(key_, table_->line(row));
     if (is_new) return {};
-    return table_error(table_, row,
-                       "trial " + visible_text(table_.cell(row, *trial_)) + " of " + visible_text(observer) +
-                           (run_ ? " in run " + visible_text(table_.cell(row, *run_)) : "") +
+    return table_error(*table_, row,
+                       "trial " + visible_text(table_->cell(row, *trial_)) + " of " + visible_text(observer) +
+                           (run_ ? " in run " + visible_text(table_->cell(row, *run_)) : "") +
                            " is there twice: first in row " + std::to_string(at->second),
                        "keep one of them, or name the column of the run");
   }
@@ -237,7 +251,7 @@ class TrialReader {
     if (!comma && !point) return {};
     char& known = marks_.try_emplace(column, comma ? ',' : '.').first->second;
     if (known == (comma ? ',' : '.')) return {};
-    return table_error(table_, row,
+    return table_error(*table_, row,
                        "a decimal " + std::string(comma ? "comma" : "point") + " in a column with decimal " +
                            (comma ? "points" : "commas"),
                        "write all numbers of a column alike", cell);
@@ -247,32 +261,32 @@ class TrialReader {
     if (columns_.answers == Answers::labels) return static_cast<double>(labels_.number_of(cell));
     if (columns_.answers == Answers::choices) {
       if (const auto choice = choice_in(cell)) return *choice;
-      return table_error(table_, row, "expected 1 or 0, yes or no, correct or incorrect, different or same, found " + quoted(cell),
+      return table_error(*table_, row, "expected 1 or 0, yes or no, correct or incorrect, different or same, found " + quoted(cell),
                          "name the column that has them");
     }
     const auto value = number_in(cell);
-    if (!value) return table_error(table_, row, "expected a number for an answer, found " + quoted(cell), "write n/a for no answer");
+    if (!value) return table_error(*table_, row, "expected a number for an answer, found " + quoted(cell), "write n/a for no answer");
     if (const auto alike = require_one_mark(row, answer_, cell); !alike) return alike.error();
     if (columns_.answers == Answers::ratings && !(*value >= 0 && *value <= 100))
-      return table_error(table_, row, "expected a rating from 0 to 100, found " + quoted(cell), "correct it, or leave the row out");
+      return table_error(*table_, row, "expected a rating from 0 to 100, found " + quoted(cell), "correct it, or leave the row out");
     if (columns_.answers == Answers::magnitudes && *value <= 0 && !columns_.leave_out_nonpositive)
-      return table_error(table_, row, "expected a magnitude above zero, found " + quoted(cell),
+      return table_error(*table_, row, "expected a magnitude above zero, found " + quoted(cell),
                          "a magnitude has a logarithm; leave such answers out by rule, which the report then states");
     return *value;
   }
 
   Result<double> size_in(std::size_t row, std::size_t i) {
-    const std::string_view cell = table_.cell(row, sizes_[i]);
+    const std::string_view cell = table_->cell(row, sizes_[i]);
     SizeValues& size = trials_.sizes[i];
     if (is_missing(cell))
-      return table_error(table_, row, "the " + size.name + " is missing", "leave the row out by rule, or say it");
+      return table_error(*table_, row, "the " + size.name + " is missing", "leave the row out by rule, or say it");
     const auto measure = measure_in(cell);
-    if (!measure) return table_error(table_, row, "expected a number for the " + size.name + ", found " + quoted(cell), "");
+    if (!measure) return table_error(*table_, row, "expected a number for the " + size.name + ", found " + quoted(cell), "");
     if (const auto alike = require_one_mark(row, sizes_[i], cell); !alike) return alike.error();
     // A unit that the column's name or the analyst states need not be repeated. Otherwise the first row decides.
     if (!stated_[i] && size.values.empty()) size.unit = measure->unit;
     if (measure->unit != size.unit && !(stated_[i] && measure->unit.empty()))
-      return table_error(table_, row,
+      return table_error(*table_, row,
                          "two units for the " + size.name + ": " + (size.unit.empty() ? "none" : quoted(size.unit)) +
                              " before and " + (measure->unit.empty() ? "none" : quoted(measure->unit)) + " here",
                          "convert the column to one unit");
@@ -281,14 +295,14 @@ class TrialReader {
 
   Result<> require_one_device(std::size_t row) {
     if (!device_) return {};
-    const std::string_view cell = table_.cell(row, *device_);
+    const std::string_view cell = table_->cell(row, *device_);
     if (trials_.size() == 0) {
       trials_.device = cell;
-      device_line_ = table_.line(row);
+      device_line_ = table_->line(row);
       return {};
     }
     if (cell == trials_.device) return {};
-    return table_error(table_, row,
+    return table_error(*table_, row,
                        "the device is " + quoted(cell) + " here and " + quoted(trials_.device) + " in row " +
                            std::to_string(device_line_),
                        "analyse each device alone: keep the rows of one");
@@ -316,7 +330,7 @@ class TrialReader {
       return Error{.code = Code::malformed_value,
                    .sentence = "the " + name + " is " + value + " in all " + std::to_string(trials_.size()) + " trials",
                    .mend = "what does not vary has no effect that could be estimated: leave it out of the analysis",
-                   .place = {.name = table_.file()}};
+                   .place = {.name = table_->file()}};
     };
     for (const SizeValues& each : trials_.sizes) {
       const auto [low, high] = std::ranges::minmax(each.values);
@@ -368,7 +382,9 @@ class TrialReader {
       trials_.notes.push_back(std::to_string(incomplete) + " observers lack answers to some stimuli: " + first);
   }
 
-  const Table& table_;
+  const Table* tables_;
+  std::size_t count_;
+  const Table* table_ = nullptr;
   const TrialColumns& columns_;
   Trials trials_;
   std::size_t observer_ = 0, answer_ = 0, device_line_ = 0;
@@ -395,7 +411,10 @@ const FactorValues* Trials::factor_named(const std::string& name) const {
 }
 
 Result<Trials> read_trials(const Table& table, const TrialColumns& columns) {
-  return TrialReader(table, columns).read();
+  return TrialReader(&table, 1, columns).read();
+}
+Result<Trials> read_trials(const std::vector<Table>& tables, const TrialColumns& columns) {
+  return TrialReader(tables.data(), tables.size(), columns).read();
 }
 
 }  // namespace wale::analysis

@@ -47,6 +47,7 @@ struct TrialColumns {
 
 /// A row that is not analysed, and why.
 struct Exclusion {
+  std::size_t file = 0;  ///< index in `Trials::files`
   std::size_t line = 0;  ///< of the file, from 1
   std::size_t rule = 0;  ///< index in `Trials::rules`
 };
@@ -66,7 +67,7 @@ struct FactorValues {
 
 /// The trials of a study that are analysed, in the order of the file. All columns have one entry for each trial.
 struct Trials {
-  std::string file;
+  std::vector<std::string> files;
   std::vector<std::string> observers;    ///< identifiers, in the order in which they appear
   std::vector<std::uint32_t> observer;   ///< index in `observers`
   std::vector<std::uint32_t> run;        ///< index in `runs`; all 0 if the table has none
@@ -77,6 +78,7 @@ struct Trials {
   std::vector<FactorValues> factors;
   std::vector<std::uint32_t> stimulus;   ///< trials with the same sizes and factors have the same number
   std::size_t stimuli = 0;
+  std::vector<std::uint32_t> file;       ///< index in `files`
   std::vector<std::size_t> line;         ///< of the file, from 1
   bool simulated = false;                ///< a column `grade` says so of at least one trial
   std::string device;                    ///< the one device of all trials; empty if the table does not say
@@ -85,6 +87,8 @@ struct Trials {
   std::vector<std::string> notes;        ///< what a reader of the results should know: mended text, missing trials
 
   std::size_t size() const { return answer.size(); }
+  /// Where a trial stands.
+  Place place(std::size_t trial) const { return {.name = files[file[trial]], .number = line[trial]}; }
   const SizeValues* size_named(const std::string& name) const;
   const FactorValues* factor_named(const std::string& name) const;
 };
@@ -96,5 +100,7 @@ struct Trials {
 /// outside 0 to 100, a size that is missing, two units in one column, decimal commas beside decimal points, a row that is
 /// there twice, trials on several devices, a size or factor that is the same in all trials, no trials left.
 Result<Trials> read_trials(const Table& table, const TrialColumns& columns);
+/// The same of several tables, such as one for each participant, in their order.
+Result<Trials> read_trials(const std::vector<Table>& tables, const TrialColumns& columns);
 
 }  // namespace wale::analysis
