@@ -83,8 +83,8 @@ void mix(AssembledMaterial& a, const AssembledMaterial& b, double share, Span ma
   }
   for (auto& percept : a.percepts) {
     const auto& other = *std::ranges::find(b.percepts, percept.name, &AskedPercept::name);
-    if (percept.level != other.level) percept.made_at = made_at;
-    if (percept.level != other.level || percept.evidence != other.evidence) percept.evidence.reset();
+    if (percept.level != other.level || percept.evidence != other.evidence)
+      percept.made_at = made_at, percept.evidence.reset();
     percept.level += share * (other.level - percept.level);
     percept.blended = percept.blended && other.blended;
   }

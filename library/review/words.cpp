@@ -96,7 +96,8 @@ void tell_layers(const MaterialDecl& node, const CheckedMaterial& checked, const
       report(diagnostics, Code::simulated_figures, asked.place(),
              fmt::format("the {} of `{}` is simulated: nobody has felt it", asked.name, name),
              "choose a map that people were measured for, as in `roughness 0.5, by minsky1995.figure19`");
-    if (!asked.evidence && !asked.blended)
+    // A level that follows from those of other materials is as well known as they are.
+    if (!asked.evidence && !asked.blended && !asked.made_at)
       report(diagnostics, Code::incomplete_material, asked.place(),
              fmt::format("`{}` does not say how well its {} is known", name, asked.name),
              "write it behind the level: `measured`, `published` with a `source`, or `estimated`");
