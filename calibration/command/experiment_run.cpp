@@ -85,7 +85,11 @@ Result<BegunSession> begin_anew(const ExperimentRunOptions& options, const Ready
       error.mend = "`--resume` goes on in it if it was broken off; otherwise give another name with --log";
     return error;
   }
-  if (const auto written = log_design(*log, ready, begin.seed); !written) return written.error();
+  if (const auto written = log_design(*log, ready, begin.seed); !written) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);  // nothing has been felt or answered yet
+    return written.error();
+  }
   if (!options.observer.empty())
     if (const auto noted = log->append(SessionNote{"observer " + options.observer}); !noted) return noted.error();
   return BegunSession{*std::move(log), TrialSession(*ready.experiment, begin.seed), begin.seed};

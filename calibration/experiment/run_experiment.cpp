@@ -349,7 +349,7 @@ Result<> log_design(SessionLog& log, const ReadyExperiment& ready, std::uint32_t
                  {"method", trial_method_names[static_cast<std::size_t>(experiment.method)]},
                  {"questions", questions},
                  {"closing", closing},
-                 {"seconds", experiment.seconds},
+                 {"presentation_seconds", experiment.seconds},
                  {"practice", experiment.practice}};
   if (!is_adaptive(experiment))
     design["block"] = experiment.task == TrialTask::adjustment ? tracks_of(experiment).size() : experiment.stimuli.size();
