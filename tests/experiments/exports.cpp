@@ -77,6 +77,15 @@ TEST(TrialTables, AreReadBackAsTheyWere) {
   EXPECT_EQ(*again, table);
 }
 
+/// Nobody waits for a planted observer, so its times would mean nothing.
+TEST(TrialTables, OfPlantedObserversHaveNoTimes) {
+  const std::string note =
+      "{\"line\":15,\"time\":\"2026-11-24T20:31:20.000Z\",\"seconds\":20.0,\"event\":\"note\",\"text\":\"observer planted\"}\n";
+  const TrialTable table = table_of(log_text + note);
+  EXPECT_EQ(table.rows.at(0).at(*table.column("response_time")), "");
+  EXPECT_EQ(table_of(log_text).rows.at(0).at(*table.column("response_time")), "4");
+}
+
 TEST(TrialTables, MalformedOnesAreToldWithFileAndLine) {
   const std::string sidecar = R"({"TaskName":"t"})";
   const auto refused = [&](const std::string& table, const std::string& json, std::uint64_t line, const std::string& sentence) {
