@@ -85,9 +85,13 @@ Result<BegunSession> begin_anew(const ExperimentRunOptions& options, const Ready
       error.mend = "`--resume` goes on in it if it was broken off; otherwise give another name with --log";
     return error;
   }
-  if (const auto written = log_design(*log, ready, begin.seed); !written) return written.error();
+  if (const auto written = log_design(*log, ready, begin.seed); !written) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);  // nothing has been felt or answered yet
+    return written.error();
+  }
   if (!options.observer.empty())
-    if (const auto noted = log->append(SessionNote{"observer " + options.observer}); !noted) return noted.error();
+    if (const auto noted = log->append(SessionNote{observer_note + options.observer}); !noted) return noted.error();
   return BegunSession{*std::move(log), TrialSession(*ready.experiment, begin.seed), begin.seed};
 }
 
@@ -109,6 +113,12 @@ Result<BegunSession> go_on(const ExperimentRunOptions& options, const ReadyExper
   if (begin.grade != grade) return differs("grade", begin.grade, grade);
   if (options.seed && *options.seed != begin.seed)
     return differs("seed", std::to_string(begin.seed), std::to_string(*options.seed));
+  std::string observer;
+  for (const SessionEntry& each : record.entries)
+    if (const auto* note = std::get_if<SessionNote>(&each.event); note && note->text.starts_with(observer_note))
+      observer = note->text.substr(std::char_traits<char>::length(observer_note));
+  if (observer != options.observer)
+    return differs("observer", observer.empty() ? "none" : observer, options.observer.empty() ? "none" : options.observer);
   const auto how = may_resume(*ready.experiment, resumed->gap);
   if (!how) {
     Error error = how.error();
@@ -192,7 +202,7 @@ int experiment_run(const ExperimentRunOptions& options) {
   std::unique_ptr<Participant> participant;
   if (is_planted) participant = std::make_unique<PlantedObserver>(experiment, **law, begun->seed);
   else participant = std::make_unique<TerminalParticipant>(std::cin, std::cerr, isatty(fileno(stdin)));
-  const auto end = run_experiment(*ready, begun->session, begun->log, presenter, *participant, options.resume);
+  const auto end = run_experiment(*ready, begun->session, begun->log, presenter, *participant);
   if (!end) return refuse(end.error());
   if (end->stopped) {
     Error error = *end->stopped;

@@ -41,8 +41,8 @@ class Run {
         presenter_(presenter),
         participant_(participant) {}
 
-  Result<> all(bool resumes) {
-    if (const auto begun = begin(resumes); !begun) return begun;
+  Result<> all() {
+    if (const auto begun = begin(); !begun) return begun;
     rested_ = steady_seconds();
     if (experiment_.task == TrialTask::sorting) {
       while (const auto sort = session_.next_sort())
@@ -67,7 +67,7 @@ class Run {
     return line ? Result<>() : Result<>(line.error());
   }
 
-  Result<> begin(bool resumes) {
+  Result<> begin() {
     if (experiment_.masking_required || !experiment_.masking.empty())
       participant_.tell(experiment_.masking.empty()
                             ? "This experiment needs masking noise, and names no sound: play some in headphones now."
@@ -78,7 +78,7 @@ class Run {
       const auto read = participant_.say({.kind = Question::Kind::page, .says = page});
       if (!read) return read.error();
     }
-    if (experiment_.consent.empty() || resumes) return {};
+    if (experiment_.consent.empty() || session_.has_consent()) return {};
     for (;;) {
       const auto said = participant_.say({.kind = Question::Kind::consent, .says = experiment_.consent});
       if (!said) return said.error();
@@ -349,7 +349,7 @@ Result<> log_design(SessionLog& log, const ReadyExperiment& ready, std::uint32_t
                  {"method", trial_method_names[static_cast<std::size_t>(experiment.method)]},
                  {"questions", questions},
                  {"closing", closing},
-                 {"seconds", experiment.seconds},
+                 {"presentation_seconds", experiment.seconds},
                  {"practice", experiment.practice}};
   if (!is_adaptive(experiment))
     design["block"] = experiment.task == TrialTask::adjustment ? tracks_of(experiment).size() : experiment.stimuli.size();
@@ -439,9 +439,9 @@ Result<std::string> may_resume(const CheckedExperiment& experiment, double gap) 
 }
 
 Result<ExperimentEnd> run_experiment(const ReadyExperiment& ready, TrialSession& session, SessionLog& log,
-                                     Presenter& presenter, Participant& participant, bool resumes) {
+                                     Presenter& presenter, Participant& participant) {
   Run run(ready, session, log, presenter, participant);
-  const auto done = run.all(resumes);
+  const auto done = run.all();
   ExperimentEnd end;
   (void)session.next_trial();
   end.trials = session.answered();

@@ -16,6 +16,9 @@ struct ReadyExperiment {
   std::string text;  ///< the design as written, with the materials of its file
 };
 
+/// What the note in a log begins with that says which planted observer answers, before its laws.
+inline constexpr const char* observer_note = "observer ";
+
 /// Writes what a log needs besides its first line, so that it alone tells the study: the design, its stimuli with their
 /// levels and programs, and the order. Error: `unwritable_file`.
 Result<> log_design(SessionLog& log, const ReadyExperiment& ready, std::uint32_t seed);
@@ -36,6 +39,6 @@ struct ExperimentEnd {
 /// Runs the experiment to its end, or to that of the participant's patience. Each line is on the disk before the next
 /// presentation. `session` has taken all lines of the log so far. Errors: those of the log and of the presenter.
 Result<ExperimentEnd> run_experiment(const ReadyExperiment& ready, TrialSession& session, SessionLog& log,
-                                     Presenter& presenter, Participant& participant, bool resumes);
+                                     Presenter& presenter, Participant& participant);
 
 }  // namespace wale

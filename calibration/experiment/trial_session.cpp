@@ -153,6 +153,11 @@ std::vector<Asked> TrialSession::open_closing() const {
   return open;
 }
 
+bool TrialSession::has_consent() const {
+  const auto found = given_after_.find("consent");
+  return found != given_after_.end() && found->second.answer == "yes";
+}
+
 std::optional<Sort> TrialSession::next_sort() const {
   if (experiment_.task != TrialTask::sorting) return std::nullopt;
   const std::size_t count = experiment_.groups.empty() ? 1 : experiment_.groups.size();

@@ -47,6 +47,9 @@ class TrialSession {
   std::size_t answered() const { return answered_; }
   std::size_t known_trials() const { return trials_.size(); }
 
+  /// Whether the participant has agreed to what the experiment asks consent for.
+  bool has_consent() const;
+
   /// The lines of the answers to the latest trial that has any, to take them back; empty if none has.
   std::vector<std::uint64_t> latest_answers() const;
   /// The lines of all answers of a block; 0: of practice.

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "calibration/experiment/run_experiment.hpp"
+
 namespace wale {
 namespace {
 
@@ -109,6 +111,8 @@ class TableReader {
       if (!trials_.empty() && trials_.rbegin()->second.answers.empty()) ++trials_.rbegin()->second.resumed;
     } else if (const auto* groups = std::get_if<SessionGroups>(&entry.event)) {
       sorts_.push_back(*groups);
+    } else if (const auto* note = std::get_if<SessionNote>(&entry.event)) {
+      is_planted_ = is_planted_ || note->text.starts_with(observer_note);
     }
     seconds_ = std::max(seconds_, entry.seconds);
   }
@@ -316,7 +320,7 @@ class TableReader {
   /// Empty for a planted observer, who answers at once.
   std::string time_of(const TrialFacts& trial) const {
     const auto found = trial.answers.find("response");
-    if (found == trial.answers.end() || table_.grade.empty()) return {};
+    if (found == trial.answers.end() || is_planted_) return {};
     const double seconds = found->second.second - trial.last_shown;
     return number_text(std::max(0.0, std::round(seconds * 1000) / 1000));
   }
@@ -352,6 +356,7 @@ class TableReader {
   std::map<std::uint64_t, std::pair<std::uint32_t, std::string>> lines_;
   std::vector<SessionGroups> sorts_;
   std::optional<Error> problem_;
+  bool is_planted_ = false;
 };
 
 }  // namespace

@@ -140,6 +140,7 @@ class ExperimentChecker {
 
   /// Reads `over amplitude`.
   void over(const SettingItem& item) {
+    names_over_ = true;
     const Word& word = item.words.back();
     std::vector<std::string> names;
     for (const ExperimentFactor& each : made_.factors) names.push_back(each.name);
@@ -168,6 +169,13 @@ class ExperimentChecker {
     if (!setting) return;
     const auto method = named(setting->items.front(), words_in(trial_method_names), "a method");
     if (!method) return;
+    const bool forced = made_.task == TrialTask::two_interval || made_.task == TrialTask::one_interval ||
+                        made_.task == TrialTask::same_different;
+    if (!forced)
+      return reader_.report(Code::unknown_setting, setting->span,
+                            fmt::format("`{}` has no right and wrong answers that a method could go by",
+                                        trial_task_names[static_cast<std::size_t>(made_.task)]),
+                            "leave `method` out, or take two_interval, one_interval or same_different");
     made_.method = static_cast<TrialMethod>(*method);
     for (std::size_t i = 1; i < setting->items.size(); ++i) {
       const SettingItem& item = setting->items[i];
@@ -189,14 +197,7 @@ class ExperimentChecker {
                        "up_down takes `over FACTOR`, `up 1`, `down 3`, `reversals 8` and `trials 60`; quest_plus `over "
                        "FACTOR` and `trials 40`");
     }
-    const bool forced = made_.task == TrialTask::two_interval || made_.task == TrialTask::one_interval ||
-                        made_.task == TrialTask::same_different;
-    if (!forced)
-      reader_.report(Code::unknown_setting, setting->span,
-                     fmt::format("`{}` has no right and wrong answers that a method could go by",
-                                 trial_task_names[static_cast<std::size_t>(made_.task)]),
-                     "leave `method` out, or take two_interval, one_interval or same_different");
-    else if (made_.method != TrialMethod::constant_stimuli && !made_.over)
+    if (made_.method != TrialMethod::constant_stimuli && !made_.over && !names_over_)
       reader_.report(Code::missing_setting, setting->span, "an adaptive method moves along a factor",
                      "name it: `method up_down, over amplitude`");
   }
@@ -362,7 +363,7 @@ class ExperimentChecker {
     if (!compares && standard)
       reader_.report(Code::unknown_setting, standard->span, fmt::format("`{}` compares with no standard", task),
                      "leave `standard` out, or make it a `stimulus`");
-    if (made_.task == TrialTask::adjustment && !made_.over)
+    if (made_.task == TrialTask::adjustment && !made_.over && !names_over_)
       reader_.report(Code::missing_setting, *task_span_, "an adjustment moves along a factor",
                      "name it: `task adjustment, over amplitude`");
     if (made_.task == TrialTask::sorting) {
@@ -399,6 +400,7 @@ class ExperimentChecker {
   CheckedExperiment made_;
   std::optional<Span> task_span_;
   std::map<std::string, Span> question_names_;
+  bool names_over_ = false;  ///< a factor to move along is named, rightly or not
 };
 
 }  // namespace

@@ -342,19 +342,22 @@ bool ExperimentStimuli::cross(const Written& stimulus, const std::optional<Writt
 }
 
 void ExperimentStimuli::read() {
+  const std::size_t errors_before = surroundings_.diagnostics.error_count();
   for (const Setting* setting : reader_.settings("factor")) read_factor(*setting);
   used_.assign(levels_.size(), false);
-  const std::size_t errors_before = surroundings_.diagnostics.error_count();
+  const Setting* compared = reader_.setting("standard");
+  const auto all = reader_.settings("stimulus");
+  if (all.empty()) reader_.required("stimulus", "bench(amplitude: amplitude)");
+  // Without a factor, stimuli would be said to name something unknown.
+  if (surroundings_.diagnostics.error_count() > errors_before) return;
   std::optional<Written> standard;
-  if (const Setting* setting = reader_.setting("standard")) {
+  if (const Setting* setting = compared) {
     if (setting->items.size() == 1)
       standard = written(setting->items.front(), false);
     else
       reader_.report(Code::wrong_type, setting->span, "an experiment has one standard",
                      "let it depend on a factor: `standard bench(amplitude: reference)`");
   }
-  const auto all = reader_.settings("stimulus");
-  if (all.empty()) reader_.required("stimulus", "bench(amplitude: amplitude)");
   for (const Setting* setting : all)
     for (const SettingItem& item : setting->items) {
       const auto made = written(item, true);

@@ -147,7 +147,7 @@ void RecordReader::report_keys() {
   for (const auto& setting : record.settings) {
     if (read_.contains(&setting)) continue;
     report(Code::unknown_setting, setting.key.span,
-           fmt::format("a {} has no setting `{}`", record.keyword.text, setting.key.text),
+           fmt::format("{} has no setting `{}`", with_article(std::string(record.keyword.text)), setting.key.text),
            did_you_mean(setting.key.span, setting.key.text, absent, fmt::format("it has: {}", fmt::join(known, ", "))));
     if (const auto meant = nearest_spelling(setting.key.text, absent)) missing_.erase(*meant);
   }

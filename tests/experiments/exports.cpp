@@ -16,7 +16,7 @@ namespace {
 
 /// A log as a session leaves it, line by line.
 const std::string log_text = R"({"line":1,"time":"2026-11-24T20:31:00.000Z","seconds":0.0,"event":"begin","format":1,"participant":"S48","seed":7,"device":"sandpaper","file":"t.wale","versions":{"wale":"0.1.0"},"experiment":"my_test","grade":"simulated"}
-{"line":2,"time":"2026-11-24T20:31:00.100Z","seconds":0.1,"event":"design","name":"my_test","task":"magnitude_estimation","method":"constant_stimuli","questions":[{"name":"response","says":"How rough?"},{"name":"sure","says":"How sure?"}],"closing":[],"seconds":3.0,"practice":1,"block":2,"text":"wale 1"}
+{"line":2,"time":"2026-11-24T20:31:00.100Z","seconds":0.1,"event":"design","name":"my_test","task":"magnitude_estimation","method":"constant_stimuli","questions":[{"name":"response","says":"How rough?"},{"name":"sure","says":"How sure?"}],"closing":[],"presentation_seconds":3.0,"practice":1,"block":2,"text":"wale 1"}
 {"line":3,"time":"2026-11-24T20:31:00.110Z","seconds":0.11,"event":"stimulus","name":"weak","levels":{"Amplitude":{"value":0.2,"unit":"N","text":"0.2 N"},"waveform":{"text":"sine"}}}
 {"line":4,"time":"2026-11-24T20:31:00.120Z","seconds":0.12,"event":"stimulus","name":"strong","levels":{"Amplitude":{"value":2.0,"unit":"N","text":"2 N"},"waveform":{"text":"sine"}}}
 {"line":5,"time":"2026-11-24T20:31:01.000Z","seconds":1.0,"event":"shown","what":"stimulus","name":"strong","number":1}
@@ -75,6 +75,15 @@ TEST(TrialTables, AreReadBackAsTheyWere) {
   const auto again = read_beh(windows, files->at(1).text, "x");
   ASSERT_TRUE(again);
   EXPECT_EQ(*again, table);
+}
+
+/// Nobody waits for a planted observer, so its times would mean nothing.
+TEST(TrialTables, OfPlantedObserversHaveNoTimes) {
+  const std::string note =
+      "{\"line\":15,\"time\":\"2026-11-24T20:31:20.000Z\",\"seconds\":20.0,\"event\":\"note\",\"text\":\"observer planted\"}\n";
+  const TrialTable table = table_of(log_text + note);
+  EXPECT_EQ(table.rows.at(0).at(*table.column("response_time")), "");
+  EXPECT_EQ(table_of(log_text).rows.at(0).at(*table.column("response_time")), "4");
 }
 
 TEST(TrialTables, MalformedOnesAreToldWithFileAndLine) {

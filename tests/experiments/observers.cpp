@@ -82,7 +82,7 @@ TEST(PlantedObservers, FeelExecutedPrograms) {
                                                   .versions = {}, .experiment = "test", .grade = "simulated"});
     EXPECT_TRUE(log_design(*log, ready, 7));
     TrialSession session(*ready.experiment, 7);
-    const auto end = run_experiment(ready, session, *log, presenter, observer, false);
+    const auto end = run_experiment(ready, session, *log, presenter, observer);
     EXPECT_TRUE(end && !end->stopped) << (end ? "" : end.error().sentence);
     const auto table = trial_table(*open_session_log(folder / path), path);
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;

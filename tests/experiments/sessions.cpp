@@ -37,7 +37,7 @@ Result<ExperimentEnd> run_on(const ReadyExperiment& ready, const std::string& pa
     auto log = SessionLog::create(path, begin_of(ready.experiment->name, seed));
     if (!log) return log.error();
     if (const auto written = log_design(*log, ready, seed); !written) return written.error();
-    return run_experiment(ready, session, *log, presenter, participant, false);
+    return run_experiment(ready, session, *log, presenter, participant);
   }
   auto resumed = SessionLog::resume(path);
   if (!resumed) return resumed.error();
@@ -45,7 +45,7 @@ Result<ExperimentEnd> run_on(const ReadyExperiment& ready, const std::string& pa
   for (const auto& each : resumed->record.entries) session.take(each);
   const auto line = resumed->log.append(SessionResumed{resumed->gap, "resume"});
   if (!line) return line.error();
-  return run_experiment(ready, session, resumed->log, presenter, participant, true);
+  return run_experiment(ready, session, resumed->log, presenter, participant);
 }
 
 std::vector<SessionAnswer> answers_in(const std::string& path) {
@@ -172,6 +172,26 @@ TEST(Sessions, ThatEndedCannotGoOnAndOthersDo) {
   const auto again = run_on(ready, folder / "a.trials", third, {0.2, 0.8});
   ASSERT_FALSE(again);
   EXPECT_EQ(again.error().code, Code::wrong_moment);
+}
+
+TEST(Sessions, NeedConsentAlsoWhenTheyGoOn) {
+  const TemporaryFolder folder;
+  const Design made(design("stimulus smooth\ntask rating\nconsent \"You may stop.\""));
+  const auto ready = made.ready();
+  Scripted refusing({"perhaps", "no"});
+  const auto refused = run_on(ready, folder / "a.trials", refusing, {1});
+  ASSERT_TRUE(refused && refused->stopped);
+  EXPECT_EQ(refusing.refusals.size(), 1u);
+  EXPECT_TRUE(refusing.trials.empty());
+  Scripted again({"no"});
+  ASSERT_TRUE(run_on(ready, folder / "a.trials", again, {1}));
+  EXPECT_TRUE(again.trials.empty()) << "nothing is presented to who has not agreed";
+  Scripted agreeing({"yes"});
+  ASSERT_TRUE(run_on(ready, folder / "a.trials", agreeing, {1}));
+  EXPECT_EQ(agreeing.trials.size(), 1u);
+  Scripted agreed({"50"});
+  const auto end = run_on(ready, folder / "a.trials", agreed, {1});
+  EXPECT_TRUE(end && !end->stopped) << "who has agreed is not asked again";
 }
 
 TEST(Sessions, OfAnotherDesignAreNotGoneOnWith) {
