@@ -238,8 +238,8 @@ Run declare_experiment_run(CLI::App& verb) {
   offer_trusted_files(verb, options->trusted);
   propose(must_say(verb.add_option("--observer", options->observer,
                                    "a simulated participant on a simulated device, in virtual time: planted, or with "
-                                   "laws of its own, as in planted:exponent=0.55,threshold=0.05,noise=0.2,waveform=0,"
-                                   "period=0,carry=0,lapse=0,modulus=10,feels=interaction")
+                                   "laws of its own (exponent, threshold, noise, waveform, period, carry, lapse, modulus; "
+                                   "feels=interaction or actuator), as in planted:exponent=0.55,noise=0.2")
                        ->type_name("OBSERVER"),
                    "planted, or planted: and its laws"),
           {"planted"});

@@ -41,7 +41,7 @@ class BodyReader {
                      const auto& name = node.callee.text;
                      if (!names_.functions.contains(name) && !is_builtin_function(name) && !is_argument(name) &&
                          !names_.constants.contains(name))
-                       unknown_function(node.callee);
+                       unknown_function(node.callee, node.arguments.count);
                      for (const auto& argument : tree_.arguments(node)) read(argument.value);
                    },
                    [&](const Conditional& node) {
@@ -88,10 +88,9 @@ class BodyReader {
     report(word, Code::unknown_unit, fmt::format("nothing declares a unit `{}`", word.text),
            unit_mend(word, names_, surroundings_));
   }
-  void unknown_function(const Word& word) {
+  void unknown_function(const Word& word, std::size_t arguments) {
     if (names_.private_names.contains(word.text) || surroundings_.diagnostics.is_full()) return;
-    auto known = names_.functions.spellings();
-    for (const auto& builtin : builtins()) known.emplace_back(builtin.name);
+    const auto known = functions_that_take(names_, arguments);
     const auto ours = instead_of_function(word.text);
     report(word, Code::unknown_name, fmt::format("no function is called `{}`", word.text),
            ours ? Advice(std::string(*ours))

@@ -155,6 +155,18 @@ std::optional<Value> private_name(ExpressionReading& reading, const Word& word) 
           .see(found->second, "declared here, without `export`"));
 }
 
+std::vector<std::string> functions_that_take(const Declarations& names, std::size_t arguments) {
+  std::vector<std::string> all = names.functions.spellings();
+  std::erase_if(all, [&](const std::string& name) {
+    const auto* known = names.functions.find(name);
+    return known && known->node && known->node->parameters.size() < arguments;
+  });
+  all.emplace_back("curve");
+  for (const Builtin& builtin : builtins())
+    if (builtin.formals.size() >= arguments) all.emplace_back(builtin.name);
+  return all;
+}
+
 Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* scope, Sought sought,
                      Advice otherwise, std::size_t arguments) {
   // A function's body is read at each of its calls, but a misspelt word in it is looked up only once.
@@ -164,13 +176,7 @@ Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* 
   if (surroundings.diagnostics.is_full()) return otherwise;  // the advice would not be shown
   std::vector<std::string> candidates;
   if (sought == Sought::function) {
-    candidates = reading.names->functions.spellings();
-    std::erase_if(candidates, [&](const std::string& name) {
-      const auto* known = reading.names->functions.find(name);
-      return known && known->node && known->node->parameters.size() < arguments;
-    });
-    candidates.emplace_back("curve");
-    for (const auto& builtin : builtins()) candidates.emplace_back(builtin.name);
+    candidates = functions_that_take(*reading.names, arguments);
   } else {
     if (scope) candidates = scope->spellings();
     if (scope && scope->hand)

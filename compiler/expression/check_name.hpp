@@ -26,9 +26,13 @@ std::optional<Value> private_name(ExpressionReading& reading, const Word& word);
 [[gnu::cold]] std::optional<Advice> import_mend(const Surroundings& surroundings, std::string_view name,
                                                 std::initializer_list<std::string_view> kinds);
 
+/// The names of all functions that can be called with so many arguments: one that takes fewer was not meant by whoever
+/// misspelt its name.
+[[gnu::cold]] std::vector<std::string> functions_that_take(const Declarations& names, std::size_t arguments);
+
 enum class Sought { value, function };
 /// The advice for an unknown name: "did you mean …", or the import that declares it, or else `otherwise`. `scope` may
-/// be null. A function of a file that takes fewer than so many arguments was not meant.
+/// be null. `arguments` are those that a function is called with.
 [[gnu::cold]] Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* scope, Sought sought,
                                    Advice otherwise, std::size_t arguments = 0);
 

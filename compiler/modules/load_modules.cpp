@@ -306,7 +306,9 @@ class ModuleLoader {
     const auto is_own = [&](const NearMaterial& each) {
       return each.material->module == module.name || module.declarations.materials.contains(each.material->name);
     };
-    for (NearMaterial& each : nearest_materials(index, word.text)) {
+    // More than are told, since some are hidden or known already.
+    constexpr std::size_t most_looked_at = 20;
+    for (NearMaterial& each : nearest_materials(index, word.text, most_looked_at)) {
       const auto same = [&](const NearMaterial& other) { return other.material->name == each.material->name; };
       if (std::ranges::none_of(near, same) && each.material->origin != Origin::hidden) near.push_back(std::move(each));
     }

@@ -95,7 +95,8 @@ void tell_layers(const MaterialDecl& node, const CheckedMaterial& checked, const
     if (asked.evidence == Evidence::simulated || rests_on_simulation(asked, declarations))
       report(diagnostics, Code::simulated_figures, asked.place(),
              fmt::format("the {} of `{}` is simulated: nobody has felt it", asked.name, name),
-             "choose a map that people were measured for, as in `roughness 0.5, by minsky1995.figure19`");
+             asked.by.empty() ? "ask people for it, and say `measured` or `estimated`"
+                              : "leave out `by`: then a map is taken that people were measured for");
     // A level that follows from those of other materials is as well known as they are.
     if (!asked.evidence && !asked.blended && !asked.made_at)
       report(diagnostics, Code::incomplete_material, asked.place(),

@@ -143,24 +143,31 @@ void compare(const Solved::Material& material, std::mt19937& random, const std::
   }
 }
 
+/// The patches of 1995, the parts of `std` and one in five of the other files; with WALE_ALL_MATERIALS in the environment,
+/// all.
 std::vector<std::string> library_files() {
   std::vector<std::string> files;
   const std::filesystem::path library = std::filesystem::path(WALE_SOURCE_DIR) / "library";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(library))
     if (entry.path().extension() == ".wale") files.push_back(entry.path().string());
   std::ranges::sort(files);
+  std::size_t kinds = 0;
+  if (!std::getenv("WALE_ALL_MATERIALS"))
+    std::erase_if(files, [&](const std::string& path) {
+      return path.find("/std/") == std::string::npos && path.find("/sandpaper/") == std::string::npos && kinds++ % 5 != 0;
+    });
   return files;
 }
 
-TEST(FloatReference, AgreesWithTheMachineOnAllThatIsShipped) {
+TEST(FloatReference, AgreesWithTheMachineOnWhatIsShipped) {
   std::mt19937 random(1995);
   std::size_t compared = 0;
   const auto resolver = file_resolver({});
   for (const auto& path : library_files()) {
     const Solved solved(path, read_file(path)->bytes, *resolver);
     // The stimuli of library/sandpaper differ only in their figures, and the evaluator needs half a second for each
-    // peak, so only every twentieth is compared. With WALE_ALL_STIMULI in the environment, all are.
-    const bool stimuli = solved.materials.size() > 25 && !std::getenv("WALE_ALL_STIMULI");
+    // peak, so only every twentieth is compared. With WALE_ALL_MATERIALS in the environment, all are.
+    const bool stimuli = solved.materials.size() > 25 && !std::getenv("WALE_ALL_MATERIALS");
     for (std::size_t i = 0; i < solved.materials.size(); i += stimuli ? 20 : 1) {
       const auto& material = solved.materials[i];
       compare(material, random, path + " " + material.solved.name);
@@ -169,7 +176,7 @@ TEST(FloatReference, AgreesWithTheMachineOnAllThatIsShipped) {
     }
   }
   RecordProperty("materials", std::to_string(compared));
-  EXPECT_GT(compared, 75u);
+  EXPECT_GT(compared, 60u);
 }
 
 TEST(FloatReference, AgreesWithTheMachineOnRandomMaterials) {

@@ -111,8 +111,9 @@ TEST(AdaptiveSessions, AreAFunctionOfTheAnswersThatStand) {
   ASSERT_TRUE(redone);
   EXPECT_EQ(*redone, trials[at]) << "the same trial, since nothing before it has changed";
   for (const Trial& trial : trials)
-    for (const Presented& each : trial.intervals)
-      if (each.is_standard) EXPECT_EQ(each.index, *experiment.stimuli[trial.stimulus].standard);
+    for (const Presented& each : trial.intervals) {
+      EXPECT_TRUE(!each.is_standard || each.index == *experiment.stimuli[trial.stimulus].standard);
+    }
 }
 
 }  // namespace

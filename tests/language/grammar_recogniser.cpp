@@ -27,7 +27,7 @@ class Grammar::Recogniser {
   bool is(std::size_t at, const std::string& kind) const { return at < input_.size() && input_[at].kind == kind; }
 
   Ends read_rule(const std::string& name, std::size_t at, Context context) {
-    context.setting = context.setting || name == "setting";
+    context.setting = context.setting || name == "setting" || name == "percept";
     context.force = context.force || name == "force";
     const auto key = std::make_tuple(name, at, context.setting, context.force);
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
@@ -85,8 +85,8 @@ class Grammar::Recogniser {
     }
     if (terminal == "NAME") return here.kind == "DOTTED" && here.text.find('.') == std::string::npos;
     if (here.kind != terminal) return false;
-    // "A name before `(` or `:`, a reserved word, the words of evidence in a setting and the word `limit` in a force
-    // are no part of it."
+    // "A name before `(` or `:`, a reserved word, the words of evidence in a setting or behind a level and the word
+    // `limit` in a force are no part of it."
     if (context.suffix && terminal == "DOTTED")
       return !is(at + 1, "(") && !is(at + 1, ":") && !(context.setting && grammar_.evidence_.count(here.text) > 0) &&
              !(context.force && here.text == "limit");

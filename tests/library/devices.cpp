@@ -40,7 +40,10 @@ class EveryDevice : public testing::TestWithParam<std::string> {};
 TEST_P(EveryDevice, BuildsEachMaterialOrSaysWhyNot) {
   const std::string device = GetParam();
   int built = 0, refused = 0;
-  for (const std::string& path : shelf::library_files()) {
+  // Each device with another tenth of the library.
+  const auto devices = declared_devices();
+  const auto which = static_cast<std::size_t>(std::ranges::find(devices, device) - devices.begin());
+  for (const std::string& path : shelf::sampled_files(10, which)) {
     const shelf::Checked checked(path);
     const SourceSet& sources = checked.sources;
     for (const auto& material : checked.module.materials) {
@@ -77,7 +80,7 @@ TEST_P(EveryDevice, BuildsEachMaterialOrSaysWhyNot) {
       EXPECT_FALSE(print_program(description).empty());
     }
   }
-  EXPECT_GT(built, 100) << refused;
+  EXPECT_GT(built, 30) << refused;
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, EveryDevice, testing::ValuesIn(declared_devices()),

@@ -65,14 +65,14 @@ TEST(Observed, NothingIsDampedWithADelayEither) {
       }
   });
   for (const std::string& name : damped) EXPECT_EQ(name, "");
-  EXPECT_GT(on_device, 50);
-  EXPECT_GT(in_hand, 50);
+  EXPECT_GT(on_device, 20);
+  EXPECT_GT(in_hand, 20);
   EXPECT_LE(damped_in_hand, in_hand / 20) << in_hand;
 }
 
 TEST(Observed, NothingIsDampedThatIsPassiveInTheHandAndNoDeclaredEnergyIsLimited) {
   const std::vector<Program> programs = shelf::programs();
-  ASSERT_GT(programs.size(), 300u);
+  ASSERT_GT(programs.size(), 100u);
   std::vector<GuardCounts> counts(programs.size());
   in_parallel(programs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) counts[i] = guarded(programs[i]);
@@ -86,7 +86,7 @@ TEST(Observed, NothingIsDampedThatIsPassiveInTheHandAndNoDeclaredEnergyIsLimited
     ++calm;
     EXPECT_EQ(counts[i].passivity, 0) << name;
   }
-  EXPECT_GT(calm, 100);
+  EXPECT_GT(calm, 30);
 }
 
 }  // namespace

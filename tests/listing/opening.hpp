@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -44,7 +45,8 @@ struct File {
   }
 };
 
-/// Every file of the library with materials, except library/sandpaper.
+/// One in six of the library's files with materials, except library/sandpaper; with WALE_ALL_MATERIALS in the environment,
+/// all of them, which takes minutes.
 inline std::vector<std::string> shipped_files() {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(library)) {
@@ -53,6 +55,8 @@ inline std::vector<std::string> shipped_files() {
       files.push_back(entry.path().string());
   }
   std::ranges::sort(files);
+  std::size_t at = 0;
+  if (!std::getenv("WALE_ALL_MATERIALS")) std::erase_if(files, [&](const std::string&) { return at++ % 6 != 0; });
   return files;
 }
 

@@ -16,7 +16,7 @@ struct Subject {
   Program program;
 };
 
-/// All materials of the library, a few of each file of library/sandpaper, and random programs.
+/// Materials of the library (see `shipped_files`), a few of each file of library/sandpaper, and random programs.
 inline std::vector<Subject> subjects() {
   constexpr unsigned random_programs = 50;
   std::vector<Subject> subjects;

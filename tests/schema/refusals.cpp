@@ -212,8 +212,8 @@ TEST(Refusals, ChoicesThatThisWaleDoesNotKnow) {
   EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[live] = std::byte{0}; }),
             "section PERC names parameter 1 for a percept without a parameter");
   const std::size_t slope = live + 1 + 2 + 2 + 1 + (4 + 2 * 8) + 2 + 2 + 3 * 4;
-  EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[slope] = std::byte{7}; }),
-            "section PERC has evidence grade 7 for a slope, which this Wale does not know");
+  EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[slope] = std::byte{8}; }),
+            "section PERC has evidence grade 8 for a slope, which this Wale does not know");
   const std::size_t profiles =
       4 + 2 * 4 + (2 * 4 + 2) + 5 + 1;  // after the count, the figures, what is assumed, and whether it is stated
   EXPECT_EQ(refusal_of_content("EVID", [&](Bytes& b) { b[profiles] = std::byte{16}; }),

@@ -149,13 +149,13 @@ INSTANTIATE_TEST_SUITE_P(Standard, Conservative,
                                          std::tuple{"std.desktop", "menu", "settle: 0 N s/m"},
                                          std::tuple{"std.desktop", "window_edge", "settle: 0 N s/m"},
                                          std::tuple{"std.desktop", "scroll_bar", "settle: 0 N s/m"},
-                                         std::tuple{"mechanism.detent_dial", "detent_dial", "settle: 0 N s/m"},
-                                         std::tuple{"mechanism.toggle", "toggle", "settle: 0 N s/m"},
-                                         std::tuple{"mechanism.ratchet", "ratchet_teeth", "settle: 0 N s/m"}),
+                                         std::tuple{"mechanism.detent_dial", "detent_dial", "viscosity: 0"},
+                                         std::tuple{"mechanism.toggle", "toggle", "viscosity: 0"},
+                                         std::tuple{"mechanism.ratchet", "ratchet_teeth", "viscosity: 0"}),
                          [](const auto& each) { return std::string(std::get<1>(each.param)); });
 
 TEST(DetentDial, HasItsNotchesInAnEvenRing) {
-  Field field(made("mechanism.detent_dial", "detent_dial", "positions: 8, settle: 0 N s/m"));
+  Field field(made("mechanism.detent_dial", "detent_dial", "positions: 8, viscosity: 0"));
   for (int i = 0; i < 8; ++i) {
     const double angle = i * pi / 4;
     const glm::dvec2 out{std::cos(angle), std::sin(angle)}, round{-out.y, out.x};

@@ -21,10 +21,10 @@ struct SessionBegin {
   std::string device;                           ///< the name of its profile
   std::string file;                             ///< what is presented; may be empty
   std::map<std::string, std::string> versions;  ///< of the programs that take part: {"wale", "0.1.0"}
-  std::string experiment;                       ///< the design that is run; empty for a free session
+  std::string experiment{};                       ///< the design that is run; empty for a free session
   /// What the answers can be evidence of: "measured", by people on a plugged, trusted device; "simulated", the worst,
   /// by anyone else. Empty where nobody says.
-  std::string grade;
+  std::string grade{};
   friend bool operator==(const SessionBegin&, const SessionBegin&) = default;
 };
 
