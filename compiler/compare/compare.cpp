@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string_view>
 #include <tuple>
@@ -137,6 +138,28 @@ Distance Comparer::distance(const Cues& a, const Cues& b) const {
     plainest = std::max(plainest, noticeable.value_or(0));
   });
   return {static_cast<float>(plainest), verdict_of(plainest, unknown)};
+}
+
+DistanceInterval Comparer::interval(const Cues& a, const Cues& b) const {
+  DistanceInterval found;
+  each_cue(a, b, [&](const CueFacts&, std::optional<double> noticeable) {
+    if (!noticeable) ++found.unknown;
+    found.low = std::max(found.low, noticeable.value_or(0));
+  });
+  return found;
+}
+
+SizeRange Comparer::within(CueKind kind, const Cues& a, double most) const {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const CueFacts& facts = cue_table()[static_cast<std::size_t>(kind)];
+  // Across an axis, and for what has only a direction, other cues decide too.
+  if (is_direction(kind) || is_across(kind) || (!facts.exerts && !a[kind])) return {-infinite, infinite};
+  const double size = a[kind].value_or(0);
+  // What is not read and differs by less than one is unknown, not near.
+  SizeRange range = people_[static_cast<std::size_t>(kind)].within(size, is_of_unread(kind) ? std::max(most, 1.0) : most);
+  const double same = std::abs(size) * same_of(kind) / (1 - same_of(kind));
+  range.low = std::min(range.low, size - same), range.high = std::max(range.high, size + same);
+  return range;
 }
 
 void Comparer::add_recalled(const Cues& a, const Cues& b, std::set<const Threshold*>& thresholds) const {

@@ -44,6 +44,18 @@ struct Distance {
   Verdict verdict = Verdict::alike;
 };
 
+/// A distance of which parts may be unknown.
+struct DistanceInterval {
+  /// The largest known difference of a cue, in just noticeable differences at d' = 1: the distance is not less.
+  double low = 0;
+  /// How many cues differ, or may differ, by an amount that is not known. If there is none, the distance is `low`;
+  /// otherwise nothing bounds it from above.
+  std::size_t unknown = 0;
+
+  /// What orders distances: a cue that is unknown counts as one just noticeable difference.
+  double rank() const { return low + static_cast<double>(unknown); }
+};
+
 /// Compares materials on one device cue by cue. The distance of a cue is ln(ratio) / ln(1 + w) with w the Weber
 /// fraction at d' = 1. It is at most the difference of the two forces over the smallest force that people notice, so
 /// that small forces are not told apart by their ratio alone. If only one material has a cue, only that difference of
@@ -55,6 +67,12 @@ class Comparer {
   Comparison compare(const Cues& a, const Cues& b) const;
   /// The same in short, without the threshold of each cue. Allocates nothing.
   Distance distance(const Cues& a, const Cues& b) const;
+  /// The same as an interval. Allocates nothing.
+  DistanceInterval interval(const Cues& a, const Cues& b) const;
+  /// For a search among many: the values of a cue outside of which a material is more than `most` from `a` by this cue
+  /// alone. A material without the cue counts as one with the value 0 if a difference of the cue is one of force;
+  /// otherwise it is never too far. The range may be wider than it need be.
+  SizeRange within(CueKind kind, const Cues& a, double most) const;
   /// Adds the thresholds that this pair is compared by and that nobody has looked up in the publication.
   void add_recalled(const Cues& a, const Cues& b, std::set<const Threshold*>& thresholds) const;
 

@@ -76,4 +76,21 @@ std::optional<double> Discrimination::distance(double a, double b) const {
   return std::isfinite(distance) ? std::optional(distance) : std::nullopt;
 }
 
+SizeRange Discrimination::within(double size, double most) const {
+  constexpr double infinite = std::numeric_limits<double>::infinity(), rounding = 1e-6;
+  SizeRange range{-infinite, infinite};
+  double weber = 0, greatest = 0, smallest = infinite;
+  for (const Threshold* each : thresholds_) {
+    weber = std::max(weber, each->weber);
+    greatest = std::max(greatest, floor(*each)), smallest = std::min(smallest, floor(*each));
+  }
+  if (thresholds_.empty() || !std::isfinite(size) || !std::isfinite(most)) return range;
+  // Without a floor, the distance from 0 or from the other sign is unknown.
+  const double times = std::exp(most * std::log1p(weber)) * (1 + rounding);
+  const double beside = most * greatest * (1 + rounding) + rounding * std::abs(size);
+  if (smallest > 0 || size > 0) range.high = std::max(size + beside, size > 0 ? size * times : size / times);
+  if (smallest > 0 || size < 0) range.low = std::min(size - beside, size > 0 ? size / times : size * times);
+  return range;
+}
+
 }  // namespace wale

@@ -41,6 +41,11 @@ class Discrimination {
   /// floor if that is less, or if one size is 0 or their signs differ. Empty if there is no threshold.
   std::optional<double> distance(double a, double b) const;
 
+  /// A range of sizes outside of which every size is more than `most` just noticeable differences from `size`, whichever
+  /// publication applies. It may be wider than it need be: it is for leaving out what is far away without computing each
+  /// distance. Unlimited on a side where that is not known.
+  SizeRange within(double size, double most) const;
+
  private:
   std::string device_;
   std::vector<const Threshold*> thresholds_;  ///< the best first, apart from the range of sizes
