@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
@@ -14,6 +16,10 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
+#include "compiler/typed_number.hpp"
+#include "library/command/index_here.hpp"
+#include "library/index/entry_json.hpp"
+#include "library/index/find.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 
@@ -23,8 +29,15 @@ namespace {
 struct FindOptions {
   std::vector<std::string> texts;  ///< sought texts; a material must have all of them; empty for all materials
   std::string kind;                ///< empty for any kind
-  std::vector<std::string> folders;
+  IndexChoice choice;
   bool json = false;
+  std::string near;                            ///< a material whose feel is sought
+  std::map<std::string, std::string> levels;  ///< sought, by percept, as written
+  std::optional<std::uint64_t> most;
+
+  bool by_feel() const {
+    return !near.empty() || std::ranges::any_of(levels, [](const auto& each) { return !each.second.empty(); });
+  }
 };
 
 /// What a word says of a percept, and the materials that ask for that: "`sticky` is a word of the percept `stickiness`;
@@ -138,8 +151,116 @@ std::string found_json(const std::vector<FoundMaterial>& found) {
   return json_lines(all);
 }
 
+/// "0.6", "60 %" or "0.4..0.7".
+Result<SoughtLevel> sought_level(const std::string& percept, const std::string& text) {
+  const auto number = [](std::string each) -> std::optional<double> {
+    const std::size_t begin = each.find_first_not_of(' '), end = each.find_last_not_of(" %");
+    if (begin == std::string::npos || end == std::string::npos || end < begin) return std::nullopt;
+    const double scale = each.back() == '%' ? 0.01 : 1;
+    const auto value = read_number("", each.substr(begin, end - begin + 1));
+    return value ? std::optional(*value * scale) : std::nullopt;
+  };
+  const std::size_t dots = text.find("..");
+  const auto low = number(text.substr(0, dots));
+  const auto high = dots == std::string::npos ? low : number(text.substr(dots + 2));
+  if (!low || !high || !(*low >= 0) || !(*high <= 1) || !(*low <= *high))
+    return Error{.code = Code::malformed_value,
+                 .sentence = fmt::format("expected a level from 0 to 1, or two with .. between, found `{}`",
+                                         visible_text(text)),
+                 .mend = fmt::format("for example, `--{} 0.6` or `--{} 0.4..0.7`", percept, percept),
+                 .place = {.name = "--" + percept}};
+  return SoughtLevel{percept, *low, *high};
+}
+
+std::string felt_text(const FoundEntries& found) {
+  std::size_t name = 0, title = 0, kind = 0;
+  for (const FoundEntry& each : found.entries) {
+    name = std::max(name, each.entry.name.size());
+    title = std::max(title, visible_text(each.entry.title).size());
+    kind = std::max(kind, each.entry.kind.size());
+  }
+  std::string text;
+  for (const FoundEntry& each : found.entries) {
+    std::string line = fmt::format("{:{}}  {:{}}  {:{}}  {}", each.entry.name, name, visible_text(each.entry.title), title,
+                                   each.entry.kind, kind,
+                                   each.apart ? distance_text(*each.apart) : visible_text(each.entry.file));
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string felt_json(const FoundEntries& found) {
+  auto all = nlohmann::ordered_json::array();
+  for (const FoundEntry& each : found.entries) {
+    auto json = entry_json(each.entry);
+    if (each.apart) json["distance"] = distance_json(*each.apart);
+    if (each.score > 0) json["score"] = each.score;
+    all.push_back(std::move(json));
+  }
+  return json_lines(all);
+}
+
+constexpr std::uint64_t usually_given = 20;
+
+int tell_found(const FindOptions& options, const Result<FoundEntries>& found) {
+  if (!found) return refuse(found.error());
+  if (options.json) print_out(felt_json(*found));
+  if (found->entries.empty())
+    return refuse(Error{.code = Code::unknown_name,
+                        .sentence = "no material is like that",
+                        .mend = "ask for a wider range, or for fewer things at once"});
+  if (!options.json) print_out(felt_text(*found));
+  return done;
+}
+
+int find_by_feel(const FindOptions& options) {
+  std::vector<SoughtLevel> levels;
+  for (const auto& [percept, text] : options.levels) {
+    if (text.empty()) continue;
+    const auto level = sought_level(percept, text);
+    if (!level) return refuse(level.error());
+    levels.push_back(*level);
+  }
+  const auto here = index_here(options.choice);
+  if (!here) return refuse(here.error());
+  const MaterialIndex& index = here->index();
+  const auto declared = common_modules();
+  const Comparer comparer(declared->declarations, index.device());
+  std::vector<std::unique_ptr<Probe>> probes;
+  Sought sought{.texts = options.texts, .kind = options.kind, .without = {}, .most = options.most.value_or(usually_given)};
+  if (!options.near.empty()) {
+    const auto felt = felt_material(index, options.choice, options.near);
+    if (!felt) return refuse(felt.error());
+    probes.push_back(std::make_unique<NearProbe>(comparer, felt->cues));
+    sought.without = felt->is;
+  }
+  if (!levels.empty()) {
+    auto probe = LevelProbe::make(levels, declared->declarations, index.device());
+    if (!probe) return refuse(probe.error());
+    probes.push_back(*std::move(probe));
+  }
+  std::unique_ptr<Probe> probe = std::move(probes.front());
+  if (probes.size() > 1) probe = std::make_unique<BothProbe>(std::move(probe), std::move(probes.back()));
+  sought.feel = probe.get();
+  return tell_found(options, find_entries(index, sought));
+}
+
+/// Texts of several words that no material has as they stand: those that have most of the words, the best first.
+Result<FoundEntries> found_by_words(const FindOptions& options, const LibraryIndex& catalogue) {
+  std::vector<Entry> entries;
+  for (const IndexedMaterial& each : catalogue.materials())
+    if (each.origin != Origin::hidden) entries.push_back(entry_of(each));
+  const auto index = index_of(std::move(entries), default_device);
+  return find_entries(*index, {.texts = options.texts,
+                               .kind = options.kind,
+                               .without = {},
+                               .most = options.most.value_or(usually_given)});
+}
+
 int find(const FindOptions& options) {
-  const std::vector<std::string> roots = library_folders(options.folders, std::getenv("WALE_LIBRARY"));
+  if (options.by_feel()) return find_by_feel(options);
+  const std::vector<std::string> roots = library_folders(options.choice.folders, std::getenv("WALE_LIBRARY"));
   const auto resolver = file_resolver(roots);
   // The index of what a file in the current folder could import; there need not be such a file.
   const std::shared_ptr<const LibraryIndex> index = library_index(*resolver, "here");
@@ -148,9 +269,14 @@ int find(const FindOptions& options) {
                             visible_text(left_out.front()),
                             left_out.size() > 1 ? fmt::format(" and {} more are", left_out.size() - 1) : " is",
                             most_indexed >> 20));
-  const std::vector<FoundMaterial> found = find_materials(*index, options.texts, options.kind);
+  std::vector<FoundMaterial> found = find_materials(*index, options.texts, options.kind);
   warn_of_library_variable();
   say_unread(roots);
+  const bool has_phrase = std::ranges::any_of(options.texts, [](const std::string& each) { return each.find(' ') != std::string::npos; });
+  if (found.empty() && has_phrase)
+    if (const auto words = found_by_words(options, *index); words && !words->entries.empty())
+      return tell_found(options, words);
+  if (options.most && found.size() > *options.most) found.resize(*options.most);
   if (options.json) print_out(found_json(found));
   if (found.empty()) return refuse(why_nothing_is_found(*index, options.texts, options.kind));
   if (!options.json) print_out(found_text(found));
@@ -166,9 +292,31 @@ Run declare_find(CLI::App& verb) {
   verb.add_option("--kind", options->kind,
                   "only materials of this kind, as in fabric or fabric.woven (default: all kinds)")
       ->type_name("KIND");
-  offer_library(verb, options->folders, "a folder whose materials are listed too, as in my/materials; may be repeated");
+  must_say(verb.add_option("--near", options->near,
+                           "those that feel most like this material, by its name or a Wale file of your own")
+               ->type_name("MATERIAL"),
+           "a material", "for example, `wale find --near corduroy`");
+  common_modules()->declarations.percepts.each([&](const std::string& name, const Percept& percept) {
+    if (!percept.has_reference) return;
+    must_say(verb.add_option("--" + name, options->levels[name],
+                             fmt::format("those whose {} is nearest to a level, or lies in a range: 0.6, 0.4..0.7", name))
+                 ->type_name("LEVEL"),
+             "a level");
+    if (!percept.antonym.empty())
+      must_say(verb.add_option("--" + percept.antonym, options->levels[percept.antonym],
+                               fmt::format("the same from the other end of the scale of {}", name))
+                   ->type_name("LEVEL"),
+               "a level");
+  });
+  offer_count(verb, "--most", options->most, {.least = 1, .most = 1'000'000, .example = 20},
+              "so many at most (default: 20 by feel, all by words)");
+  offer_index(verb, options->choice);
   offer_json(verb, options->json, "an array with all facts about each material");
-  verb.footer("for example: wale find ribbed;  wale find --kind fabric cotton");
+  verb.footer(
+      "By feel, the nearest come first, in just noticeable differences. A cue that is unknown for one of the two is named:\n"
+      "nobody knows how much more they differ.\n"
+      "for example: wale find ribbed;  wale find --kind fabric cotton;  wale find --near corduroy;\n"
+      "             wale find --roughness 0.4..0.6 --stickiness 0.2 --kind paper");
   return [options] { return find(*options); };
 }
 

@@ -18,7 +18,7 @@ EntryJson or_null(const std::optional<Evidence>& value) {
 
 Evidence evidence_in(const EntryJson& json) {
   for (const Evidence each : {Evidence::measured, Evidence::published, Evidence::estimated, Evidence::recalled,
-                              Evidence::transferred, Evidence::extrapolated})
+                              Evidence::transferred, Evidence::extrapolated, Evidence::simulated})
     if (json.get<std::string>() == evidence_word(each)) return each;
   throw std::runtime_error("no evidence is called so");
 }

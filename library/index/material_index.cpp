@@ -75,7 +75,7 @@ std::vector<std::pair<MeantBy, std::string>> meant_texts(const Entry& entry) {
   add(MeantBy::module, entry.module);
   add(MeantBy::module, entry.module + "." + entry.name);
   std::ranges::sort(texts);
-  texts.erase(std::ranges::unique(texts).begin(), texts.end());
+  texts.erase(std::unique(texts.begin(), texts.end()), texts.end());
   return texts;
 }
 

@@ -91,6 +91,26 @@ Probe::Told BetweenProbe::tell(const FeltColumns& columns, std::size_t row) cons
   return told;
 }
 
+std::optional<DistanceInterval> BothProbe::distance(const FeltColumns& columns, std::size_t row, Cues& scratch) const {
+  const auto one = one_->distance(columns, row, scratch);
+  const auto other = one ? other_->distance(columns, row, scratch) : std::nullopt;
+  if (!other) return std::nullopt;
+  return DistanceInterval{std::max(one->low, other->low), one->unknown + other->unknown};
+}
+
+void BothProbe::narrow(const FeltColumns& columns, double most, std::vector<ValueLimit>& limits) const {
+  one_->narrow(columns, most, limits);
+  other_->narrow(columns, most, limits);
+}
+
+Probe::Told BothProbe::tell(const FeltColumns& columns, std::size_t row) const {
+  Told one = one_->tell(columns, row), other = other_->tell(columns, row);
+  if (one.low < other.low) std::swap(one, other);
+  one.high = std::max(one.high, other.high);
+  one.unknown.insert(one.unknown.end(), other.unknown.begin(), other.unknown.end());
+  return one;
+}
+
 Result<std::unique_ptr<LevelProbe>> LevelProbe::make(const std::vector<SoughtLevel>& levels,
                                                      const Declarations& declarations, const std::string& device) {
   auto probe = std::make_unique<LevelProbe>();

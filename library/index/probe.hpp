@@ -74,6 +74,18 @@ class BetweenProbe final : public Probe {
   double apart_ = 0;
 };
 
+/// What both of two probes seek: the larger distance counts, and all that is unknown.
+class BothProbe final : public Probe {
+ public:
+  BothProbe(std::unique_ptr<Probe> one, std::unique_ptr<Probe> other) : one_(std::move(one)), other_(std::move(other)) {}
+  std::optional<DistanceInterval> distance(const FeltColumns& columns, std::size_t row, Cues& scratch) const override;
+  void narrow(const FeltColumns& columns, double most, std::vector<ValueLimit>& limits) const override;
+  Told tell(const FeltColumns& columns, std::size_t row) const override;
+
+ private:
+  std::unique_ptr<Probe> one_, other_;
+};
+
 /// A level that is sought, or a range of levels.
 struct SoughtLevel {
   std::string percept;  ///< or the name of its reversed scale

@@ -162,13 +162,6 @@ Result<> write_material(SiteMaterial& material, const Entry& entry, const Declar
 
 }  // namespace
 
-std::string hash_of_file(const std::string& path) {
-  std::error_code trouble;
-  if (!fs::is_regular_file(path, trouble)) return {};
-  const auto found = read_file(path, largest_asset);
-  return found ? ContentHash().take(found->bytes).digits() : std::string();
-}
-
 Result<SiteInputRead> read_site_file(const SiteInput& input, const FileRequest& request, const DeclaredNames& names,
                                      SiteFolder& folder,
                                      const std::function<std::string(const std::string& material)>& page_of) {

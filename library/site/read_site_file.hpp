@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiler/open_file.hpp"
+#include "library/index/library_files.hpp"
 #include "library/site/declared_pages.hpp"
 #include "library/site/site_folder.hpp"
 #include "library/site/site_material.hpp"
@@ -13,9 +14,7 @@
 namespace wale {
 
 /// A file of a library whose materials get pages.
-struct SiteInput {
-  std::string path, module;
-};
+using SiteInput = LibraryFile;
 
 /// What came of a file.
 struct SiteInputRead {
@@ -24,9 +23,6 @@ struct SiteInputRead {
   std::vector<std::pair<std::string, std::string>> rests_on;
   bool uses_names = false;  ///< other files of the library may change what it means
 };
-
-/// The hash of a file's bytes; empty if there is none on disk, as of a shipped file outside a checkout.
-std::string hash_of_file(const std::string& path);
 
 /// Reads the materials of a file and writes what is theirs alone: their pages without neighbours, figures, data and
 /// downloads. `page_of` gives each material the name of its page. A file that cannot be read is one material with a

@@ -16,6 +16,7 @@
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/json_text.hpp"
 #include "library/index/content_hash.hpp"
+#include "library/index/library_files.hpp"
 #include "library/site/assets.hpp"
 #include "library/site/gallery.hpp"
 #include "library/site/material_page.hpp"
@@ -36,65 +37,6 @@ std::string without_capitals(std::string text) {
   for (char& each : text)
     if (each >= 'A' && each <= 'Z') each = static_cast<char>(each - 'A' + 'a');
   return text;
-}
-
-/// The module of a file as imports of its library name it: by its way from the nearest folder with a `wale.project`, or
-/// else from the folder that was named.
-std::string module_of(const fs::path& file, const fs::path& named) {
-  std::error_code ignored;
-  fs::path root = named;
-  for (fs::path folder = fs::absolute(file, ignored).parent_path(); folder != folder.parent_path();
-       folder = folder.parent_path())
-    if (fs::exists(folder / project_marker, ignored)) {
-      root = folder;
-      break;
-    }
-  fs::path way = fs::relative(file, root, ignored);
-  if (way.empty() || way.begin()->string() == "..") way = file.filename();
-  std::string module;
-  for (const fs::path& part : way.replace_extension()) module += (module.empty() ? "" : ".") + part.string();
-  return module;
-}
-
-Error nothing_here(const std::string& path, Code code, std::string sentence) {
-  return Error{.code = code,
-               .sentence = std::move(sentence),
-               .mend = "name a `.wale` file, or a folder that holds some",
-               .place = {.name = path}};
-}
-
-Result<std::vector<SiteInput>> inputs_of(const std::vector<std::string>& paths) {
-  std::vector<SiteInput> inputs;
-  if (paths.empty()) {
-    for (const EmbeddedFile& each : embedded_files())
-      if (!each.common) {
-        fs::path way = fs::path(each.name).lexically_relative("library");
-        way.replace_extension();
-        std::string module;
-        for (const fs::path& part : way) module += (module.empty() ? "" : ".") + part.string();
-        inputs.push_back({std::string(each.name), module});
-      }
-    return inputs;
-  }
-  std::set<std::string> seen;
-  const auto add = [&](const fs::path& file, const fs::path& named) {
-    if (seen.insert(file.string()).second) inputs.push_back({file.string(), module_of(file, named)});
-  };
-  for (const std::string& path : paths) {
-    std::error_code trouble;
-    if (!fs::exists(path, trouble)) return nothing_here(path, Code::unreadable_file, "there is no such file or folder");
-    if (!fs::is_directory(path, trouble)) {
-      add(path, fs::path(path).parent_path());
-      continue;
-    }
-    for (fs::recursive_directory_iterator at(path, trouble), end; !trouble && at != end; at.increment(trouble))
-      if (at->path().extension() == ".wale" && at->is_regular_file(trouble)) add(at->path(), path);
-    if (trouble)
-      return nothing_here(path, Code::unreadable_file, fmt::format("the folder cannot be read: {}", trouble.message()));
-  }
-  if (inputs.empty()) return nothing_here(paths.front(), Code::unknown_material, "there is no Wale file here");
-  std::ranges::sort(inputs, {}, &SiteInput::path);
-  return inputs;
 }
 
 /// The names of the materials of a file; nothing is checked.
@@ -397,7 +339,7 @@ Result<SiteReport> write_site(const SiteRequest& request, const std::function<vo
                  .mend = near ? fmt::format("did you mean `{}`?", *near) : "`wale devices` lists them",
                  .place = {.name = "--device", .text = request.device}};
   }
-  const auto inputs = inputs_of(request.paths);
+  const auto inputs = library_files_in(request.paths);
   if (!inputs) return inputs.error();
   auto folder = SiteFolder::open(request.folder);
   if (!folder) return folder.error();

@@ -1,0 +1,327 @@
+#include "library/store/library_store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "library/index/content_hash.hpp"
+#include "library/index/entry_json.hpp"
+#include "library/index/words.hpp"
+#include "library/store/read_library.hpp"
+#include "library/store/sqlite.hpp"
+#include "runtime/machine/parallel.hpp"
+
+namespace wale {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t wale_application = 0x57616c65;  // "Wale"
+constexpr std::int64_t newest_version = 1;
+
+/// `generation` counts the changes, so that the columns beside the index are known to be of this state.
+constexpr const char* schema = R"(
+BEGIN IMMEDIATE;
+CREATE TABLE facts(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE files(path TEXT PRIMARY KEY, module TEXT NOT NULL, rests_on TEXT NOT NULL, others TEXT NOT NULL);
+CREATE TABLE materials(id INTEGER PRIMARY KEY AUTOINCREMENT, path TEXT NOT NULL, name TEXT NOT NULL, trouble TEXT NOT NULL, length INTEGER NOT NULL, entry TEXT NOT NULL);
+CREATE INDEX materials_of_path ON materials(path);
+CREATE INDEX troubled_materials ON materials(path) WHERE trouble <> '';
+CREATE TABLE words(word TEXT, material INTEGER, weight INTEGER NOT NULL, length INTEGER NOT NULL, PRIMARY KEY(word, material)) WITHOUT ROWID;
+CREATE INDEX words_of_material ON words(material);
+CREATE TABLE meant(how INTEGER, text TEXT, material INTEGER, PRIMARY KEY(how, text, material)) WITHOUT ROWID;
+CREATE INDEX meant_of_material ON meant(material);
+PRAGMA application_id = 1466002533;
+PRAGMA user_version = 1;
+COMMIT;
+)";
+static_assert(wale_application == 1466002533);
+
+class SqliteStore final : public LibraryStore, MaterialIndex, WordTable {
+ public:
+  SqliteStore(Database database, FeltColumns columns) : database_(std::move(database)), columns_(std::move(columns)) {}
+
+  /// Looks whether it is an index, and makes a new file one.
+  Result<> prepare(bool makes) {
+    const std::int64_t application = database_.number("PRAGMA application_id");
+    const std::int64_t version = database_.number("PRAGMA user_version");
+    const bool is_empty = database_.number("SELECT count(*) FROM sqlite_schema") == 0;
+    if (is_empty && makes) {
+      // Readers go on while one process writes, and a crash loses nothing that was committed.
+      (void)database_.execute("PRAGMA journal_mode = WAL");
+      if (const auto made = database_.execute(schema); !made) return made;
+    } else if (application != wale_application) {
+      return Error{.code = Code::damaged_file,
+                   .sentence = is_empty ? "this file is empty, and no index" : "this is a database, but no index of Wale",
+                   .mend = "name another file, or make one: `wale library index -o FILE`",
+                   .place = {.name = database_.path()}};
+    } else if (version > newest_version) {
+      return Error{.code = Code::newer_file,
+                   .sentence = fmt::format("the index has version {}, and this Wale reads {}", version, newest_version),
+                   .mend = "make another one with this Wale: `wale library index -o FILE`",
+                   .place = {.name = database_.path()}};
+    }
+    (void)database_.execute("PRAGMA synchronous = NORMAL");
+    return read_columns();
+  }
+
+  Result<StoreReport> bring_up_to_date(const std::vector<LibraryFile>& files, const FileRequest& request,
+                                       const StoreProgress& tell) override;
+  const MaterialIndex& index() const override { return *this; }
+
+ private:
+  const WordTable& words() const override { return *this; }
+  const FeltColumns& columns() const override { return columns_; }
+  std::string device() const override { return fact("device"); }
+  Result<Entry> entry(std::uint32_t material) const override;
+  Result<std::vector<std::uint32_t>> meant_by(std::string_view text) const override;
+  Size size() const override {
+    return {static_cast<std::uint64_t>(database_.number("SELECT count(*) FROM materials")),
+            static_cast<std::uint64_t>(database_.number("SELECT coalesce(sum(length), 0) FROM materials"))};
+  }
+  Result<> each_hit(const std::string& beginning, const Visit& visit) const override;
+
+  std::string fact(std::string_view name) const {
+    auto asked = database_.prepare("SELECT value FROM facts WHERE name = ?");
+    asked.bind(name);
+    return asked.step() ? std::string(asked.text(0)) : std::string();
+  }
+  Result<> set_fact(std::string_view name, std::string_view value) const {
+    return database_.prepare("INSERT OR REPLACE INTO facts VALUES(?, ?)").bind(name).bind(value).run();
+  }
+
+  std::string columns_path() const { return database_.path() + ".felt"; }
+  std::uint64_t generation() const { return std::strtoull(fact("generation").c_str(), nullptr, 10); }
+  Result<> read_columns();
+  Result<> forget(const std::string& path, std::size_t& materials) const;
+  Result<> keep(const LibraryFile& file, const ReadFile& read, const std::string& others) const;
+
+  Database database_;
+  FeltColumns columns_;
+};
+
+Result<Entry> entry_of_text(std::string_view text) {
+  const Json json = Json::parse(text, nullptr, false);
+  return entry_of_json(json);
+}
+
+Result<> SqliteStore::read_columns() {
+  const std::uint64_t now = generation();
+  if (auto mapped = FeltColumns::map(columns_path()); mapped && mapped->generation() == now) {
+    columns_ = *std::move(mapped);
+    return {};
+  }
+  FeltColumnsBuilder builder;
+  auto all = database_.prepare("SELECT id, entry FROM materials ORDER BY id");
+  while (all.step()) {
+    const auto entry = entry_of_text(all.text(1));
+    if (!entry) return entry.error();
+    builder.add(felt_row(*entry, static_cast<std::uint32_t>(all.number(0))));
+  }
+  if (const auto came = all.trouble(); !came) return came;
+  columns_ = builder.finish(now);
+  (void)columns_.write(columns_path());  // where it cannot be written, it is made again each time
+  return {};
+}
+
+Result<Entry> SqliteStore::entry(std::uint32_t material) const {
+  auto asked = database_.prepare("SELECT entry FROM materials WHERE id = ?");
+  asked.bind(std::int64_t{material});
+  if (asked.step()) return entry_of_text(asked.text(0));
+  if (const auto came = asked.trouble(); !came) return came.error();
+  return Error{.code = Code::damaged_file,
+               .sentence = "the columns beside the index have a material that it has not",
+               .mend = fmt::format("remove {}, which is made again", columns_path()),
+               .place = {.name = database_.path()}};
+}
+
+Result<std::vector<std::uint32_t>> SqliteStore::meant_by(std::string_view text) const {
+  std::vector<std::uint32_t> found;
+  if (text.empty()) return found;
+  for (const MeantBy by : {MeantBy::name, MeantBy::replaces, MeantBy::called, MeantBy::kind, MeantBy::module}) {
+    const std::string sought = meant_text(by, text);
+    auto asked = database_.prepare("SELECT material FROM meant WHERE how = ? AND text = ? ORDER BY material");
+    asked.bind(static_cast<std::int64_t>(by)).bind(sought);
+    while (asked.step()) found.push_back(static_cast<std::uint32_t>(asked.number(0)));
+    if (const auto came = asked.trouble(); !came) return came.error();
+    if (!found.empty()) break;
+  }
+  return found;
+}
+
+Result<> SqliteStore::each_hit(const std::string& beginning, const Visit& visit) const {
+  const std::string end = beginning + "\xff";  // behind all texts that begin so, byte by byte
+  auto asked = database_.prepare("SELECT word, material, weight, length FROM words WHERE word >= ? AND word < ?");
+  asked.bind(beginning).bind(end);
+  while (asked.step())
+    visit(asked.text(0), {static_cast<std::uint32_t>(asked.number(1)), static_cast<std::uint32_t>(asked.number(2)),
+                          static_cast<std::uint32_t>(asked.number(3))});
+  return asked.trouble();
+}
+
+Result<> SqliteStore::forget(const std::string& path, std::size_t& materials) const {
+  auto asked = database_.prepare("SELECT id FROM materials WHERE path = ?");
+  asked.bind(path);
+  std::vector<std::int64_t> ids;
+  while (asked.step()) ids.push_back(asked.number(0));
+  materials += ids.size();
+  for (const char* sql : {"DELETE FROM words WHERE material = ?", "DELETE FROM meant WHERE material = ?",
+                          "DELETE FROM materials WHERE id = ?"})
+    for (const std::int64_t id : ids)
+      if (const auto done = database_.prepare(sql).bind(id).run(); !done) return done;
+  return database_.prepare("DELETE FROM files WHERE path = ?").bind(path).run();
+}
+
+Result<> SqliteStore::keep(const LibraryFile& file, const ReadFile& read, const std::string& others) const {
+  const std::string rests_on = Json(read.rests_on).dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (const auto kept = database_.prepare("INSERT INTO files VALUES(?, ?, ?, ?)")
+                            .bind(file.path)
+                            .bind(file.module)
+                            .bind(rests_on)
+                            .bind(read.uses_names ? others : std::string_view())
+                            .run();
+      !kept)
+    return kept;
+  auto add_material = database_.prepare("INSERT INTO materials(path, name, trouble, length, entry) VALUES(?, ?, ?, ?, ?)");
+  auto add_word = database_.prepare("INSERT INTO words VALUES(?, ?, ?, ?)");
+  auto add_meant = database_.prepare("INSERT INTO meant VALUES(?, ?, ?)");
+  for (const Entry& entry : read.entries) {
+    const WordCounts counted = count_words(entry);
+    const std::string text = entry_json(entry).dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (const auto added = add_material.bind(file.path)
+                                 .bind(entry.name)
+                                 .bind(entry.trouble)
+                                 .bind(std::int64_t{counted.length})
+                                 .bind(text)
+                                 .run();
+        !added)
+      return added;
+    const std::int64_t id = database_.number("SELECT last_insert_rowid()");
+    for (const auto& [word, weight] : counted.weights)
+      if (const auto added =
+              add_word.bind(word).bind(id).bind(std::int64_t{weight}).bind(std::int64_t{counted.length}).run();
+          !added)
+        return added;
+    for (const auto& [by, meant] : meant_texts(entry))
+      if (const auto added = add_meant.bind(static_cast<std::int64_t>(by)).bind(meant).bind(id).run(); !added)
+        return added;
+  }
+  return {};
+}
+
+Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>& files, const FileRequest& request,
+                                                  const StoreProgress& tell) {
+  StoreReport report;
+  report.files = files.size();
+  std::vector<std::string> hashes(files.size());
+  in_parallel(files.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) hashes[i] = hash_of_file(files[i].path);
+  });
+  ContentHash hash;
+  for (std::size_t i = 0; i < files.size(); ++i) hash.take(files[i].path).take(hashes[i]);
+  const std::string others = hash.digits();
+
+  // What was read by another compiler, with other maps, or for another device, is read again.
+  const bool is_of_this = fact("build") == compiler_build() && fact("device") == request.device;
+  struct Known {
+    std::string module, rests_on, others;
+  };
+  std::map<std::string, Known> known;
+  auto all = database_.prepare("SELECT path, module, rests_on, others FROM files");
+  while (all.step())
+    known[std::string(all.text(0))] = {std::string(all.text(1)), std::string(all.text(2)), std::string(all.text(3))};
+  if (const auto came = all.trouble(); !came) return came.error();
+
+  std::vector<char> changed(files.size(), 1);
+  in_parallel(files.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto found = known.find(files[i].path);
+      if (!is_of_this || found == known.end() || found->second.module != files[i].module) continue;
+      if (!found->second.others.empty() && found->second.others != others) continue;
+      const Json rests_on = Json::parse(found->second.rests_on, nullptr, false);
+      changed[i] = !rests_on.is_array() || !std::ranges::all_of(rests_on, [&](const Json& each) {
+        const auto& path = each.at(0).get_ref<const std::string&>();
+        return (path == files[i].path ? hashes[i] : hash_of_file(path)) == each.at(1);
+      });
+    }
+  });
+  std::set<std::string> paths;
+  std::vector<std::size_t> to_read;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    paths.insert(files[i].path);
+    if (changed[i]) to_read.push_back(i);
+  }
+  std::vector<std::string> gone;
+  for (const auto& [path, each] : known)
+    if (!paths.contains(path)) gone.push_back(path);
+
+  const auto first_trouble = [&]() -> Result<> {
+    if (to_read.empty() && gone.empty() && is_of_this) return {};
+    // A change that a killed process leaves unfinished has another generation than the columns.
+    if (const auto begun = database_.execute("BEGIN IMMEDIATE"); !begun) return begun;
+    std::optional<Error> trouble;
+    const auto after = [&](const Result<>& done) {
+      if (!done && !trouble) trouble = done.error();
+    };
+    after(set_fact("generation", std::to_string(generation() + 1)));
+    after(set_fact("build", compiler_build()));
+    after(set_fact("device", request.device));
+    for (const std::string& path : gone) after(forget(path, report.gone));
+    std::size_t replaced = 0;
+    if (!is_of_this)  // those that are read below are known to be old if this is broken off
+      after(database_.execute("UPDATE files SET rests_on = '', others = ''"));
+
+    std::atomic<std::size_t> next{0}, done{0};
+    std::mutex lock;
+    in_parallel(to_read.size(), [&](std::size_t, std::size_t) {
+      for (std::size_t i; (i = next.fetch_add(1)) < to_read.size();) {
+        const LibraryFile& file = files[to_read[i]];
+        const ReadFile read = read_library_file(file, request);
+        const std::size_t count = ++done;
+        {
+          const std::lock_guard guard(lock);
+          if (trouble) return;
+          after(forget(file.path, replaced));
+          after(keep(file, read, others));
+          report.read += read.entries.size();
+          constexpr std::size_t files_at_once = 32;
+          if (count % files_at_once == 0) after(database_.execute("COMMIT; BEGIN IMMEDIATE"));
+        }
+        if (tell) tell(count, to_read.size());
+      }
+    });
+    if (trouble) {
+      (void)database_.execute("ROLLBACK");
+      return *trouble;
+    }
+    return database_.execute("COMMIT");
+  }();
+  if (!first_trouble) return first_trouble.error();
+  if (const auto read = read_columns(); !read) return read.error();
+  report.materials = columns_.size();
+  auto troubled = database_.prepare(
+      "SELECT name, path, trouble FROM materials WHERE trouble <> '' ORDER BY path, id");
+  while (troubled.step())
+    report.troubled.push_back(
+        {std::string(troubled.text(0)), std::string(troubled.text(1)), std::string(troubled.text(2))});
+  if (const auto came = troubled.trouble(); !came) return came.error();
+  return report;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LibraryStore>> LibraryStore::open(const std::string& path, bool makes) {
+  auto database = Database::open(path, makes);
+  if (!database) return database.error();
+  auto store = std::make_unique<SqliteStore>(*std::move(database), FeltColumns::of({}));
+  if (const auto ready = store->prepare(makes); !ready) return ready.error();
+  return Result<std::unique_ptr<LibraryStore>>(std::move(store));
+}
+
+}  // namespace wale
