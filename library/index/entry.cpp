@@ -190,7 +190,7 @@ Result<FileEntries> read_entries(const FileRequest& request, const std::string& 
     entry.trouble = first_error(read.opened.diagnostics);
   }
   std::ranges::sort(read.looked_for);
-  read.looked_for.erase(std::ranges::unique(read.looked_for).begin(), read.looked_for.end());
+  read.looked_for.erase(std::unique(read.looked_for.begin(), read.looked_for.end()), read.looked_for.end());
   const std::string base = base_of(read, request.device);
   for (Entry& entry : read.entries) entry.content = ContentHash().take(base).take(entry.name).digits();
   return read;

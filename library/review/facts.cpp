@@ -135,7 +135,7 @@ Result<FactsReading> read_facts(const FactsRequest& request) {
   }
   auto& paths = reading.facts.looked_for;
   std::ranges::sort(paths);
-  paths.erase(std::ranges::unique(paths).begin(), paths.end());
+  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
   return reading;
 }
 
