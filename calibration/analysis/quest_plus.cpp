@@ -56,7 +56,8 @@ std::size_t QuestPlus::next_number() const {
   double least = 0;
   for (std::size_t i = 0; i < stimuli_.size(); ++i) {
     const double expected = expected_entropy(i);
-    if (i == 0 || expected < least) best = i, least = expected;
+    // Smaller differences are rounding: the first of equals is taken on every machine.
+    if (i == 0 || expected < least - 1e-9) best = i, least = expected;
   }
   return best;
 }
