@@ -48,7 +48,7 @@ TrialColumns columns_of(const Study& study, const FitRequest& request, StudyFit&
       return false;
     };
     for (const std::string& name : study.varied)
-      if (varies(name)) columns.sizes.push_back({.name = name, .column = {}, .unit = {}});
+      if (varies(name)) columns.sizes.push_back({.name = name.substr(0, name.find_first_of(" ([")), .column = name, .unit = {}});
     for (const std::string& name : study.words)
       if (varies(name)) columns.factors.push_back(name);
   }
