@@ -102,6 +102,12 @@ DesignFacts facts_of(const CheckedExperiment& experiment) {
   return facts;
 }
 
+/// A row that makes no sense is an error that was found, and no word of the command.
+int refuse_study(const Error& error) {
+  const int status = refuse(error);
+  return error.place.number ? refused : status;
+}
+
 }  // namespace
 
 void offer_study(CLI::App& verb, StudyChoice& choice) {
@@ -165,7 +171,7 @@ OrStatus<FittedStudy> fitted_study(const StudyChoice& choice) {
   }
   made.request = *std::move(request);
   auto study = read_study(choice.files, choice.stimuli);
-  if (!study) return refuse(study.error());
+  if (!study) return refuse_study(study.error());
   made.study = *std::move(study);
   if (!choice.design.empty()) {
     Choice opened = choice.opened;
@@ -179,10 +185,10 @@ OrStatus<FittedStudy> fitted_study(const StudyChoice& choice) {
     made.design = *std::move(file);
   }
   auto fit = fit_study(made.study, made.request);
-  if (!fit) return refuse(fit.error());
+  if (!fit) return refuse_study(fit.error());
   made.fit = *std::move(fit);
   auto record = record_of(made.study, made.fit, made.request);
-  if (!record) return refuse(record.error());
+  if (!record) return refuse_study(record.error());
   made.record = *std::move(record);
   return made;
 }

@@ -174,7 +174,7 @@ class RecordWriter {
     }
     const std::string carrier = request_.carrier.empty() ? analysis.size : request_.carrier;
     const std::string percept = request_.about.empty() ? "roughness" : request_.about;
-    text_ += fmt::format("\n/// {}: magnitude estimates of {} observers.\nmap {} from {} {{\n", name_of_study(),
+    text_ += fmt::format("\n/// {}: magnitude estimates of {} observers.\nexport map {} from {} {{\n", name_of_study(),
                          fit_.trials.observers.size(), percept, carrier);
     setting("name", request_.name.empty()
                         ? fmt::format("{}.{}", identifier_of(name_of_study(), "study"), fit_model_name(request_.model))
@@ -184,8 +184,9 @@ class RecordWriter {
     setting("valid", fmt::format("{} {}{}", carrier, range(analysis.low, analysis.high, analysis.unit),
                                  conditions(analysis.size)));
     if (!request_.domain.empty()) setting("domain", request_.domain);
-    setting("scatter", number(std::max(analysis.scatter, 1e-6)));
-    setting("slope_error", number(law.exponent.error));
+    // The means of two stimuli have no scatter about a line.
+    setting("scatter", std::isfinite(analysis.scatter) ? number(std::max(analysis.scatter, 1e-6)) : "assumed 0.1");
+    if (std::isfinite(law.exponent.error)) setting("slope_error", number(law.exponent.error));
     if (analysis.spread > 0) setting("spread", number(analysis.spread));
     if (analysis.noise > 0) setting("noise", number(analysis.noise));
     setting("observers", std::to_string(fit_.trials.observers.size()));
@@ -212,7 +213,7 @@ class RecordWriter {
     for (const ThresholdFit& each : fit_.thresholds)
       comment(fmt::format("{}{:.4g}, 95 % {:.4g} to {:.4g}; {}", each.standard.empty() ? "At d' = 1: " : each.standard + ": ",
                           each.all.value, each.all.interval.low, each.all.interval.high, each.how));
-    text_ += fmt::format("\n/// {}: {} trials of {} observers.\nthreshold {} {{\n", name_of_study(), fit_.trials.size(),
+    text_ += fmt::format("\n/// {}: {} trials of {} observers.\nexport threshold {} {{\n", name_of_study(), fit_.trials.size(),
                          fit_.trials.observers.size(), cue);
     setting("quantity", quantity_name);
     const auto [low, high] = std::ranges::minmax(over->values);
@@ -289,7 +290,7 @@ class RecordWriter {
       }
     }
     const std::string name = !request_.about.empty() ? request_.about : identifier_of(name_of_study(), "study");
-    text_ += fmt::format("\n/// {}: {} of {} observers.\nrule {} {{\n", name_of_study(),
+    text_ += fmt::format("\n/// {}: {} of {} observers.\nexport rule {} {{\n", name_of_study(),
                          fit_.confidence ? "ratings" : "sorts", fit_.trials.observers.size(), name);
     for (const std::string& each : cases) setting("case", each);
     setting("evidence", fit_.evidence);
