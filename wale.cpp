@@ -49,6 +49,8 @@ constexpr const char* about =
                                          wale library check FILE
   programmers  take a program along:     wale build FILE -o OUT.wpp;  wale sample FILE --at "10.6 mm, 5 mm"
                                          examples/roughness_by_name asks for a roughness by name from C++
+  researchers  where maps come from:     wale experiment run FILE --participant S1;
+                                         wale calibrate fit S1.trials S2.trials -o map.wale
 
 Begin with library/fabric/corduroy.wale; schema/LANGUAGE.md is the language.)";
 
