@@ -55,7 +55,7 @@ class WeibullChooser final : public LevelChooser {
                    return outcome == 0 ? right : 1 - right;
                  }) {}
 
-  std::size_t next() const override { return beliefs_.next_number(); }
+  std::size_t next() const override { return beliefs_.next_number(1e-9); }
   bool over() const override { return beliefs_.answers() >= static_cast<std::size_t>(trials_); }
   void take(std::size_t level, bool right) override { beliefs_.update(level, right ? 0 : 1); }
 
