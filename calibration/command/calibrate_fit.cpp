@@ -59,7 +59,11 @@ int calibrate_fit(const CalibrateFitOptions& options) {
   }
   if (options.out == "-") return done;
   print_out(fit_text(study->study, study->fit, study->request));
-  if (!options.out.empty()) print_out("{} has the {}\n", visible_text(options.out), study->fit.magnitudes ? "map" : study->fit.thresholds.empty() ? "rule" : "threshold");
+  if (!options.out.empty())
+    print_out("{} has the {}\n", visible_text(options.out),
+              study->fit.magnitudes           ? "map"
+              : study->fit.thresholds.empty() ? "rule"
+                                              : "threshold");
   return done;
 }
 
@@ -67,13 +71,16 @@ Run declare_calibrate_fit(CLI::App& verb) {
   const auto options = std::make_shared<CalibrateFitOptions>();
   offer_study(verb, options->study);
   offer_output(verb, options->out, "the Wale file with the map, threshold or rule");
-  must_say(verb.add_option("--plots", options->plots, "a folder for plots, each as SVG and PNG")->type_name("FOLDER"), "the path of a folder");
+  must_say(verb.add_option("--plots", options->plots, "a folder for plots, each as SVG and PNG")->type_name("FOLDER"),
+           "the path of a folder");
   offer_json(verb, options->json, "prints estimates, exclusions and the record as JSON");
   verb.footer(
-      "Magnitude estimates become a map, forced choices a threshold, ratings and sorts a rule. What a planted observer says, and\n"
+      "Magnitude estimates become a map, forced choices a threshold, ratings and sorts a rule. What a planted observer "
+      "says, and\n"
       "what anybody says on a simulated device, is graded `simulated`, the worst grade.\n"
       "for example: wale calibrate fit crossed-*.trials -o crossed.wale --plots plots\n"
-      "             wale calibrate fit study.csv --task magnitude_estimation --answer slider.response --size amplitude=amp:N");
+      "             wale calibrate fit study.csv --task magnitude_estimation --answer slider.response --size "
+      "amplitude=amp:N");
   return [options] { return calibrate_fit(*options); };
 }
 

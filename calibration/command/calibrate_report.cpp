@@ -42,7 +42,8 @@ Result<> draw_stimuli(const FittedStudy& study, const StudyChoice& choice, Study
   built.file = choice.design;
   const auto& devices = study.design->module->declarations().devices;
   if (devices.find(study.study.device) != nullptr) built.device = study.study.device;
-  const auto ready = ready_experiment(*study.design, choice.experiment.empty() ? study.study.experiment : choice.experiment, built);
+  const auto ready =
+      ready_experiment(*study.design, choice.experiment.empty() ? study.study.experiment : choice.experiment, built);
   if (!ready) {
     parts.stimuli_note = "The stimuli of the design cannot be built.";
     return {};
@@ -54,7 +55,8 @@ Result<> draw_stimuli(const FittedStudy& study, const StudyChoice& choice, Study
   for (std::size_t i = 0; i < count; ++i) {
     const Program& program = ready->stimuli[i];
     const Bank bank(program, program.default_parameters(), program.default_size());
-    const auto drawn = draw_preview(bank, preview_text(bank, *declarations), *declarations, {.section = {}, .seconds = {}, .small = true});
+    const auto drawn = draw_preview(bank, preview_text(bank, *declarations), *declarations,
+                                    {.section = {}, .seconds = {}, .small = true});
     if (!drawn) return drawn.error();
     auto bytes = encode_page(*drawn->page, "stimulus.png");
     if (!bytes) return bytes.error();
@@ -73,18 +75,21 @@ Result<std::vector<std::string>> files_in(const std::vector<std::string>& paths)
       continue;
     }
     std::vector<std::string> found;
-    for (auto at = fs::recursive_directory_iterator(path, failed); !failed && at != fs::recursive_directory_iterator(); at.increment(failed))
+    for (auto at = fs::recursive_directory_iterator(path, failed); !failed && at != fs::recursive_directory_iterator();
+         at.increment(failed))
       if (at->path().extension() == ".wale") found.push_back(at->path().string());
     if (failed)
-      return Error{.code = Code::unreadable_file, .sentence = "this folder cannot be read: " + failed.message(), .place = {.name = path}};
+      return Error{.code = Code::unreadable_file,
+                   .sentence = "this folder cannot be read: " + failed.message(),
+                   .place = {.name = path}};
     std::ranges::sort(found);
     files.insert(files.end(), found.begin(), found.end());
   }
   return files;
 }
 
-/// Compares each material's size for its level with that of the new map. Levels are magnitudes over that of the reference
-/// stimulus, so a power law's level is a power of the size over the reference's.
+/// Compares each material's size for its level with that of the new map. Levels are magnitudes over that of the
+/// reference stimulus, so a power law's level is a power of the size over the reference's.
 Result<> find_moved(const FittedStudy& study, const CalibrateReportOptions& options, StudyPageParts& parts) {
   if (!study.fit.magnitudes || options.materials.empty()) {
     parts.moved_note = "No materials were named for comparison.";
@@ -120,7 +125,8 @@ Result<> find_moved(const FittedStudy& study, const CalibrateReportOptions& opti
       for (const PerceptRecord& record : program.description().percepts) {
         if (record.name != percept || !record.parameter || !(record.one > 0)) continue;
         const auto maps = declarations->maps();
-        const auto map = std::ranges::find_if(maps, [&](const Map* each) { return each->percept == percept && each->source == record.source; });
+        const auto map = std::ranges::find_if(
+            maps, [&](const Map* each) { return each->percept == percept && each->source == record.source; });
         if (map == maps.end()) continue;
         const double level = program.description().parameters[*record.parameter].value;
         const LevelScale scale(*declared, **map, *declarations, *device);
@@ -135,8 +141,9 @@ Result<> find_moved(const FittedStudy& study, const CalibrateReportOptions& opti
       }
   }
   std::ranges::stable_sort(parts.moved, std::ranges::greater(), &MovedMaterial::noticeable);
-  parts.moved_note = readable("{} materials ask for {}; with this map {} of them change by more than a just noticeable difference.",
-                              compared, percept, parts.moved.size());
+  parts.moved_note =
+      readable("{} materials ask for {}; with this map {} of them change by more than a just noticeable difference.",
+               compared, percept, parts.moved.size());
   if (unbuilt > 0) parts.moved_note += readable(" {} files could not be built.", unbuilt);
   return {};
 }
@@ -157,11 +164,13 @@ int calibrate_report(const CalibrateReportOptions& options) {
   InputFiles inputs = options.study.files;
   if (!options.study.design.empty()) inputs.push_back(options.study.design);
   if (!options.study.stimuli.empty()) inputs.push_back(options.study.stimuli);
-  const auto written = write_file(options.out, study_page(study->study, study->fit, study->request, study->record, parts), inputs);
+  const auto written =
+      write_file(options.out, study_page(study->study, study->fit, study->request, study->record, parts), inputs);
   if (!written) return refuse(written.error());
   if (options.out != "-")
-    print_out("{}", readable("{} has {} trials, {} excluded rows, {} stimuli and {} charts\n", visible_text(options.out),
-                             study->fit.trials.size(), study->fit.trials.exclusions.size(), parts.stimuli.size(), parts.charts.size()));
+    print_out("{}", readable("{} has {} trials, {} excluded rows, {} stimuli and {} charts\n",
+                             visible_text(options.out), study->fit.trials.size(), study->fit.trials.exclusions.size(),
+                             parts.stimuli.size(), parts.charts.size()));
   return done;
 }
 
@@ -169,12 +178,15 @@ Run declare_calibrate_report(CLI::App& verb) {
   const auto options = std::make_shared<CalibrateReportOptions>();
   offer_study(verb, options->study);
   offer_output(verb, options->out, "the HTML file, which needs no other file")->required();
-  must_say(verb.add_option("--materials", options->materials,
-                           "Wale files, or folders of them, whose levels are compared with those of the new map; may be repeated")
-               ->type_name("PATH"),
-           "the path of a Wale file or a folder");
+  must_say(
+      verb.add_option(
+              "--materials", options->materials,
+              "Wale files, or folders of them, whose levels are compared with those of the new map; may be repeated")
+          ->type_name("PATH"),
+      "the path of a Wale file or a folder");
   verb.footer(
-      "Shows design, stimuli (with --design), raw data, fits, residuals, exclusions, the record as it will be used, and what it\n"
+      "Shows design, stimuli (with --design), raw data, fits, residuals, exclusions, the record as it will be used, "
+      "and what it\n"
       "changes in materials (with --materials).\n"
       "for example: wale calibrate report crossed-*.trials --design crossed.wale --materials library -o crossed.html");
   return [options] { return calibrate_report(*options); };
@@ -182,6 +194,7 @@ Run declare_calibrate_report(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb calibrate_report_verb{"calibrate-report", "makes one page of HTML of a study and its fit", declare_calibrate_report};
+extern const Verb calibrate_report_verb{"calibrate-report", "makes one page of HTML of a study and its fit",
+                                        declare_calibrate_report};
 
 }  // namespace wale::command

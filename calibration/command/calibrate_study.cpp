@@ -17,7 +17,10 @@ namespace wale::command {
 namespace {
 
 Error misspelt(const char* option, std::string sentence, std::string mend) {
-  return {.code = Code::malformed_value, .sentence = std::move(sentence), .mend = std::move(mend), .place = {.name = option}};
+  return {.code = Code::malformed_value,
+          .sentence = std::move(sentence),
+          .mend = std::move(mend),
+          .place = {.name = option}};
 }
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -63,13 +66,15 @@ Result<FitRequest> request_of(const StudyChoice& choice) {
                   : choice.model == "thesis_equalised" ? FitModel::thesis_equalised
                                                        : FitModel::mixed;
   request.task = choice.task, request.over = choice.over, request.standard = choice.standard;
-  for (const auto& [option, value, dotted] : {std::tuple("--of", &choice.about, false), std::tuple("--carrier", &choice.carrier, false),
-                                              std::tuple("--name", &choice.name, true)})
+  for (const auto& [option, value, dotted] :
+       {std::tuple("--of", &choice.about, false), std::tuple("--carrier", &choice.carrier, false),
+        std::tuple("--name", &choice.name, true)})
     if (!value->empty() && !is_name(*value, dotted))
       return misspelt(option, fmt::format("expected a name of Wale, found `{}`", visible_text(*value)),
                       "a name has letters, digits and _");
   request.about = choice.about, request.carrier = choice.carrier, request.name = choice.name;
-  if (!std::ranges::all_of(choice.domain, [](char c) { return is_letter(c) || is_digit(c) || c == ' ' || c == ',' || c == '.'; }))
+  if (!std::ranges::all_of(choice.domain,
+                           [](char c) { return is_letter(c) || is_digit(c) || c == ' ' || c == ',' || c == '.'; }))
     return misspelt("--domain", fmt::format("expected words of a domain, found `{}`", visible_text(choice.domain)),
                     "write, for example, `--domain \"grating, one_dimensional, alone\"`");
   request.domain = choice.domain;
@@ -111,19 +116,24 @@ int refuse_study(const Error& error) {
 }  // namespace
 
 void offer_study(CLI::App& verb, StudyChoice& choice) {
-  must_say(verb.add_option("TRIALS", choice.files,
-                           "logs of `wale experiment run`, tables of `wale experiment export` (_beh.tsv, with the .json beside), "
-                           "or other tables with a header, as PsychoPy's wide CSV"),
+  must_say(verb.add_option(
+               "TRIALS", choice.files,
+               "logs of `wale experiment run`, tables of `wale experiment export` (_beh.tsv, with the .json beside), "
+               "or other tables with a header, as PsychoPy's wide CSV"),
            "the path of a file of trials")
       ->required();
-  must_say(verb.add_option("--design", choice.design, "the Wale file that declares the experiment: its task and units, where the files do not say them")
-               ->type_name("FILE"),
-           "the path of a Wale file");
-  must_say(verb.add_option("--experiment", choice.experiment, "which experiment of --design (default: that of the trials, else its first)")
+  must_say(
+      verb.add_option("--design", choice.design,
+                      "the Wale file that declares the experiment: its task and units, where the files do not say them")
+          ->type_name("FILE"),
+      "the path of a Wale file");
+  must_say(verb.add_option("--experiment", choice.experiment,
+                           "which experiment of --design (default: that of the trials, else its first)")
                ->type_name("NAME"),
            "the name of an experiment");
   must_say(verb.add_option("--stimuli", choice.stimuli,
-                           "a table with a column `stimulus` and the sizes of each, for designs whose stimuli are named and have no factors")
+                           "a table with a column `stimulus` and the sizes of each, for designs whose stimuli are "
+                           "named and have no factors")
                ->type_name("FILE"),
            "the path of a table");
   offer_name(verb, "--model", choice.model, {"mixed", "thesis", "thesis_equalised"},
@@ -131,31 +141,49 @@ void offer_study(CLI::App& verb, StudyChoice& choice) {
   offer_name(verb, "--task", choice.task, {std::begin(trial_task_names), std::end(trial_task_names)},
              "what the participants did, if neither trials nor design say it");
   verb.add_option("--size", choice.sizes,
-                  "a size that was varied, as NAME, NAME:UNIT, NAME=COLUMN or NAME=COLUMN:UNIT; may be repeated (default: those of the design)")
+                  "a size that was varied, as NAME, NAME:UNIT, NAME=COLUMN or NAME=COLUMN:UNIT; may be repeated "
+                  "(default: those of the design)")
       ->type_name("NAME=COLUMN:UNIT");
-  verb.add_option("--factor", choice.factors, "a column of words that was varied; may be repeated")->type_name("COLUMN");
-  must_say(verb.add_option("--participant", choice.participant, "the column of the participant (default: participant)")->type_name("COLUMN"),
+  verb.add_option("--factor", choice.factors, "a column of words that was varied; may be repeated")
+      ->type_name("COLUMN");
+  must_say(verb.add_option("--participant", choice.participant, "the column of the participant (default: participant)")
+               ->type_name("COLUMN"),
            "the name of a column");
-  must_say(verb.add_option("--answer", choice.answer, "the column of the answer (default: response; correct for thresholds)")->type_name("COLUMN"),
+  must_say(
+      verb.add_option("--answer", choice.answer, "the column of the answer (default: response; correct for thresholds)")
+          ->type_name("COLUMN"),
+      "the name of a column");
+  must_say(verb.add_option("--run", choice.run, "the column of the run (default: run, if there is one)")
+               ->type_name("COLUMN"),
            "the name of a column");
-  must_say(verb.add_option("--run", choice.run, "the column of the run (default: run, if there is one)")->type_name("COLUMN"), "the name of a column");
-  must_say(verb.add_option("--trial", choice.trial, "the column of the trial's number (default: trial, if there is one)")->type_name("COLUMN"),
-           "the name of a column");
-  verb.add_option("--keep", choice.keep, "only rows whose column has this text, COLUMN=TEXT; may be repeated")->type_name("COLUMN=TEXT");
-  verb.add_option("--drop", choice.drop, "no rows whose column has this text, COLUMN=TEXT; may be repeated")->type_name("COLUMN=TEXT");
+  must_say(
+      verb.add_option("--trial", choice.trial, "the column of the trial's number (default: trial, if there is one)")
+          ->type_name("COLUMN"),
+      "the name of a column");
+  verb.add_option("--keep", choice.keep, "only rows whose column has this text, COLUMN=TEXT; may be repeated")
+      ->type_name("COLUMN=TEXT");
+  verb.add_option("--drop", choice.drop, "no rows whose column has this text, COLUMN=TEXT; may be repeated")
+      ->type_name("COLUMN=TEXT");
   verb.add_flag("--leave-out-nonpositive", choice.leave_out_nonpositive,
                 "excludes magnitudes of zero and below, which are otherwise refused; the report says how many");
-  must_say(verb.add_option("--over", choice.over, "the size that is sought (default: of maps the first, of thresholds that with most levels)")
+  must_say(verb.add_option("--over", choice.over,
+                           "the size that is sought (default: of maps the first, of thresholds that with most levels)")
                ->type_name("NAME"),
            "the name of a size");
-  offer_number(verb, "--standard", choice.standard, {.least = 0, .most = 1e9, .example = 0.8},
-               "what the sizes of a threshold are compared with, in their unit; 0: nothing (default: as the trials say)");
-  must_say(verb.add_option("--of", choice.about, "the percept of a map (default: roughness), the cue of a threshold, the name of a rule")
+  offer_number(
+      verb, "--standard", choice.standard, {.least = 0, .most = 1e9, .example = 0.8},
+      "what the sizes of a threshold are compared with, in their unit; 0: nothing (default: as the trials say)");
+  must_say(verb.add_option("--of", choice.about,
+                           "the percept of a map (default: roughness), the cue of a threshold, the name of a rule")
                ->type_name("NAME"),
            "a name");
-  must_say(verb.add_option("--carrier", choice.carrier, "the argument of the map's percept (default: the size's name)")->type_name("NAME"), "a name");
-  must_say(verb.add_option("--name", choice.name, "the name of the map (default: EXPERIMENT.MODEL)")->type_name("NAME"), "a name");
-  must_say(verb.add_option("--domain", choice.domain, "the kind of the stimuli, as in \"grating, one_dimensional, alone\" (default: not stated)")
+  must_say(verb.add_option("--carrier", choice.carrier, "the argument of the map's percept (default: the size's name)")
+               ->type_name("NAME"),
+           "a name");
+  must_say(verb.add_option("--name", choice.name, "the name of the map (default: EXPERIMENT.MODEL)")->type_name("NAME"),
+           "a name");
+  must_say(verb.add_option("--domain", choice.domain,
+                           "the kind of the stimuli, as in \"grating, one_dimensional, alone\" (default: not stated)")
                ->type_name("WORDS"),
            "words of a domain");
   offer_library(verb, choice.opened.folders);

@@ -23,7 +23,8 @@ struct Scale {
 };
 
 Scale scale_over(const Chart& chart, bool vertical) {
-  Scale scale{.from = vertical ? frame.bottom : frame.left, .to = vertical ? frame.top : frame.right,
+  Scale scale{.from = vertical ? frame.bottom : frame.left,
+              .to = vertical ? frame.top : frame.right,
               .log = vertical ? chart.log_y : chart.log_x};
   bool any = false;
   for (const ChartSeries& series : chart.series)
@@ -47,7 +48,8 @@ std::vector<Tick> ticks_of(const Scale& scale) {
     for (int power = static_cast<int>(std::floor(scale.low)); power <= std::ceil(scale.high); ++power)
       for (const int step : steps) {
         const double value = step * std::pow(10, power);
-        if (scale.shown(value) >= scale.low && scale.shown(value) <= scale.high) ticks.push_back({value, shown_number(value)});
+        if (scale.shown(value) >= scale.low && scale.shown(value) <= scale.high)
+          ticks.push_back({value, shown_number(value)});
       }
     if (ticks.size() <= 10) break;
   }

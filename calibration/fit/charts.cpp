@@ -13,13 +13,16 @@ namespace {
 
 using namespace analysis;
 
-constexpr Colour colours[] = {style::force, style::moving, style::height, style::quiet, {0.25f, 0.5f, 0.3f}, {0.5f, 0.2f, 0.45f}};
+constexpr Colour colours[] = {style::force, style::moving,       style::height,
+                              style::quiet, {0.25f, 0.5f, 0.3f}, {0.5f, 0.2f, 0.45f}};
 Colour colour_of(std::size_t number) { return colours[number % std::size(colours)]; }
 
 /// More points than this hide each other.
 constexpr std::size_t most_points = 4000;
 
-std::string with_unit(const std::string& name, const std::string& unit) { return unit.empty() ? name : name + " (" + unit + ")"; }
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " (" + unit + ")";
+}
 
 std::vector<Chart> of_magnitudes(const StudyFit& fit, FitModel model) {
   const MagnitudeAnalysis& analysis = *fit.magnitudes;
@@ -36,14 +39,23 @@ std::vector<Chart> of_magnitudes(const StudyFit& fit, FitModel model) {
   raw.series.resize(trials.observers.size());
   for (std::size_t i = 0; i < trials.size(); i += step)
     raw.series[trials.observer[i]].points.push_back({size.values[i], trials.answer[i]});
-  for (std::size_t i = 0; i < raw.series.size(); ++i) raw.series[i].colour = colour_of(i), raw.series[i].name = trials.observers[i];
+  for (std::size_t i = 0; i < raw.series.size(); ++i)
+    raw.series[i].colour = colour_of(i), raw.series[i].name = trials.observers[i];
   charts.push_back(std::move(raw));
 
-  Chart means{.file = "law", .title = fmt::format("Means of the stimuli, and the law: exponent {:.3g}", law.exponent.value),
-              .x_name = x, .y_name = "magnitude", .log_x = true, .log_y = true};
-  Chart residuals{.file = "residuals", .title = "Means of the stimuli about the law", .x_name = x,
-                  .y_name = "log10 of magnitude over the law's", .log_x = true};
-  ChartSeries points{.colour = style::force, .name = "means"}, line{.line = true, .colour = style::moving, .name = "law"}, rest = points;
+  Chart means{.file = "law",
+              .title = fmt::format("Means of the stimuli, and the law: exponent {:.3g}", law.exponent.value),
+              .x_name = x,
+              .y_name = "magnitude",
+              .log_x = true,
+              .log_y = true};
+  Chart residuals{.file = "residuals",
+                  .title = "Means of the stimuli about the law",
+                  .x_name = x,
+                  .y_name = "log10 of magnitude over the law's",
+                  .log_x = true};
+  ChartSeries points{.colour = style::force, .name = "means"},
+      line{.line = true, .colour = style::moving, .name = "law"}, rest = points;
   for (const StimulusMean& each : analysis.thesis.means) {
     points.points.push_back({each.sizes[at], std::pow(10, each.mean)});
     rest.points.push_back({each.sizes[at], each.mean - predicted(each.sizes[at])});
@@ -51,10 +63,13 @@ std::vector<Chart> of_magnitudes(const StudyFit& fit, FitModel model) {
   for (const double each : {analysis.low, analysis.high}) line.points.push_back({each, std::pow(10, predicted(each))});
   means.series = {std::move(points), std::move(line)};
   rest.name.clear();
-  residuals.series = {std::move(rest), {.points = {{analysis.low, 0}, {analysis.high, 0}}, .line = true, .colour = style::moving}};
+  residuals.series = {std::move(rest),
+                      {.points = {{analysis.low, 0}, {analysis.high, 0}}, .line = true, .colour = style::moving}};
   charts.push_back(std::move(means)), charts.push_back(std::move(residuals));
 
-  Chart observers{.file = "observers", .title = "Exponents of single observers", .x_name = "observers in the order of their exponents",
+  Chart observers{.file = "observers",
+                  .title = "Exponents of single observers",
+                  .x_name = "observers in the order of their exponents",
                   .y_name = "exponent"};
   std::vector<double> exponents;
   for (const ObserverLaw& each : analysis.observers) exponents.push_back(each.exponent);
@@ -62,19 +77,27 @@ std::vector<Chart> of_magnitudes(const StudyFit& fit, FitModel model) {
   ChartSeries own{.colour = style::force};
   for (std::size_t i = 0; i < exponents.size(); ++i) own.points.push_back({static_cast<double>(i + 1), exponents[i]});
   const auto n = static_cast<double>(exponents.size());
-  observers.series = {std::move(own), {.points = {{1, law.exponent.value}, {n, law.exponent.value}}, .line = true, .colour = style::moving, .name = "all"}};
+  observers.series = {std::move(own),
+                      {.points = {{1, law.exponent.value}, {n, law.exponent.value}},
+                       .line = true,
+                       .colour = style::moving,
+                       .name = "all"}};
   charts.push_back(std::move(observers));
   return charts;
 }
 
 std::vector<Chart> of_thresholds(const StudyFit& fit) {
   std::vector<Chart> charts;
-  const std::string x = fit.is_fraction ? fit.over + ", difference over the standard" : with_unit(fit.over, fit.over_unit);
+  const std::string x =
+      fit.is_fraction ? fit.over + ", difference over the standard" : with_unit(fit.over, fit.over_unit);
   for (const ThresholdFit& each : fit.thresholds) {
-    Chart chart{.file = fmt::format("threshold-{}", charts.size() + 1),
-                .title = (each.standard.empty() ? "" : each.standard + ": ") + fmt::format("threshold {:.3g}", each.all.value),
-                .x_name = x, .log_x = true};
-    ChartSeries points{.colour = style::force, .name = "answers"}, line{.line = true, .colour = style::moving, .name = "fit"};
+    Chart chart{
+        .file = fmt::format("threshold-{}", charts.size() + 1),
+        .title = (each.standard.empty() ? "" : each.standard + ": ") + fmt::format("threshold {:.3g}", each.all.value),
+        .x_name = x,
+        .log_x = true};
+    ChartSeries points{.colour = style::force, .name = "answers"},
+        line{.line = true, .colour = style::moving, .name = "fit"};
     if (each.function) {
       chart.y_name = "share of right answers";
       for (const Level& level : each.levels)
@@ -98,18 +121,25 @@ std::vector<Chart> of_thresholds(const StudyFit& fit) {
 }
 
 std::vector<Chart> of_confidence(const ConfidenceAnalysis& analysis) {
-  Chart chart{.file = "ratings", .title = "Ratings of the stimuli: means, and one standard deviation",
-              .x_name = "stimuli in the order of their means", .y_name = "rating"};
+  Chart chart{.file = "ratings",
+              .title = "Ratings of the stimuli: means, and one standard deviation",
+              .x_name = "stimuli in the order of their means",
+              .y_name = "rating"};
   ChartSeries means{.colour = style::force};
   for (std::size_t i = 0; i < analysis.stimuli.size(); ++i) {
     const RatedStimulus& each = analysis.stimuli[i];
     const auto at = static_cast<double>(i + 1);
     means.points.push_back({at, each.mean});
     if (std::isfinite(each.deviation))
-      chart.series.push_back({.points = {{at, each.mean - each.deviation}, {at, each.mean + each.deviation}}, .line = true, .colour = style::rule});
+      chart.series.push_back({.points = {{at, each.mean - each.deviation}, {at, each.mean + each.deviation}},
+                              .line = true,
+                              .colour = style::rule});
   }
   chart.series.push_back(std::move(means));
-  Chart histogram{.file = "histogram", .title = "How often each tenth of the scale was used", .x_name = "rating", .y_name = "ratings"};
+  Chart histogram{.file = "histogram",
+                  .title = "How often each tenth of the scale was used",
+                  .x_name = "rating",
+                  .y_name = "ratings"};
   ChartSeries steps{.line = true, .colour = style::force};
   for (std::size_t i = 0; i < analysis.histogram.size(); ++i)
     for (const std::size_t end : {i, i + 1})
@@ -119,7 +149,10 @@ std::vector<Chart> of_confidence(const ConfidenceAnalysis& analysis) {
 }
 
 std::vector<Chart> of_sorting(const SortingFit& sorting) {
-  Chart tree{.file = "tree", .title = "Single linkage of the sorts", .x_name = "stimuli", .y_name = "sorts in which they were apart"};
+  Chart tree{.file = "tree",
+             .title = "Single linkage of the sorts",
+             .x_name = "stimuli",
+             .y_name = "sorts in which they were apart"};
   const std::vector<std::size_t> order = leaves_in_order(sorting.single);
   std::vector<glm::dvec2> tops(sorting.stimuli.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -128,7 +161,8 @@ std::vector<Chart> of_sorting(const SortingFit& sorting) {
   }
   for (const Merge& each : sorting.single) {
     const glm::dvec2 a = tops[each.first], b = tops[each.second];
-    tree.series.push_back({.points = {a, {a.x, each.distance}, {b.x, each.distance}, b}, .line = true, .colour = style::force});
+    tree.series.push_back(
+        {.points = {a, {a.x, each.distance}, {b.x, each.distance}, b}, .line = true, .colour = style::force});
     tops.push_back({(a.x + b.x) / 2, each.distance});
   }
   return {std::move(tree)};

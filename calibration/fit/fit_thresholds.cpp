@@ -42,7 +42,8 @@ ObserverThreshold of_choices(const std::string& observer, const PsychometricFit&
 }
 
 /// Where a line through the origin of d' over the differences is 1.
-ObserverThreshold of_sensitivities(const std::string& observer, const std::vector<std::pair<double, Sensitivity>>& known) {
+ObserverThreshold of_sensitivities(const std::string& observer,
+                                   const std::vector<std::pair<double, Sensitivity>>& known) {
   double products = 0, squares = 0;
   for (const auto& [difference, each] : known) {
     if (!(each.error > 0)) continue;
@@ -113,9 +114,13 @@ class ThresholdAnalyst {
   Result<> find_over() {
     const Trials& trials = fit_.trials;
     if (trials.sizes.empty()) return problem("no column has the sizes that were compared", "name one with --size");
-    const auto count = [](const SizeValues& size) { return std::set<double>(size.values.begin(), size.values.end()).size(); };
-    over_ = request_.over.empty() ? &*std::ranges::max_element(trials.sizes, {}, count) : trials.size_named(request_.over);
-    if (over_ == nullptr) return problem(fmt::format("no size is called `{}`", visible_text(request_.over)), "name a --size");
+    const auto count = [](const SizeValues& size) {
+      return std::set<double>(size.values.begin(), size.values.end()).size();
+    };
+    over_ =
+        request_.over.empty() ? &*std::ranges::max_element(trials.sizes, {}, count) : trials.size_named(request_.over);
+    if (over_ == nullptr)
+      return problem(fmt::format("no size is called `{}`", visible_text(request_.over)), "name a --size");
     for (const SizeValues& each : trials.sizes)
       if (&each != over_) others_.push_back(&each);
     fit_.over = over_->name, fit_.over_unit = over_->unit;
@@ -181,8 +186,8 @@ class ThresholdAnalyst {
     for (const Level& each : levels) {
       Answered answered = noises;
       answered.hits = each.right, answered.signals = each.trials;
-      const auto d = sensitivity_of(fit_.task == "one_interval" ? Decision::yes_no : Decision::same_different_difference,
-                                    answered);
+      const auto d = sensitivity_of(
+          fit_.task == "one_interval" ? Decision::yes_no : Decision::same_different_difference, answered);
       if (!d) return d.error();
       known.emplace_back(each.size, *d);
     }
@@ -214,7 +219,8 @@ class ThresholdAnalyst {
     }
     auto all = threshold_of("all", result.levels, all_noises_, &result);
     if (!all) return all.error();
-    if (!all->refused.empty()) return problem(name + (name.empty() ? "" : ": ") + all->refused, "look at the raw trials");
+    if (!all->refused.empty())
+      return problem(name + (name.empty() ? "" : ": ") + all->refused, "look at the raw trials");
     result.all = *all;
     if (fitted == own.size() && fitted >= 2) {
       const auto n = static_cast<double>(fitted);
@@ -223,12 +229,14 @@ class ThresholdAnalyst {
       result.all = {"all", std::exp(mean), {std::exp(mean - reach), std::exp(mean + reach)}, {}};
       result.how = fmt::format("geometric mean of {} observers, t on {} degrees of freedom", fitted, fitted - 1);
     } else {
-      result.how = fitted < 2 ? "all answers together; nothing tells how observers differ"
-                              : fmt::format("all answers together, since {} of {} observers have no threshold of their own",
-                                            own.size() - fitted, own.size());
+      result.how = fitted < 2
+                       ? "all answers together; nothing tells how observers differ"
+                       : fmt::format("all answers together, since {} of {} observers have no threshold of their own",
+                                     own.size() - fitted, own.size());
     }
     if (result.function)
-      for (const std::string& note : result.function->notes) fit_.notes.push_back((name.empty() ? "" : name + ": ") + note);
+      for (const std::string& note : result.function->notes)
+        fit_.notes.push_back((name.empty() ? "" : name + ": ") + note);
     fit_.thresholds.push_back(std::move(result));
     return {};
   }
@@ -240,7 +248,8 @@ class ThresholdAnalyst {
     for (const ThresholdFit& each : fit_.thresholds)
       fractions.push_back({each.size, each.all.value, each.all.interval});
     if (fractions.size() == 1) {
-      fit_.weber = WeberRange{.fraction = fractions[0].fraction, .low = fractions[0].standard, .high = fractions[0].standard};
+      fit_.weber =
+          WeberRange{.fraction = fractions[0].fraction, .low = fractions[0].standard, .high = fractions[0].standard};
       return {};
     }
     const auto pooled = pool_fractions(fractions);

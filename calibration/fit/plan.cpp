@@ -41,11 +41,15 @@ class MagnitudeStudies {
 
   std::optional<Found> operator()(std::size_t people, Random& random) const {
     const std::size_t each = logs_.size() * static_cast<std::size_t>(repetitions_), all = each * people;
-    MixedData data{{{"constant", "log10 size"}, Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(all), 2)}, {0, 1}, {}, people,
+    MixedData data{{{"constant", "log10 size"}, Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(all), 2)},
+                   {0, 1},
+                   {},
+                   people,
                    Eigen::VectorXd(static_cast<Eigen::Index>(all))};
     Eigen::Index row = 0;
     for (std::size_t person = 0; person < people; ++person) {
-      const double exponent = request_.exponent + request_.spread * random.normal(), level = request_.numbers * random.normal();
+      const double exponent = request_.exponent + request_.spread * random.normal(),
+                   level = request_.numbers * random.normal();
       for (int run = 0; run < repetitions_; ++run)
         for (const double log : logs_) {
           data.fixed.columns(row, 1) = log;
@@ -56,7 +60,8 @@ class MagnitudeStudies {
     const auto fit = fit_mixed_simplified(data, Criterion::restricted);
     if (!fit) return std::nullopt;
     const Coefficient& slope = fit->coefficients[1];
-    return Found{(slope.high() - slope.low()) / 2, slope.low() <= request_.exponent && request_.exponent <= slope.high()};
+    return Found{(slope.high() - slope.low()) / 2,
+                 slope.low() <= request_.exponent && request_.exponent <= slope.high()};
   }
 
  private:
@@ -73,7 +78,11 @@ class ThresholdStudies {
  public:
   ThresholdStudies(const CheckedExperiment& experiment, std::vector<double> levels, bool is_ratio, double threshold,
                    const PlanRequest& request)
-      : experiment_(experiment), levels_(std::move(levels)), is_ratio_(is_ratio), threshold_(threshold), request_(request) {
+      : experiment_(experiment),
+        levels_(std::move(levels)),
+        is_ratio_(is_ratio),
+        threshold_(threshold),
+        request_(request) {
     Random random(request.seed);
     for (std::size_t person = 0; person < pool; ++person)
       logs_.push_back(measured(threshold * std::exp(request.threshold_spread * random.normal()), random));
@@ -185,7 +194,8 @@ Result<std::size_t> factor_of(const CheckedExperiment& experiment, const std::st
   if (named.empty() && experiment.over) return *experiment.over;
   for (std::size_t i = 0; i < experiment.factors.size(); ++i) {
     const ExperimentFactor& each = experiment.factors[i];
-    const bool is_number = std::ranges::all_of(each.levels, [](const ExperimentLevel& level) { return level.value.has_value(); });
+    const bool is_number =
+        std::ranges::all_of(each.levels, [](const ExperimentLevel& level) { return level.value.has_value(); });
     if (named.empty() ? is_number : each.name == named) {
       if (is_number) return i;
       return unfit(fmt::format("the factor `{}` has words for levels", each.name), "name one with quantities");
@@ -213,7 +223,8 @@ Result<Plan> plan_experiment(const CheckedExperiment& experiment, const PlanRequ
     values = request.sizes;
   }
   if (values.empty() || *std::ranges::min_element(values) <= 0)
-    return unfit(fmt::format("the {} of some stimuli is zero or below, or not known", name), "a law needs sizes above zero");
+    return unfit(fmt::format("the {} of some stimuli is zero or below, or not known", name),
+                 "a law needs sizes above zero");
   if (experiment.task == TrialTask::magnitude_estimation) {
     double mean = 0;
     for (double& each : values) each = std::log10(each), mean += each / static_cast<double>(values.size());
@@ -222,7 +233,9 @@ Result<Plan> plan_experiment(const CheckedExperiment& experiment, const PlanRequ
     plan.trials = values.size() * static_cast<std::size_t>(experiment.repetitions);
     const auto [low, high] = std::ranges::minmax(values);
     if (!(high > low))
-      return Error{.code = Code::not_measured, .sentence = "all stimuli have one size, so no study finds an exponent", .mend = "vary it"};
+      return Error{.code = Code::not_measured,
+                   .sentence = "all stimuli have one size, so no study finds an exponent",
+                   .mend = "vary it"};
     search(plan, MagnitudeStudies(values, experiment.repetitions, request), request);
     return plan;
   }
@@ -233,7 +246,8 @@ Result<Plan> plan_experiment(const CheckedExperiment& experiment, const PlanRequ
   std::ranges::sort(values);
   values.erase(std::unique(values.begin(), values.end()), values.end());
   const bool is_ratio = request.sizes.empty() && experiment.factors[factor].unit.empty() && values.front() > 1;
-  const double first = is_ratio ? values.front() - 1 : values.front(), last = is_ratio ? values.back() - 1 : values.back();
+  const double first = is_ratio ? values.front() - 1 : values.front(),
+               last = is_ratio ? values.back() - 1 : values.back();
   const double threshold = request.threshold.value_or(std::sqrt(first * last));
   plan.sought = "threshold of " + name;
   plan.trials = (is_adaptive(experiment) ? static_cast<std::size_t>(experiment.trials) : values.size()) *

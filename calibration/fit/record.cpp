@@ -46,16 +46,18 @@ std::string range(double low, double high, const std::string& unit) {
 /// A unit as Wale writes it: letters, digits, `/`, `^`, spaces and a sign.
 bool is_unit(const std::string& unit) {
   return std::ranges::all_of(unit, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' || c == '^' || c == ' ' ||
-           c == '-';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' || c == '^' ||
+           c == ' ' || c == '-';
   });
 }
 
 std::string dimension_of(const std::string& unit) {
   static const std::pair<const char*, const char*> known[] = {
-      {"", "number"},    {"N", "force"},   {"mN", "force"},       {"m", "length"},      {"mm", "length"},
-      {"N/m", "stiffness"}, {"N/mm", "stiffness"}, {"N s/m", "viscosity"}, {"m/s^2", "acceleration"}, {"Hz", "frequency"},
-      {"kg", "mass"},    {"m/s", "velocity"}, {"s", "time"}};
+      {"", "number"},        {"N", "force"},         {"mN", "force"},
+      {"m", "length"},       {"mm", "length"},       {"N/m", "stiffness"},
+      {"N/mm", "stiffness"}, {"N s/m", "viscosity"}, {"m/s^2", "acceleration"},
+      {"Hz", "frequency"},   {"kg", "mass"},         {"m/s", "velocity"},
+      {"s", "time"}};
   for (const auto& [name, dimension] : known)
     if (unit == name) return dimension;
   return {};
@@ -68,7 +70,9 @@ class RecordWriter {
 
   Result<std::string> write() {
     for (const SizeValues& each : fit_.trials.sizes) {
-      if (!is_unit(each.unit)) return problem(fmt::format("`{}` is no unit of Wale", visible_text(each.unit)), "name the unit, as in --size amplitude:N");
+      if (!is_unit(each.unit))
+        return problem(fmt::format("`{}` is no unit of Wale", visible_text(each.unit)),
+                       "name the unit, as in --size amplitude:N");
       if (!is_identifier(each.name))
         return problem(fmt::format("`{}` is no name in Wale", visible_text(each.name)),
                        "give the size a name of letters, as in --size amplitude=COLUMN");
@@ -159,12 +163,15 @@ class RecordWriter {
                      fmt::format("name it, as in --size {}:N", visible_text(analysis.size)));
     const ChosenLaw law = chosen_law(analysis, request_.model);
     comment(request_.model == FitModel::mixed
-                ? fmt::format("Model: mixed, restricted maximum likelihood; exponent {:.4g}, 95 % {:.4g} to {:.4g} on {:.4g} "
-                              "degrees of freedom.", law.exponent.value, law.exponent.low(), law.exponent.high(),
-                              law.exponent.freedom)
-                : fmt::format("Model: {}, least squares of the means; exponent {:.4g}, 95 % {:.4g} to {:.4g} on {:.4g} degrees "
-                              "of freedom.", fit_model_name(request_.model), law.exponent.value, law.exponent.low(),
-                              law.exponent.high(), law.exponent.freedom));
+                ? fmt::format(
+                      "Model: mixed, restricted maximum likelihood; exponent {:.4g}, 95 % {:.4g} to {:.4g} on {:.4g} "
+                      "degrees of freedom.",
+                      law.exponent.value, law.exponent.low(), law.exponent.high(), law.exponent.freedom)
+                : fmt::format(
+                      "Model: {}, least squares of the means; exponent {:.4g}, 95 % {:.4g} to {:.4g} on {:.4g} degrees "
+                      "of freedom.",
+                      fit_model_name(request_.model), law.exponent.value, law.exponent.low(), law.exponent.high(),
+                      law.exponent.freedom));
     if (!analysis.region.empty()) {
       std::string corners = "Presented, corners of the convex region:";
       for (const auto& corner : analysis.region)
@@ -179,8 +186,9 @@ class RecordWriter {
     setting("name", request_.name.empty()
                         ? fmt::format("{}.{}", identifier_of(name_of_study(), "study"), fit_model_name(request_.model))
                         : request_.name);
-    setting("law", fmt::format("log10(magnitude) = {} * log10({} / 1 {}) {} {}", number(law.exponent.value), carrier,
-                               analysis.unit, law.constant.value < 0 ? "-" : "+", number(std::abs(law.constant.value))));
+    setting("law",
+            fmt::format("log10(magnitude) = {} * log10({} / 1 {}) {} {}", number(law.exponent.value), carrier,
+                        analysis.unit, law.constant.value < 0 ? "-" : "+", number(std::abs(law.constant.value))));
     setting("valid", fmt::format("{} {}{}", carrier, range(analysis.low, analysis.high, analysis.unit),
                                  conditions(analysis.size)));
     if (!request_.domain.empty()) setting("domain", request_.domain);
@@ -211,10 +219,11 @@ class RecordWriter {
       return problem(fmt::format("`{}` is the unit of no quantity of thresholds", visible_text(of->unit)),
                      "convert the sizes to SI");
     for (const ThresholdFit& each : fit_.thresholds)
-      comment(fmt::format("{}{:.4g}, 95 % {:.4g} to {:.4g}; {}", each.standard.empty() ? "At d' = 1: " : each.standard + ": ",
-                          each.all.value, each.all.interval.low, each.all.interval.high, each.how));
-    text_ += fmt::format("\n/// {}: {} trials of {} observers.\nexport threshold {} {{\n", name_of_study(), fit_.trials.size(),
-                         fit_.trials.observers.size(), cue);
+      comment(fmt::format("{}{:.4g}, 95 % {:.4g} to {:.4g}; {}",
+                          each.standard.empty() ? "At d' = 1: " : each.standard + ": ", each.all.value,
+                          each.all.interval.low, each.all.interval.high, each.how));
+    text_ += fmt::format("\n/// {}: {} trials of {} observers.\nexport threshold {} {{\n", name_of_study(),
+                         fit_.trials.size(), fit_.trials.observers.size(), cue);
     setting("quantity", quantity_name);
     const auto [low, high] = std::ranges::minmax(over->values);
     if (fit_.is_fraction) {
@@ -241,8 +250,8 @@ class RecordWriter {
     return {};
   }
 
-  /// What tells the stimulus of a trial from others: the ranges of its sizes halfway to their neighbours by ratio, or its
-  /// name.
+  /// What tells the stimulus of a trial from others: the ranges of its sizes halfway to their neighbours by ratio, or
+  /// its name.
   Result<std::string> conditions_of(std::size_t trial) const {
     const Trials& trials = fit_.trials;
     std::string text;
@@ -255,13 +264,14 @@ class RecordWriter {
       const std::string below = last ? "" : quantity(halfway(*at, *std::next(at)), each.unit);
       const std::string above = first ? "" : quantity(halfway(*std::prev(at), *at), each.unit);
       text += fmt::format(", assumed {} {}", each.name,
-                          first ? "below " + below : last ? "above " + above : above + " .. " + below);
+                          first  ? "below " + below
+                          : last ? "above " + above
+                                 : above + " .. " + below);
     }
     std::string kind;
     for (const FactorValues& each : trials.factors) {
       if (each.name == "stimulus" && !trials.sizes.empty()) continue;
-      if (!kind.empty())
-        return problem("a rule tells stimuli by their sizes and one word", "choose one with --factor");
+      if (!kind.empty()) return problem("a rule tells stimuli by their sizes and one word", "choose one with --factor");
       kind = each.levels[each.values[trial]];
       text += ", kind " + identifier_of(kind, "nameless");
     }
@@ -276,13 +286,15 @@ class RecordWriter {
       for (const RatedStimulus& each : stimuli) {
         const auto conditions = conditions_of(each.trial);
         if (!conditions) return conditions.error();
-        cases.push_back(fmt::format("{}{}, confidence {:.4g} %{}", in_quotes(each.name), *conditions, each.mean,
-                                    std::isfinite(each.deviation) ? fmt::format(", spread {:.4g} %", each.deviation) : ""));
+        cases.push_back(
+            fmt::format("{}{}, confidence {:.4g} %{}", in_quotes(each.name), *conditions, each.mean,
+                        std::isfinite(each.deviation) ? fmt::format(", spread {:.4g} %", each.deviation) : ""));
       }
     } else {
       const SortingFit& sorting = *fit_.sorting;
-      comment(fmt::format("{} sorts; single linkage cut into {} groups; mean adjusted Rand index of the sorts with them {:.3g}.",
-                          sorting.groupings.size(), sorting.groups, sorting.agreement));
+      comment(fmt::format(
+          "{} sorts; single linkage cut into {} groups; mean adjusted Rand index of the sorts with them {:.3g}.",
+          sorting.groupings.size(), sorting.groups, sorting.agreement));
       for (std::size_t i = 0; i < sorting.stimuli.size(); ++i) {
         const auto conditions = conditions_of(sorting.trials[i]);
         if (!conditions) return conditions.error();

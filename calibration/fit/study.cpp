@@ -31,7 +31,8 @@ std::uint64_t hash_of(std::string_view bytes) {
 Result<std::string> bytes_in(const std::string& path) {
   std::error_code failed;
   const auto unreadable = [&](std::string why) {
-    return Error{.code = Code::unreadable_file, .sentence = "this file cannot be read: " + why, .place = {.name = path}};
+    return Error{
+        .code = Code::unreadable_file, .sentence = "this file cannot be read: " + why, .place = {.name = path}};
   };
   if (std::filesystem::is_directory(path, failed)) return unreadable("it is a folder");
   if (std::filesystem::file_size(path, failed) > most_bytes && !failed) return unreadable("it has more than 1 GiB");
@@ -120,8 +121,10 @@ class StudyReader {
     if (!table) return table.error();
     if (const auto same = is_of(path, table->task, table->task_description); !same) return same;
     for (const Error& each : record->problems)
-      study_.notes.push_back(fmt::format("{}:{}: {}", visible_text(path), each.place.number.value_or(0), each.sentence));
-    if (!record->ended()) study_.notes.push_back(visible_text(path) + ": the session was broken off, and is not finished");
+      study_.notes.push_back(
+          fmt::format("{}:{}: {}", visible_text(path), each.place.number.value_or(0), each.sentence));
+    if (!record->ended())
+      study_.notes.push_back(visible_text(path) + ": the session was broken off, and is not finished");
     std::size_t resumed = 0;
     for (const SessionEntry& entry : record->entries) {
       const std::string day = entry.time.substr(0, std::min<std::size_t>(10, entry.time.size()));
@@ -175,11 +178,12 @@ class StudyReader {
       if (each.units.empty() || each.units == "s") continue;
       const auto [known, is_new] = study_.units.try_emplace(each.name, each.units);
       if (!is_new && known->second != each.units)
-        return Error{.code = Code::malformed_value,
-                     .sentence = fmt::format("the unit of `{}` is {} here and {} in the files before", visible_text(each.name),
-                                             visible_text(each.units), visible_text(known->second)),
-                     .mend = "analyse files with one unit",
-                     .place = {.name = path}};
+        return Error{
+            .code = Code::malformed_value,
+            .sentence = fmt::format("the unit of `{}` is {} here and {} in the files before", visible_text(each.name),
+                                    visible_text(each.units), visible_text(known->second)),
+            .mend = "analyse files with one unit",
+            .place = {.name = path}};
     }
     return {};
   }
@@ -211,7 +215,8 @@ class StudyReader {
     }
     study_.says_grade = study_.says_grade && table->column("grade").has_value();
     if (const auto date = table->column("date"))  // as PsychoPy writes it: 2026-11-24_14h03.11.123
-      for (std::size_t row = 0; row < table->rows(); ++row) note_day(std::string(table->cell(row, *date).substr(0, 10)));
+      for (std::size_t row = 0; row < table->rows(); ++row)
+        note_day(std::string(table->cell(row, *date).substr(0, 10)));
     if (study_.varied.empty() && study_.words.empty()) find_varied(*table);
     study_.tables.push_back(*std::move(table));
     return {};
@@ -243,9 +248,9 @@ class StudyReader {
     for (std::size_t i = 0; i < stimuli_->columns().size(); ++i)
       if (stimuli_->columns()[i] != "stimulus") {
         if (table.column(stimuli_->columns()[i]))
-          return analysis::table_error(*stimuli_, 0,
-                                       fmt::format("the trials have a column `{}` too", visible_text(stimuli_->columns()[i])),
-                                       "leave it out, or call it otherwise");
+          return analysis::table_error(
+              *stimuli_, 0, fmt::format("the trials have a column `{}` too", visible_text(stimuli_->columns()[i])),
+              "leave it out, or call it otherwise");
         text += (added.empty() ? "" : "\t") + cell_of(stimuli_->columns()[i]);
         added.push_back(i);
       }
@@ -256,10 +261,10 @@ class StudyReader {
       for (++line; line < table.line(row); ++line) text += '\n';
       const auto found = stimulus_rows_.find(std::string(table.cell(row, *column)));
       if (found == stimulus_rows_.end())
-        return analysis::table_error(table, row,
-                                     fmt::format("the table of stimuli has no stimulus `{}`",
-                                                 visible_text(table.cell(row, *column))),
-                                     "add it to " + visible_text(stimuli_path_));
+        return analysis::table_error(
+            table, row,
+            fmt::format("the table of stimuli has no stimulus `{}`", visible_text(table.cell(row, *column))),
+            "add it to " + visible_text(stimuli_path_));
       for (std::size_t i = 0; i < table.columns().size(); ++i) text += cell_of(table.cell(row, i)) + "\t";
       for (std::size_t i = 0; i < added.size(); ++i)
         text += (i == 0 ? "" : "\t") + cell_of(stimuli_->cell(found->second, added[i]));

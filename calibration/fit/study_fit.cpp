@@ -48,7 +48,8 @@ TrialColumns columns_of(const Study& study, const FitRequest& request, StudyFit&
       return false;
     };
     for (const std::string& name : study.varied)
-      if (varies(name)) columns.sizes.push_back({.name = name.substr(0, name.find_first_of(" ([")), .column = name, .unit = {}});
+      if (varies(name))
+        columns.sizes.push_back({.name = name.substr(0, name.find_first_of(" ([")), .column = name, .unit = {}});
     for (const std::string& name : study.words)
       if (varies(name)) columns.factors.push_back(name);
   }
@@ -89,8 +90,8 @@ Result<> fit_sorts(const Study& study, StudyFit& fit) {
   std::map<std::size_t, std::size_t> sizes;
   for (const auto& [of, sort] : sorts) {
     if (sort.size() != names->levels.size())
-      return unknown(fmt::format("a sort by {} has {} of {} stimuli", visible_text(trials.observers[of.first]), sort.size(),
-                                 names->levels.size()),
+      return unknown(fmt::format("a sort by {} has {} of {} stimuli", visible_text(trials.observers[of.first]),
+                                 sort.size(), names->levels.size()),
                      "leave the sort out by rule, as with --drop", study);
     Grouping grouping;
     std::set<std::size_t> groups;
@@ -115,8 +116,8 @@ Result<> fit_sorts(const Study& study, StudyFit& fit) {
 
 Result<> fit_magnitudes(const Study& study, const FitRequest& request, StudyFit& fit) {
   if (fit.trials.sizes.empty())
-    return unknown("no column has the sizes of the stimuli", "name one with --size, or a table of the stimuli with --stimuli",
-                   study);
+    return unknown("no column has the sizes of the stimuli",
+                   "name one with --size, or a table of the stimuli with --stimuli", study);
   if (fit.trials.observers.size() < 2)
     return Error{.code = Code::not_measured,
                  .sentence = fmt::format("all answers are by one observer, {}, so nothing tells how people differ",
@@ -150,8 +151,10 @@ Result<StudyFit> fit_study(const Study& study, const FitRequest& request) {
   fit.notes = study.notes;
   TrialColumns columns = columns_of(study, request, fit);
   const auto add_stimulus = [&] {
-    const bool has = std::ranges::all_of(study.tables, [](const Table& each) { return each.column("stimulus").has_value(); });
-    if (has && std::ranges::find(columns.factors, "stimulus") == columns.factors.end()) columns.factors.push_back("stimulus");
+    const bool has =
+        std::ranges::all_of(study.tables, [](const Table& each) { return each.column("stimulus").has_value(); });
+    if (has && std::ranges::find(columns.factors, "stimulus") == columns.factors.end())
+      columns.factors.push_back("stimulus");
     return has;
   };
   const auto read = [&]() -> Result<> {

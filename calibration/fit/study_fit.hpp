@@ -24,13 +24,13 @@ enum class FitModel {
 /// What is fitted, and what the trials do not say. Empty texts are found in the trials.
 struct FitRequest {
   FitModel model = FitModel::mixed;
-  std::string task;                    ///< a name of `trial_task_names`
-  analysis::TrialColumns columns;      ///< sizes and factors; without any those that the study varied
-  std::string over;                    ///< the size that a threshold is sought of
-  std::optional<double> standard;      ///< that it is compared with, in its unit
-  std::string about;                   ///< the percept of a map, the cue of a threshold, the name of a rule
-  std::string carrier;                 ///< the argument of the map
-  std::string name, domain;            ///< of the record
+  std::string task;                ///< a name of `trial_task_names`
+  analysis::TrialColumns columns;  ///< sizes and factors; without any those that the study varied
+  std::string over;                ///< the size that a threshold is sought of
+  std::optional<double> standard;  ///< that it is compared with, in its unit
+  std::string about;               ///< the percept of a map, the cue of a threshold, the name of a rule
+  std::string carrier;             ///< the argument of the map
+  std::string name, domain;        ///< of the record
 };
 
 /// A threshold of one observer, or of all their answers.
@@ -43,36 +43,36 @@ struct ObserverThreshold {
 
 /// Thresholds about one standard.
 struct ThresholdFit {
-  std::string standard;                  ///< "reference 0.8 N"; empty if there is one
-  double size = 0;                       ///< of the standard; 0: none
-  std::vector<analysis::Level> levels;   ///< differences and answers of all observers
+  std::string standard;                               ///< "reference 0.8 N"; empty if there is one
+  double size = 0;                                    ///< of the standard; 0: none
+  std::vector<analysis::Level> levels;                ///< differences and answers of all observers
   std::optional<analysis::PsychometricFit> function;  ///< of these; nothing for tasks with a criterion
   std::vector<std::pair<double, analysis::Sensitivity>> sensitivities;  ///< of these tasks: d' at each difference
   std::vector<ObserverThreshold> observers;
-  ObserverThreshold all;                 ///< the geometric mean of the observers', or that of all answers
-  std::string how;                       ///< which of them
+  ObserverThreshold all;  ///< the geometric mean of the observers', or that of all answers
+  std::string how;        ///< which of them
 };
 
 struct SortingFit {
-  std::vector<std::string> stimuli;          ///< their names
-  std::vector<std::size_t> trials;           ///< a trial with each
+  std::vector<std::string> stimuli;  ///< their names
+  std::vector<std::size_t> trials;   ///< a trial with each
   std::vector<analysis::Grouping> groupings;
   std::vector<analysis::Merge> single, average, complete;
-  std::size_t groups = 2;                    ///< that most sorts have
-  analysis::Grouping clusters;               ///< of single linkage, so many
-  double agreement = 0;                      ///< mean adjusted Rand index of the sorts with the clusters
+  std::size_t groups = 2;       ///< that most sorts have
+  analysis::Grouping clusters;  ///< of single linkage, so many
+  double agreement = 0;         ///< mean adjusted Rand index of the sorts with the clusters
 };
 
 /// A study as it was analysed. One of the last four is set.
 struct StudyFit {
-  std::string task, evidence;   ///< the grade: "simulated", "measured", "estimated"
+  std::string task, evidence;  ///< the grade: "simulated", "measured", "estimated"
   std::string evidence_reason;
   analysis::Trials trials;
   std::vector<std::string> notes;
   std::optional<analysis::MagnitudeAnalysis> magnitudes;
   std::vector<ThresholdFit> thresholds;
-  bool is_fraction = false;      ///< of thresholds: fractions of the standard
-  std::string over, over_unit;   ///< the size of thresholds
+  bool is_fraction = false;     ///< of thresholds: fractions of the standard
+  std::string over, over_unit;  ///< the size of thresholds
   std::optional<analysis::WeberRange> weber;
   std::optional<analysis::ConfidenceAnalysis> confidence;
   std::optional<SortingFit> sorting;
@@ -80,12 +80,14 @@ struct StudyFit {
 
 /// Analyses a study by its task.
 ///
-/// Errors: those of `read_trials`, with file and row, and of the analyses; W0801 where the task, the answers or the sizes
-/// are not known; W0802 for fewer than two observers of magnitudes, and where the trials do not determine the law.
+/// Errors: those of `read_trials`, with file and row, and of the analyses; W0801 where the task, the answers or the
+/// sizes are not known; W0802 for fewer than two observers of magnitudes, and where the trials do not determine the
+/// law.
 Result<StudyFit> fit_study(const Study& study, const FitRequest& request);
 
 /// Part of `fit_study`: thresholds of forced choice, one interval, and same or different.
-Result<> fit_thresholds(const Study& study, const FitRequest& request, const analysis::TrialColumns& columns, StudyFit& fit);
+Result<> fit_thresholds(const Study& study, const FitRequest& request, const analysis::TrialColumns& columns,
+                        StudyFit& fit);
 
 /// The record as a Wale file: a `map`, `threshold` or `rule` that compiles, with its provenance. The same trials and
 /// request give the same text.

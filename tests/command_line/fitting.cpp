@@ -14,8 +14,9 @@ const std::string designs = std::string(WALE_SOURCE_DIR) + "/calibration/experim
 std::string session(const TemporaryFolder& folder, const std::string& design, const std::string& experiment, int person,
                     const std::string& law) {
   const std::string log = folder / (experiment + "-P" + std::to_string(person) + ".trials");
-  const Outcome ran = wale({"experiment", "run", designs + design, "--experiment", experiment, "--participant", "P" + std::to_string(person),
-                            "--observer", "planted:" + law, "--seed", std::to_string(person), "--unrecorded", "--log", log});
+  const Outcome ran = wale({"experiment", "run", designs + design, "--experiment", experiment, "--participant",
+                            "P" + std::to_string(person), "--observer", "planted:" + law, "--seed",
+                            std::to_string(person), "--unrecorded", "--log", log});
   EXPECT_EQ(ran.status, 0) << ran.err;
   return log;
 }
@@ -53,14 +54,16 @@ TEST(Fitting, MapOfPlantedObserversHoldsTheirExponentAndIsSimulated) {
   const TemporaryFolder folder;
   std::vector<std::string> words = {"calibrate", "fit"};
   for (int person = 1; person <= 4; ++person)
-    words.push_back(session(folder, "crossed.wale", "crossed", person, "exponent=0.55,noise=0.2,threshold=0,feels=actuator"));
+    words.push_back(
+        session(folder, "crossed.wale", "crossed", person, "exponent=0.55,noise=0.2,threshold=0,feels=actuator"));
   words.insert(words.end(), {"-o", folder / "map.wale", "--plots", folder / "plots", "--json"});
   const Outcome fitted = wale(words);
   ASSERT_EQ(fitted.status, 0) << fitted.err;
   const auto json = fitted.json();
   EXPECT_LE(json["magnitudes"]["exponent"]["low"], 0.55);
   EXPECT_GE(json["magnitudes"]["exponent"]["high"], 0.55);
-  EXPECT_LT(json["magnitudes"]["exponent"]["high"].get<double>() - json["magnitudes"]["exponent"]["low"].get<double>(), 0.2);
+  EXPECT_LT(json["magnitudes"]["exponent"]["high"].get<double>() - json["magnitudes"]["exponent"]["low"].get<double>(),
+            0.2);
   EXPECT_EQ(json["evidence"], "simulated");
   EXPECT_EQ(json["exclusions"].size(), 4u * 6);  // practice
   const std::string record = bytes_of(folder / "map.wale");
@@ -81,7 +84,8 @@ TEST(Fitting, MapOfPlantedObserversHoldsTheirExponentAndIsSimulated) {
   ASSERT_EQ(wale(exporting).status, 0);
   std::vector<std::string> of_tables;
   for (int person = 1; person <= 4; ++person)
-    of_tables.push_back(folder / ("bids/sub-P" + std::to_string(person) + "/beh/sub-P" + std::to_string(person) + "_task-crossed_beh.tsv"));
+    of_tables.push_back(folder / ("bids/sub-P" + std::to_string(person) + "/beh/sub-P" + std::to_string(person) +
+                                  "_task-crossed_beh.tsv"));
   const Outcome by_bids = fit(of_tables, {"--json"});
   ASSERT_EQ(by_bids.status, 0) << by_bids.err;
   EXPECT_EQ(by_bids.json()["magnitudes"], json["magnitudes"]);
@@ -91,7 +95,8 @@ TEST(Fitting, CompilesWithTheMapToTheForceThatItsLawDemands) {
   const TemporaryFolder folder;
   const std::string trials = folder.write("study.csv", table());
   const std::string map = folder / "map.wale";
-  const Outcome fitted = fit({trials, "-o", map, "--name", "bench.half", "--domain", "grating, one_dimensional, alone"}, as_magnitudes);
+  const Outcome fitted =
+      fit({trials, "-o", map, "--name", "bench.half", "--domain", "grating, one_dimensional, alone"}, as_magnitudes);
   ASSERT_EQ(fitted.status, 0) << fitted.err;
   EXPECT_TRUE(contains(fitted.out, "exponent       0.5,")) << fitted.out;
   EXPECT_TRUE(contains(bytes_of(map), "slope estimated, anchor estimated")) << "nobody says on which device";
@@ -119,8 +124,10 @@ TEST(Fitting, ThesissWayIsLeastSquaresOfMeans) {
 
 TEST(Fitting, ReadsTablesOfOtherPrograms) {
   const TemporaryFolder folder;
-  const std::string wide = "\xEF\xBB\xBF" + replaced(replaced(table(";", true), "participant", "id"), "response", "slider.response");
-  const Outcome fitted = fit({folder.write("wide.csv", wide), "--participant", "id", "--answer", "slider.response", "--json"}, as_magnitudes);
+  const std::string wide =
+      "\xEF\xBB\xBF" + replaced(replaced(table(";", true), "participant", "id"), "response", "slider.response");
+  const Outcome fitted = fit(
+      {folder.write("wide.csv", wide), "--participant", "id", "--answer", "slider.response", "--json"}, as_magnitudes);
   ASSERT_EQ(fitted.status, 0) << fitted.err;
   EXPECT_NEAR(fitted.json()["magnitudes"]["exponent"]["value"].get<double>(), 0.5, 1e-6);
 }
@@ -153,13 +160,15 @@ TEST(Fitting, BadTrialsAreRefusedWithFileAndRow) {
   std::string same = good;
   for (const char* size : {"0.200000", "0.400000", "1.600000", "3.200000"})
     while (contains(same, size)) same = replaced(same, size, "0.800000");
-  EXPECT_TRUE(contains(fit({folder.write("bad.csv", same)}, as_magnitudes).err, "the amplitude is 0.8 N in all 40 trials"));
+  EXPECT_TRUE(
+      contains(fit({folder.write("bad.csv", same)}, as_magnitudes).err, "the amplitude is 0.8 N in all 40 trials"));
   // A device that changed between the sessions.
   std::string devices = replaced(good, "response", "response,device");
   std::string with;
   std::istringstream lines(devices);
   int number = 0;
-  for (std::string line; std::getline(lines, line); ++number) with += line + (number == 0 ? "" : number < 20 ? ",stick" : ",pad") + "\n";
+  for (std::string line; std::getline(lines, line); ++number)
+    with += line + (number == 0 ? "" : number < 20 ? ",stick" : ",pad") + "\n";
   const Outcome changed = fit({folder.write("bad.csv", with)}, as_magnitudes);
   EXPECT_TRUE(contains(changed.err, "the device is `pad` here and `stick` in row 2")) << changed.err;
   EXPECT_TRUE(contains(changed.err, "bad.csv:21")) << changed.err;
@@ -172,7 +181,8 @@ TEST(Fitting, BadTrialsAreRefusedWithFileAndRow) {
 
 TEST(Fitting, ExclusionsAreListedWithTheirRule) {
   const TemporaryFolder folder;
-  const std::string text = replaced(replaced(table(), "S1,1,3,0.800000,", "S1,1,3,0.800000,-"), "S4,2,5,3.200000,", "S4,2,5,3.200000,n/a#");
+  const std::string text =
+      replaced(replaced(table(), "S1,1,3,0.800000,", "S1,1,3,0.800000,-"), "S4,2,5,3.200000,", "S4,2,5,3.200000,n/a#");
   const std::string trials = folder.write("study.csv", text.substr(0, text.find("n/a#")) + "n/a\n");
   const Outcome fitted = fit({trials, "--leave-out-nonpositive", "--drop", "participant=S3"}, as_magnitudes);
   ASSERT_EQ(fitted.status, 0) << fitted.err;
@@ -217,11 +227,14 @@ TEST(Fitting, ThresholdOfCountsIsTheirs) {
     for (const double fraction : {0.05, 0.1, 0.2, 0.4, 0.8}) {
       const double p = 0.5 + 0.5 * (1 - std::exp(-std::log(2) * std::pow(fraction / 0.2, 2)));
       for (int i = 0; i < 200; ++i)
-        text += std::string(person) + ",1," + std::to_string(++trial) + "," + std::to_string(1 + fraction) + "," + (i < std::lround(200 * p) ? "1" : "0") + "\n";
+        text += std::string(person) + ",1," + std::to_string(++trial) + "," + std::to_string(1 + fraction) + "," +
+                (i < std::lround(200 * p) ? "1" : "0") + "\n";
     }
   }
   const TemporaryFolder folder;
-  const Outcome fitted = fit({folder.write("study.csv", text), "--task", "two_interval", "--size", "ratio", "--of", "amplitude", "--json"}, {});
+  const Outcome fitted =
+      fit({folder.write("study.csv", text), "--task", "two_interval", "--size", "ratio", "--of", "amplitude", "--json"},
+          {});
   ASSERT_EQ(fitted.status, 0) << fitted.err;
   // d' is 1 a little above 75 %, where it is 0.954: there the same function is 0.5 (1 - exp(…)) = 0.2602.
   const double expected = 0.2 * std::sqrt(-std::log1p(-2 * 0.2602499) / std::log(2));
@@ -232,16 +245,23 @@ TEST(Fitting, SortsGiveTheGroupsThatAllMade) {
   std::string text = "participant,run,stimulus,amplitude,response\n";
   for (const char* person : {"A", "B"})
     for (int i = 0; i < 6; ++i)
-      text += std::string(person) + ",1,s" + std::to_string(i) + "," + std::to_string(1 << i) + "," + (i < 2 ? "1" : i < 4 ? "2" : "3") + "\n";
+      text += std::string(person) + ",1,s" + std::to_string(i) + "," + std::to_string(1 << i) + "," +
+              (i < 2   ? "1"
+               : i < 4 ? "2"
+                       : "3") +
+              "\n";
   const TemporaryFolder folder;
-  const Outcome fitted = fit({folder.write("sorts.csv", text), "--task", "sorting", "--size", "amplitude:N", "-o", folder / "rule.wale", "--json"}, {});
+  const Outcome fitted = fit({folder.write("sorts.csv", text), "--task", "sorting", "--size", "amplitude:N", "-o",
+                              folder / "rule.wale", "--json"},
+                             {});
   ASSERT_EQ(fitted.status, 0) << fitted.err;
   const auto sorting = fitted.json()["sorting"];
   EXPECT_EQ(sorting["groups"], 3);
   EXPECT_EQ(sorting["agreement"], 1.0);
   EXPECT_EQ(sorting["clusters"]["s0"], sorting["clusters"]["s1"]);
   EXPECT_NE(sorting["clusters"]["s1"], sorting["clusters"]["s2"]);
-  EXPECT_TRUE(contains(bytes_of(folder / "rule.wale"), "case        \"group 1\", assumed amplitude below 1.41421 N")) << bytes_of(folder / "rule.wale");
+  EXPECT_TRUE(contains(bytes_of(folder / "rule.wale"), "case        \"group 1\", assumed amplitude below 1.41421 N"))
+      << bytes_of(folder / "rule.wale");
   EXPECT_EQ(wale({"check", folder / "rule.wale"}).status, 0);
 }
 
@@ -250,11 +270,14 @@ TEST(Fitting, RatingsGiveARule) {
   for (const char* person : {"A", "B"})
     for (int run = 1; run <= 2; ++run)
       for (int i = 0; i < 3; ++i)
-        text += std::string(person) + "," + std::to_string(run) + "," + std::to_string(i) + ",k" + std::to_string(i) + "," + std::to_string(30 * i + (person[0] == 'A' ? 5 : 15)) + "\n";
+        text += std::string(person) + "," + std::to_string(run) + "," + std::to_string(i) + ",k" + std::to_string(i) +
+                "," + std::to_string(30 * i + (person[0] == 'A' ? 5 : 15)) + "\n";
   const TemporaryFolder folder;
-  const Outcome fitted = fit({folder.write("ratings.csv", text), "--task", "confidence", "-o", folder / "rule.wale"}, {});
+  const Outcome fitted =
+      fit({folder.write("ratings.csv", text), "--task", "confidence", "-o", folder / "rule.wale"}, {});
   ASSERT_EQ(fitted.status, 0) << fitted.err;
-  EXPECT_TRUE(contains(bytes_of(folder / "rule.wale"), "case        \"k1\", kind k1, confidence 40 %")) << bytes_of(folder / "rule.wale");
+  EXPECT_TRUE(contains(bytes_of(folder / "rule.wale"), "case        \"k1\", kind k1, confidence 40 %"))
+      << bytes_of(folder / "rule.wale");
   EXPECT_EQ(wale({"check", folder / "rule.wale"}).status, 0);
 }
 
@@ -262,7 +285,8 @@ TEST(Fitting, StimuliWithoutFactorsHaveTheirSizesInATable) {
   const TemporaryFolder folder;
   std::vector<std::string> logs;
   for (int person = 1; person <= 2; ++person)
-    logs.push_back(session(folder, "minsky1995_chapter5.wale", "minsky1995_chapter5", person, "exponent=0.76,noise=0.1,threshold=0,feels=actuator"));
+    logs.push_back(session(folder, "minsky1995_chapter5.wale", "minsky1995_chapter5", person,
+                           "exponent=0.76,noise=0.1,threshold=0,feels=actuator"));
   logs.push_back("--json");
   const Outcome without = fit(logs, {});
   EXPECT_EQ(without.status, 2);
@@ -279,7 +303,8 @@ TEST(Reporting, PageHoldsTheStudyAndLoadsNothing) {
   while (contains(text, "S2,")) text = replaced(text, "S2,", "<script>alert(1)</script>,");
   const std::string trials = folder.write("study.csv", text);
   const std::string page = folder / "study.html";
-  std::vector<std::string> words = {"calibrate", "report", trials, "-o", page, "--drop", "participant=S3", "--materials", corduroy};
+  std::vector<std::string> words = {"calibrate", "report",         trials,        "-o",    page,
+                                    "--drop",    "participant=S3", "--materials", corduroy};
   words.insert(words.end(), as_magnitudes.begin(), as_magnitudes.end());
   const Outcome reported = wale(words);
   ASSERT_EQ(reported.status, 0) << reported.err;
@@ -291,9 +316,10 @@ TEST(Reporting, PageHoldsTheStudyAndLoadsNothing) {
   EXPECT_TRUE(contains(html, "default-src 'none'"));
   EXPECT_TRUE(contains(html, "10 rows are excluded"));
   EXPECT_TRUE(contains(html, "map roughness from amplitude {"));
-  // With exponent 0.5 level 0.6 is 0.36 of the reference's force, with 0.76 it is 0.51 of it: 1.364 N and 1.934 N. Their
-  // ratio is several just noticeable differences of force.
-  EXPECT_TRUE(contains(html, "<td>corduroy</td><td>0.6</td><td>1.934 N</td><td>1.364 N</td>")) << html.substr(html.find("What it changes"));
+  // With exponent 0.5 level 0.6 is 0.36 of the reference's force, with 0.76 it is 0.51 of it: 1.364 N and 1.934 N.
+  // Their ratio is several just noticeable differences of force.
+  EXPECT_TRUE(contains(html, "<td>corduroy</td><td>0.6</td><td>1.934 N</td><td>1.364 N</td>"))
+      << html.substr(html.find("What it changes"));
   wale(words);
   EXPECT_EQ(bytes_of(page), html) << "the same trials give the same page";
 }
@@ -320,7 +346,8 @@ experiment small {
     for (int trial = 1; trial <= 4; ++trial)
       text += std::string(person) + "," + std::to_string(trial) + (trial % 2 == 1 ? ",0.2," : ",0.8,") +
               std::to_string((trial % 2 == 1 ? 1.0 : 2.0) + 0.1 * trial + 0.05 * (*person - 'A') * trial) + "\n";
-  const Outcome reported = wale({"calibrate", "report", folder.write("t.csv", text), "--design", design, "-o", folder / "r.html"});
+  const Outcome reported =
+      wale({"calibrate", "report", folder.write("t.csv", text), "--design", design, "-o", folder / "r.html"});
   ASSERT_EQ(reported.status, 0) << reported.err;
   EXPECT_TRUE(contains(reported.out, "2 stimuli")) << reported.out;
   const std::string html = bytes_of(folder / "r.html");
@@ -330,11 +357,12 @@ experiment small {
 
 TEST(Planning, MorePrecisionNeedsMorePeopleAndTheSameSeedGivesTheSamePlan) {
   const auto people = [](const std::string& precision) {
-    const Outcome planned = wale({"experiment", "plan", designs + "crossed.wale", "--precision", precision, "--spread", "0.1", "--noise",
-                                  "0.1", "--studies", "60", "--json"});
+    const Outcome planned = wale({"experiment", "plan", designs + "crossed.wale", "--precision", precision, "--spread",
+                                  "0.1", "--noise", "0.1", "--studies", "60", "--json"});
     EXPECT_EQ(planned.status, 0) << planned.err;
-    EXPECT_EQ(planned.out, wale({"experiment", "plan", designs + "crossed.wale", "--precision", precision, "--spread", "0.1", "--noise",
-                                 "0.1", "--studies", "60", "--json"}).out);
+    EXPECT_EQ(planned.out, wale({"experiment", "plan", designs + "crossed.wale", "--precision", precision, "--spread",
+                                 "0.1", "--noise", "0.1", "--studies", "60", "--json"})
+                               .out);
     return planned.json()["people"].get<int>();
   };
   const int few = people("0.1"), many = people("0.05");
@@ -343,7 +371,8 @@ TEST(Planning, MorePrecisionNeedsMorePeopleAndTheSameSeedGivesTheSamePlan) {
   EXPECT_GE(many, 15);
   EXPECT_LE(many, 28);
   EXPECT_LT(few, many);
-  const Outcome never = wale({"experiment", "plan", designs + "crossed.wale", "--precision", "0.01", "--most", "6", "--studies", "20"});
+  const Outcome never =
+      wale({"experiment", "plan", designs + "crossed.wale", "--precision", "0.01", "--most", "6", "--studies", "20"});
   EXPECT_EQ(never.status, 1);
   EXPECT_TRUE(contains(never.out, "6 people are not enough"));
   EXPECT_EQ(wale({"experiment", "plan", designs + "minsky1995_chapter6.wale"}).status, 2);

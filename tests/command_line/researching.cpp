@@ -29,7 +29,8 @@ bool has_lines(const std::string& text, const std::string& shown) {
     }
     line += "\n";
     std::size_t found = at;
-    while (anywhere && (found = text.find(line, found)) != std::string::npos && found > 0 && text[found - 1] != '\n') ++found;
+    while (anywhere && (found = text.find(line, found)) != std::string::npos && found > 0 && text[found - 1] != '\n')
+      ++found;
     if (found == std::string::npos || text.compare(found, line.size(), line) != 0) return false;
     at = found + line.size(), anywhere = false;
   }
@@ -52,7 +53,9 @@ TEST(Researching, TheAfternoonPrintsWhatItsPageShows) {
       ++commands;
       EXPECT_TRUE(command.starts_with("wale ")) << command;
       const std::string printed = printed_in(folder, command);
-      EXPECT_TRUE(has_lines(printed, shown)) << "`" << command << "` prints\n" << printed << "and the page shows\n" << shown;
+      EXPECT_TRUE(has_lines(printed, shown)) << "`" << command << "` prints\n"
+                                             << printed << "and the page shows\n"
+                                             << shown;
     };
     for (std::string line; std::getline(lines, line);)
       if (line.starts_with("$ ")) {
@@ -67,8 +70,10 @@ TEST(Researching, TheAfternoonPrintsWhatItsPageShows) {
   for (std::string line; std::getline(page, line);) {
     std::smatch found;
     if (!line.starts_with("```")) {
-      if (open) block += line + "\n";
-      else if (std::regex_match(line, found, naming)) name = found[1];
+      if (open)
+        block += line + "\n";
+      else if (std::regex_match(line, found, naming))
+        name = found[1];
       continue;
     }
     open = !open;
@@ -76,8 +81,10 @@ TEST(Researching, TheAfternoonPrintsWhatItsPageShows) {
       kind = line.substr(3), block.clear();
       continue;
     }
-    if (kind == "console") run_console(block);
-    else folder.write(name, block);
+    if (kind == "console")
+      run_console(block);
+    else
+      folder.write(name, block);
   }
   EXPECT_EQ(commands, 10);
   EXPECT_TRUE(contains(bytes_of(folder / "study.html"), "the session was interrupted once"));

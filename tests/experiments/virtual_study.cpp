@@ -1,7 +1,9 @@
-// Virtual studies of the roughness design: planted observers feel its executed programs, and the analysis finds them out.
+// Virtual studies of the roughness design: planted observers feel its executed programs, and the analysis finds them
+// out.
 #include <fmt/format.h>
 
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 
@@ -25,14 +27,17 @@ struct RoughnessDesign {
   std::map<std::string, std::string> amplitudes;  // N, by the stimulus's name
   std::vector<FeltSize> felt;
 
-  RoughnessDesign() {
-    const auto table = analysis::read_table("stimuli", text_of("/calibration/experiments/minsky1995_chapter5_stimuli.csv"));
+  /// `change` makes another device of the simulated one.
+  explicit RoughnessDesign(const std::function<void(DeviceProfile&)>& change = [](DeviceProfile&) {}) {
+    const auto table =
+        analysis::read_table("stimuli", text_of("/calibration/experiments/minsky1995_chapter5_stimuli.csv"));
     for (std::size_t row = 0; row < table->rows(); ++row) amplitudes.emplace(table->cell(row, 0), table->cell(row, 1));
     const auto ready = design.ready();
     DevicePresenter presenter(
-        [](const Program& program) -> Result<FeltDevice> {
-          return FeltDevice{std::make_unique<SimulatedJoystick>(program.description().device, HandModel{0.55, 6.5, 135},
-                                                                Lateral{0.04, 1}),
+        [&](const Program& program) -> Result<FeltDevice> {
+          DeviceProfile profile = program.description().device;
+          change(profile);
+          return FeltDevice{std::make_unique<SimulatedJoystick>(profile, HandModel{0.55, 6.5, 135}, Lateral{0.04, 1}),
                             nullptr, "simulated", "lateral", true};
         },
         {.seconds = 3, .virtual_time = true, .folder = {}, .recordings = {}});
@@ -46,8 +51,8 @@ const RoughnessDesign& roughness_design() {
 }
 
 /// Fifteen observers, whose exponents differ, in all three runs.
-analysis::Trials study(std::uint32_t seed, PlantedLaw law, double exponent, double spread) {
-  const RoughnessDesign& of = roughness_design();
+analysis::Trials study(std::uint32_t seed, PlantedLaw law, double exponent, double spread,
+                       const RoughnessDesign& of = roughness_design()) {
   const CheckedExperiment& experiment = of.design.experiment();
   const Asked asked = questions_of_trial(experiment).front();
   std::string text = "participant,run,trial,amplitude,response\n";
@@ -76,7 +81,8 @@ TEST(VirtualStudies, IntervalsCoverWhatWasPlanted) {
   int covered = 0, spread_covered = 0;
   for (std::uint32_t seed = 1; seed <= 200; ++seed) {
     const auto fit = analysis::analyse_magnitudes(
-        study(seed, {.threshold = 0, .noise = 0.2, .feels_actuator = true}, exponent, spread), {.size = {}, .alternatives = false});
+        study(seed, {.threshold = 0, .noise = 0.2, .feels_actuator = true}, exponent, spread),
+        {.size = {}, .alternatives = false});
     ASSERT_TRUE(fit) << seed << ": " << fit.error().sentence;
     covered += fit->exponent.low() <= exponent && exponent <= fit->exponent.high();
     spread_covered += fit->spread_interval && fit->spread_interval->holds(spread);
@@ -85,8 +91,8 @@ TEST(VirtualStudies, IntervalsCoverWhatWasPlanted) {
   EXPECT_GE(spread_covered, 181);
 }
 
-/// Those who feel the force between hand and handle contradict the actuator's: the same exponent, and another slope over
-/// the commanded level.
+/// Those who feel the force between hand and handle contradict the actuator's: the same exponent, and another slope
+/// over the commanded level.
 TEST(VirtualStudies, TheHandleIsHeardOf) {
   const PlantedLaw law{.threshold = 0, .noise = 0};
   PlantedLaw actuator = law;
@@ -99,10 +105,26 @@ TEST(VirtualStudies, TheHandleIsHeardOf) {
   EXPECT_GT(std::abs(by_interaction - by_actuator), 0.01);
 }
 
+/// A handle with three times the friction gives another map, by more than the map's interval.
+TEST(VirtualStudies, TripledFrictionShows) {
+  const PlantedLaw law{.threshold = 0, .noise = 0.1};
+  const auto exponent_of = [&](const RoughnessDesign& of) {
+    return analysis::analyse_magnitudes(study(5, law, 0.76, 0.02, of),
+                                        {.size = {}, .intervals_of_spread = false, .alternatives = false})
+        ->exponent;
+  };
+  const analysis::Coefficient whole = exponent_of(roughness_design());
+  const analysis::Coefficient changed =
+      exponent_of(RoughnessDesign([](DeviceProfile& profile) { profile.friction *= 3; }));
+  EXPECT_TRUE(changed.value < whole.low() || changed.value > whole.high())
+      << changed.value << " is within " << whole.low() << " to " << whole.high();
+}
+
 /// Observers whose answers bend with a threshold, or go along with the answer before, are found out.
 TEST(VirtualStudies, AlternativesFindOutOtherLaws) {
   const auto p_of = [](const PlantedLaw& law, const std::string& name) {
-    const auto fit = analysis::analyse_magnitudes(study(3, law, 0.76, 0.05), {.size = {}, .intervals_of_spread = false});
+    const auto fit =
+        analysis::analyse_magnitudes(study(3, law, 0.76, 0.05), {.size = {}, .intervals_of_spread = false});
     for (const analysis::Alternative& each : fit->alternatives)
       if (each.name.starts_with(name)) return each.comparison.p;
     return -1.0;
