@@ -16,10 +16,11 @@
 namespace wale::command {
 
 // Each is defined in FOLDER/command/VERB.cpp.
-extern const Verb between_verb, build_verb, check_verb, compare_verb, describe_verb, devices_verb, experiment_export_verb,
-    experiment_run_verb, explain_verb, export_verb, feel_verb, find_verb, format_verb, import_verb, levels_verb, library_check_verb, library_compare_verb, library_coverage_verb,
-    library_import_verb, library_index_verb, library_serve_verb, library_sheet_verb, library_site_verb,
-    manual_verb, preview_verb, replay_verb, sample_verb, sandpaper_verb, show_verb;
+extern const Verb between_verb, build_verb, calibrate_fit_verb, calibrate_report_verb, check_verb, compare_verb,
+    describe_verb, devices_verb, experiment_export_verb, experiment_plan_verb, experiment_run_verb, explain_verb,
+    export_verb, feel_verb, find_verb, format_verb, import_verb, levels_verb, library_check_verb, library_compare_verb,
+    library_coverage_verb, library_import_verb, library_index_verb, library_serve_verb, library_sheet_verb,
+    library_site_verb, manual_verb, preview_verb, replay_verb, sample_verb, sandpaper_verb, show_verb;
 
 }  // namespace wale::command
 
@@ -28,11 +29,15 @@ namespace {
 using namespace wale;
 using namespace wale::command;
 
-constexpr const Verb* verbs[] = {&check_verb,  &explain_verb, &format_verb, &build_verb, &describe_verb,
-                                 &find_verb, &show_verb, &between_verb, &compare_verb, &library_check_verb, &library_sheet_verb, &library_coverage_verb, &library_compare_verb,
-                                 &library_import_verb, &library_index_verb, &library_site_verb, &library_serve_verb, &levels_verb, &feel_verb,  &replay_verb,
-                                 &sample_verb, &experiment_run_verb, &experiment_export_verb, &preview_verb, &import_verb,  &export_verb, &sandpaper_verb,
-                                 &devices_verb, &manual_verb};
+constexpr const Verb* verbs[] = {
+    &check_verb,          &explain_verb,        &format_verb,           &build_verb,
+    &describe_verb,       &find_verb,           &show_verb,             &between_verb,
+    &compare_verb,        &library_check_verb,  &library_sheet_verb,    &library_coverage_verb,
+    &library_compare_verb, &library_import_verb, &library_index_verb,   &library_site_verb,
+    &library_serve_verb,  &levels_verb,         &feel_verb,             &replay_verb,
+    &sample_verb,         &experiment_plan_verb, &experiment_run_verb,  &experiment_export_verb,
+    &calibrate_fit_verb,  &calibrate_report_verb, &preview_verb,        &import_verb,
+    &export_verb,         &sandpaper_verb,      &devices_verb,          &manual_verb};
 
 /// The footer of `wale --help`.
 constexpr const char* statuses =
@@ -44,11 +49,13 @@ constexpr const char* about =
     R"(Wale: a language for how things feel, and the runtime that makes a force-feedback joystick feel that way.
 
   designers    write a material, then:   wale check my.wale;  wale describe my.wale;  wale feel my.wale
-  curators     find, compare and trust:  wale find ribbed;  wale compare A.wale B.wale;  wale levels roughness;
-                                         wale describe --json FILE;  wale preview FILE -o OUT.png;
-                                         wale library check FILE
+  curators     find, compare and trust:  wale find ribbed;  wale find --near corduroy;  wale show denim;
+                                         wale compare A.wale B.wale;  wale levels roughness;
+                                         wale preview FILE -o OUT.png;  wale library check FILE
   programmers  take a program along:     wale build FILE -o OUT.wpp;  wale sample FILE --at "10.6 mm, 5 mm"
                                          examples/roughness_by_name asks for a roughness by name from C++
+  researchers  where maps come from:     wale experiment run FILE --participant S1;
+                                         wale calibrate fit S1.trials S2.trials -o map.wale
 
 Begin with library/fabric/corduroy.wale; schema/LANGUAGE.md is the language.)";
 

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "calibration/analysis/distributions.hpp"
 
@@ -18,9 +19,19 @@ Error refusal(std::string sentence, std::string mend) {
 
 }  // namespace
 
-double Coefficient::p() const { return t_two_sided(t(), freedom); }
-double Coefficient::low(double confidence) const { return value - t_quantile(0.5 + confidence / 2, freedom) * error; }
-double Coefficient::high(double confidence) const { return value + t_quantile(0.5 + confidence / 2, freedom) * error; }
+namespace {
+
+/// How far an interval reaches from a coefficient. As many columns as observations leave no residuals: nothing is known.
+double reach(const Coefficient& coefficient, double confidence) {
+  if (!(coefficient.freedom > 0) || !std::isfinite(coefficient.error)) return std::numeric_limits<double>::infinity();
+  return t_quantile(0.5 + confidence / 2, coefficient.freedom) * coefficient.error;
+}
+
+}  // namespace
+
+double Coefficient::p() const { return freedom > 0 && !std::isnan(t()) ? t_two_sided(t(), freedom) : 1; }
+double Coefficient::low(double confidence) const { return value - reach(*this, confidence); }
+double Coefficient::high(double confidence) const { return value + reach(*this, confidence); }
 
 double Regression::deviation() const { return std::sqrt(residual_squares / freedom); }
 double Regression::explained_share() const { return explained_squares / (explained_squares + residual_squares); }

@@ -16,7 +16,7 @@ struct Coefficient {
   double freedom = 0;     ///< degrees of freedom of its t; may be a fraction
   double t() const { return value / error; }
   double p() const;       ///< two-sided
-  /// The ends of its interval at this confidence, in (0, 1).
+  /// The ends of its interval at this confidence, in (0, 1); infinite without degrees of freedom.
   double low(double confidence = 0.95) const;
   double high(double confidence = 0.95) const;
 };

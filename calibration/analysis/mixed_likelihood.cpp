@@ -2,8 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <string>
 
 namespace wale::analysis {
 namespace {
@@ -53,21 +56,58 @@ MixedLikelihood::MixedLikelihood(const MixedData& data) {
     for (const MatrixXd& each : products_) squares += each(varying_[static_cast<std::size_t>(i)], varying_[static_cast<std::size_t>(i)]);
     scales_(i) = std::sqrt(squares / trials_);
   }
+  group_alike();
+}
+
+void MixedLikelihood::group_alike() {
+  const Index q = varying(), k = fixed_ + 1;
+  total_ = MatrixXd::Zero(k, k);
+  for (const MatrixXd& each : products_) total_ += each;
+  if (q == 0) return;
+  // Sums in another order differ in their last digits, so eleven of them count.
+  std::map<std::string, std::size_t> known;
+  std::vector<std::vector<MatrixXd>> crosses;
+  MatrixXd cross(q, k), inner(q, q);
+  for (const MatrixXd& each : products_) {
+    std::string key;
+    for (Index i = 0; i < q; ++i) cross.row(i) = each.row(varying_[static_cast<std::size_t>(i)]);
+    for (Index i = 0; i < q; ++i) inner.col(i) = cross.col(varying_[static_cast<std::size_t>(i)]);
+    for (Index i = 0; i < q; ++i)
+      for (Index j = 0; j <= i; ++j) {
+        // What is nothing beside the diagonal is rounding.
+        const bool nothing = std::abs(inner(i, j)) < 1e-11 * std::sqrt(inner(i, i) * inner(j, j));
+        char text[32];
+        std::snprintf(text, sizeof text, "%.10e ", nothing ? 0.0 : inner(i, j));
+        key += text;
+      }
+    const auto [at, is_new] = known.try_emplace(key, alike_.size());
+    if (is_new) alike_.push_back({inner, 0, {}, {}}), crosses.emplace_back();
+    alike_[at->second].count += 1;
+    crosses[at->second].push_back(cross);
+  }
+  for (std::size_t group = 0; group < alike_.size(); ++group) {
+    Alike& each = alike_[group];
+    if (crosses[group].size() < static_cast<std::size_t>(4 * q)) {
+      each.crosses = std::move(crosses[group]);
+      continue;
+    }
+    each.moments.assign(static_cast<std::size_t>(q * q), MatrixXd::Zero(k, k));
+    for (const MatrixXd& own : crosses[group])
+      for (Index i = 0; i < q; ++i)
+        for (Index j = 0; j < q; ++j)
+          each.moments[static_cast<std::size_t>(i * q + j)].noalias() += own.row(i).transpose() * own.row(j);
+  }
 }
 
 MixedLikelihood::Parts MixedLikelihood::parts(const MatrixXd& factor) const {
   const Index q = varying(), k = fixed_ + 1;
   Parts result;
-  result.products = MatrixXd::Zero(k, k);
-  Small inner(q, q), middle(q, q);
-  MatrixXd cross(q, k), half(q, k);
+  result.products = total_;
+  Small middle(q, q), weights(q, q);
+  MatrixXd half(q, k);
   Eigen::LLT<Small> lower_middle(q);
-  for (const MatrixXd& each : products_) {
-    result.products += each;
-    if (q == 0) continue;
-    for (Index i = 0; i < q; ++i) cross.row(i) = each.row(varying_[static_cast<std::size_t>(i)]);
-    for (Index i = 0; i < q; ++i) inner.col(i) = cross.col(varying_[static_cast<std::size_t>(i)]);
-    const Small within = inner * factor;
+  for (const Alike& each : alike_) {
+    const Small within = each.inner * factor;
     middle.noalias() = factor.transpose() * within;
     middle.diagonal().array() += 1;
     lower_middle.compute(middle);
@@ -75,10 +115,17 @@ MixedLikelihood::Parts MixedLikelihood::parts(const MatrixXd& factor) const {
       result.log_determinant = infinity;
       return result;
     }
-    for (Index i = 0; i < q; ++i) result.log_determinant += 2 * std::log(lower_middle.matrixLLT()(i, i));
-    half.noalias() = factor.transpose() * cross;
-    lower_middle.matrixL().solveInPlace(half);
-    result.products.noalias() -= half.transpose() * half;
+    for (Index i = 0; i < q; ++i) result.log_determinant += 2 * each.count * std::log(lower_middle.matrixLLT()(i, i));
+    Small way = factor.transpose();
+    lower_middle.matrixL().solveInPlace(way);
+    for (const MatrixXd& cross : each.crosses) {
+      half.noalias() = way * cross;
+      result.products.noalias() -= half.transpose() * half;
+    }
+    if (each.moments.empty()) continue;
+    weights.noalias() = way.transpose() * way;
+    for (Index i = 0; i < q; ++i)
+      for (Index j = 0; j < q; ++j) result.products -= weights(i, j) * each.moments[static_cast<std::size_t>(i * q + j)];
   }
   const Eigen::LLT<MatrixXd> lower(result.products.topLeftCorner(fixed_, fixed_));
   if (lower.info() != Eigen::Success) {

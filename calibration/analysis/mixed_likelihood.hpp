@@ -46,7 +46,19 @@ class MixedLikelihood {
   double shift() const { return shift_; }
 
  private:
+  /// Observers with the same sums of products of the varying terms, as in a balanced design. The likelihood weights their
+  /// rows alike, so that sums over them are enough.
+  struct Alike {
+    Eigen::MatrixXd inner;                 ///< of the varying terms
+    double count = 0;
+    std::vector<Eigen::MatrixXd> crosses;  ///< of each, varying terms by columns, if they are few
+    std::vector<Eigen::MatrixXd> moments;  ///< otherwise, for terms a and b: sums of the products of their rows of these
+  };
+  void group_alike();
+
   std::vector<Eigen::MatrixXd> products_;
+  Eigen::MatrixXd total_;  // of all observers
+  std::vector<Alike> alike_;
   std::vector<Eigen::Index> varying_;
   Eigen::VectorXd scales_;
   Eigen::Index fixed_ = 0;

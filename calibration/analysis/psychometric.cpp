@@ -254,7 +254,7 @@ Result<PsychometricFit> fit_psychometric(const std::vector<Level>& levels, const
   PsychometricFit fit = fitter.fit();
   if (!depends_on_size(together, fit))
     return refusal(Code::not_measured, "the answers do not depend on the size beyond chance", "present a wider range, or look whether right and wrong are exchanged");
-  fitter.add_intervals(fit);
+  if (options.intervals) fitter.add_intervals(fit);
   add_notes(together, options, fit);
   return fit;
 }

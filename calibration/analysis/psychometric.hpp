@@ -41,6 +41,7 @@ struct PsychometricOptions {
   std::optional<double> lapse;       ///< held at this; otherwise fitted within 0 .. `most_lapse`
   double most_lapse = 0.1;
   bool prior = false;                ///< psignifit 4's prior of the lapse rate, Beta(1, 10): the posterior's mode
+  bool intervals = true;             ///< profile likelihoods, which take longest
 };
 
 struct PsychometricFit {

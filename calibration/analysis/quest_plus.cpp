@@ -51,12 +51,12 @@ double QuestPlus::expected_entropy(std::size_t stimulus) const {
   return entropy() + total;
 }
 
-std::size_t QuestPlus::next_number() const {
+std::size_t QuestPlus::next_number(double indifference) const {
   std::size_t best = 0;
   double least = 0;
   for (std::size_t i = 0; i < stimuli_.size(); ++i) {
     const double expected = expected_entropy(i);
-    if (i == 0 || expected < least) best = i, least = expected;
+    if (i == 0 || expected < least - indifference) best = i, least = expected;
   }
   return best;
 }

@@ -26,7 +26,9 @@ class QuestPlus {
 
   /// The stimulus to present next, and its number among the stimuli.
   const std::vector<double>& next() const { return stimuli_[next_number()]; }
-  std::size_t next_number() const;
+  /// Of stimuli whose entropies differ by no more than `indifference`, in nats, the first is chosen: above rounding, the
+  /// choice is the same on every machine.
+  std::size_t next_number(double indifference = 0) const;
   /// The entropy that is expected after a presentation of a stimulus, in nats.
   double expected_entropy(std::size_t stimulus) const;
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "calibration/analysis/quest_plus.hpp"
+
 namespace wale {
 namespace {
 
@@ -41,67 +43,31 @@ class UpDown final : public LevelChooser {
 
 constexpr std::array slopes = {1.0, 2.0, 3.5, 5.0, 7.0};
 
-class QuestPlus final : public LevelChooser {
+/// QUEST+ of the analysis, over levels of a Weibull function.
+class WeibullChooser final : public LevelChooser {
  public:
-  explicit QuestPlus(const QuestPlusRule& rule)
+  explicit WeibullChooser(const QuestPlusRule& rule)
       : trials_(rule.trials),
-        levels_(rule.levels.size()),
-        belief_(levels_ * slopes.size(), 1.0 / static_cast<double>(levels_ * slopes.size())) {
-    for (const double level : rule.levels)
-      for (const double threshold : rule.levels)
-        for (const double slope : slopes)
-          right_.push_back(rule.guess + (1 - rule.guess - rule.lapse) *
-                                            (1 - std::exp(-std::pow(level / threshold, slope))));
-  }
+        beliefs_({rule.levels}, {rule.levels, {slopes.begin(), slopes.end()}}, 2,
+                 [&rule](std::size_t outcome, const std::vector<double>& level, const std::vector<double>& of) {
+                   const double felt = 1 - std::exp(-std::pow(level[0] / of[0], of[1]));
+                   const double right = rule.guess + (1 - rule.guess - rule.lapse) * felt;
+                   return outcome == 0 ? right : 1 - right;
+                 }) {}
 
-  std::size_t next() const override {
-    std::size_t best = 0;
-    double least = HUGE_VAL;
-    for (std::size_t level = 0; level < levels_; ++level) {
-      const double entropy = expected_entropy(level);
-      // Smaller differences are rounding: the first of equals is taken on every machine.
-      if (entropy < least - 1e-9) least = entropy, best = level;
-    }
-    return best;
-  }
-  bool over() const override { return taken_ >= trials_; }
-
-  void take(std::size_t level, bool right) override {
-    ++taken_;
-    double sum = 0;
-    for (std::size_t i = 0; i < belief_.size(); ++i) {
-      const double p = right_[level * belief_.size() + i];
-      sum += belief_[i] *= right ? p : 1 - p;
-    }
-    for (double& each : belief_) each /= sum;
-  }
+  std::size_t next() const override { return beliefs_.next_number(1e-9); }
+  bool over() const override { return beliefs_.answers() >= static_cast<std::size_t>(trials_); }
+  void take(std::size_t level, bool right) override { beliefs_.update(level, right ? 0 : 1); }
 
  private:
-  double expected_entropy(std::size_t level) const {
-    double entropy = 0;
-    for (const bool right : {true, false}) {
-      double sum = 0, logs = 0;
-      for (std::size_t i = 0; i < belief_.size(); ++i) {
-        const double p = right_[level * belief_.size() + i];
-        const double joint = belief_[i] * (right ? p : 1 - p);
-        sum += joint;
-        if (joint > 0) logs += joint * std::log(joint);
-      }
-      if (sum > 0) entropy -= logs - sum * std::log(sum);
-    }
-    return entropy;
-  }
-
-  int trials_, taken_ = 0;
-  std::size_t levels_;
-  std::vector<double> belief_;  // of each threshold with each slope
-  std::vector<double> right_;   // probability of a right answer at each level, for each of them
+  int trials_;
+  analysis::QuestPlus beliefs_;  // each level may be the threshold, with each slope
 };
 
 }  // namespace
 
 std::unique_ptr<LevelChooser> up_down(const UpDownRule& rule) { return std::make_unique<UpDown>(rule); }
-std::unique_ptr<LevelChooser> quest_plus(const QuestPlusRule& rule) { return std::make_unique<QuestPlus>(rule); }
+std::unique_ptr<LevelChooser> quest_plus(const QuestPlusRule& rule) { return std::make_unique<WeibullChooser>(rule); }
 
 std::unique_ptr<LevelChooser> chooser_of(const CheckedExperiment& experiment, const std::vector<double>& levels) {
   if (experiment.method == TrialMethod::up_down || levels.front() <= 0)

@@ -9,6 +9,8 @@ namespace wale {
 /// The ends of an interval of levels.
 struct LevelBounds {
   double low = 0, high = 0;
+
+  friend bool operator==(const LevelBounds&, const LevelBounds&) = default;
 };
 
 /// Where 95 % of the levels lie that people give to one size of a carrier, if each judges it against the reference

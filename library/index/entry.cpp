@@ -177,7 +177,8 @@ Result<FileEntries> read_entries(const FileRequest& request, const std::string& 
   Diagnostics again;  // of what has been reported
   LibraryIndex index;
   index.add(module, request.file, parse(read.opened.sources, read.opened.source, again));
-  const auto licence = licence_around(request.file);
+  // What is in this binary is in the public domain (library/LICENSE).
+  const auto licence = read.opened.is_on_disk ? licence_around(request.file) : Result<std::string>("CC0-1.0");
   for (const IndexedMaterial& material : index.materials()) {
     if (!read.opened.material.empty() && material.name != read.opened.material) continue;
     Entry& entry = read.entries.emplace_back(entry_of(material));

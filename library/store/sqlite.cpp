@@ -39,7 +39,8 @@ Error Database::trouble(int status) const {
   return {.code = writes ? Code::unwritable_file : Code::unreadable_file,
           .sentence = fmt::format("the index cannot be {}: {}", writes ? "written" : "opened", said),
           .mend = kind == SQLITE_BUSY ? "another process writes it; try again when that has ended"
-                                      : "name a file in a folder that you may write",
+                   : writes           ? "name a file in a folder that you may write"
+                                      : "make one: `wale library index -o FILE`",
           .place = {.name = path_}};
 }
 

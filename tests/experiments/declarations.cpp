@@ -170,6 +170,7 @@ TEST(ShippedExperiments, TheThesissHaveItsNumbers) {
 
 TEST(ShippedExperiments, HaveNoErrorAndAreFormatted) {
   for (const auto& entry : std::filesystem::directory_iterator(std::string(WALE_SOURCE_DIR) + "/calibration/experiments")) {
+    if (entry.path().extension() != ".wale") continue;
     std::ifstream file(entry.path());
     const std::string text(std::istreambuf_iterator<char>(file), {});
     SourceSet sources;

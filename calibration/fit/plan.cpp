@@ -1,0 +1,259 @@
+#include "calibration/fit/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "calibration/analysis/distributions.hpp"
+#include "calibration/analysis/mixed_model.hpp"
+#include "calibration/analysis/psychometric.hpp"
+#include "calibration/analysis/random.hpp"
+#include "calibration/experiment/level_chooser.hpp"
+#include "calibration/experiment/trial_order.hpp"
+#include "schema/visible_text.hpp"
+
+namespace wale {
+namespace {
+
+using namespace analysis;
+
+Error unfit(std::string sentence, std::string mend) {
+  return {.code = Code::malformed_value, .sentence = std::move(sentence), .mend = std::move(mend)};
+}
+
+/// What one simulated study found: the half width of its interval, and whether that holds the truth.
+struct Found {
+  double half_width = HUGE_VAL;
+  bool covered = false;
+};
+
+/// A study with so many people. Nothing if it does not determine what is sought.
+using Simulate = std::function<std::optional<Found>(std::size_t people, Random& random)>;
+
+/// Studies of magnitude estimation: each person has a law, and all trials a scatter.
+class MagnitudeStudies {
+ public:
+  MagnitudeStudies(std::vector<double> logs, int repetitions, const PlanRequest& request)
+      : logs_(std::move(logs)), repetitions_(repetitions), request_(request) {}
+
+  std::optional<Found> operator()(std::size_t people, Random& random) const {
+    const std::size_t each = logs_.size() * static_cast<std::size_t>(repetitions_), all = each * people;
+    MixedData data{{{"constant", "log10 size"}, Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(all), 2)},
+                   {0, 1},
+                   {},
+                   people,
+                   Eigen::VectorXd(static_cast<Eigen::Index>(all))};
+    Eigen::Index row = 0;
+    for (std::size_t person = 0; person < people; ++person) {
+      const double exponent = request_.exponent + request_.spread * random.normal(),
+                   level = request_.numbers * random.normal();
+      for (int run = 0; run < repetitions_; ++run)
+        for (const double log : logs_) {
+          data.fixed.columns(row, 1) = log;
+          data.y(row++) = level + exponent * log + request_.noise * random.normal();
+          data.observer.push_back(static_cast<std::uint32_t>(person));
+        }
+    }
+    const auto fit = fit_mixed_simplified(data, Criterion::restricted);
+    if (!fit) return std::nullopt;
+    const Coefficient& slope = fit->coefficients[1];
+    return Found{(slope.high() - slope.low()) / 2,
+                 slope.low() <= request_.exponent && request_.exponent <= slope.high()};
+  }
+
+ private:
+  std::vector<double> logs_;  // of the stimuli, about their mean
+  int repetitions_;
+  const PlanRequest& request_;
+};
+
+/// People that are simulated once; each study of thresholds takes some of them, since tracks take long.
+constexpr std::size_t pool = 1000;
+
+/// Studies of two intervals: each person has a threshold, and a track or constant stimuli about it.
+class ThresholdStudies {
+ public:
+  ThresholdStudies(const CheckedExperiment& experiment, std::vector<double> levels, bool is_ratio, double threshold,
+                   const PlanRequest& request)
+      : experiment_(experiment),
+        levels_(std::move(levels)),
+        is_ratio_(is_ratio),
+        threshold_(threshold),
+        request_(request) {
+    Random random(request.seed);
+    for (std::size_t person = 0; person < pool; ++person)
+      logs_.push_back(measured(threshold * std::exp(request.threshold_spread * random.normal()), random));
+  }
+
+  std::optional<Found> operator()(std::size_t people, Random& random) const {
+    double sum = 0, squares = 0;
+    std::size_t fitted = 0;
+    for (std::size_t person = 0; person < people; ++person) {
+      const std::optional<double> log = logs_[random.below(logs_.size())];
+      if (log) sum += *log, squares += *log * *log, ++fitted;
+    }
+    if (fitted < 2) return std::nullopt;
+    const auto n = static_cast<double>(fitted);
+    const double mean = sum / n, deviation = std::sqrt(std::max(0.0, (squares - n * mean * mean) / (n - 1)));
+    const double reach = t_quantile(0.975, n - 1) * deviation / std::sqrt(n);
+    // F is 0.5 at the fit's threshold, and 1 - 1/e at Weibull's.
+    const double truth = std::log(threshold_) + std::log(std::log(2.0)) / request_.slope;
+    return Found{reach, std::abs(mean - truth) <= reach};
+  }
+
+ private:
+  /// The logarithm of a person's threshold as their answers give it; nothing if they do not.
+  std::optional<double> measured(double own, Random& random) const {
+    // Only the threshold is needed, so lapses are held and there is no interval.
+    const auto fit = fit_psychometric(answers_of(own, random),
+                                      {.shape = Shape::weibull, .guess = 0.5, .lapse = 0.02, .intervals = false});
+    if (!fit) return std::nullopt;
+    return std::log(fit->function.threshold);
+  }
+
+  double difference(std::size_t level) const { return is_ratio_ ? levels_[level] - 1 : levels_[level]; }
+
+  bool answer(std::size_t level, double own, Random& random) const {
+    const double felt = 1 - std::exp(-std::pow(difference(level) / own, request_.slope));
+    return random.uniform() < 0.5 + 0.48 * felt;
+  }
+
+  std::vector<Level> answers_of(double own, Random& random) const {
+    std::map<std::size_t, Level> counts;
+    const auto present = [&](std::size_t level) {
+      const bool right = answer(level, own, random);
+      Level& each = counts[level];
+      each.size = difference(level), ++each.trials, each.right += right ? 1 : 0;
+      return right;
+    };
+    for (int run = 0; run < experiment_.repetitions; ++run) {
+      if (!is_adaptive(experiment_)) {
+        for (std::size_t level = 0; level < levels_.size(); ++level) present(level);
+        continue;
+      }
+      const auto chooser = chooser_of(experiment_, levels_);
+      while (!chooser->over()) {
+        const std::size_t level = chooser->next();
+        chooser->take(level, present(level));
+      }
+    }
+    std::vector<Level> answers;
+    for (const auto& [level, each] : counts) answers.push_back(each);
+    return answers;
+  }
+
+  const CheckedExperiment& experiment_;
+  std::vector<double> levels_;
+  bool is_ratio_;
+  double threshold_;
+  const PlanRequest& request_;
+  std::vector<std::optional<double>> logs_;  // of the pool
+};
+
+PlanStep step_of(std::size_t people, const Simulate& simulate, const PlanRequest& request) {
+  PlanStep step{.people = people};
+  std::vector<double> widths;
+  Random random(request.seed * 1000003 + people);
+  std::size_t covered = 0, precise = 0;
+  for (std::size_t study = 0; study < request.studies; ++study) {
+    const Found found = simulate(people, random).value_or(Found());
+    widths.push_back(found.half_width);
+    covered += found.covered ? 1 : 0;
+    precise += found.half_width <= request.precision ? 1 : 0;
+  }
+  std::ranges::sort(widths);
+  const auto n = static_cast<double>(request.studies);
+  step.half_width = widths[std::min(widths.size() - 1, static_cast<std::size_t>(std::ceil(request.share * n)) - 1)];
+  step.precise = static_cast<double>(precise) / n, step.covered = static_cast<double>(covered) / n;
+  return step;
+}
+
+/// Doubles the people until they are enough, then halves the gap.
+void search(Plan& plan, const Simulate& simulate, const PlanRequest& request) {
+  const auto is_enough = [&](std::size_t people) {
+    plan.steps.push_back(step_of(people, simulate, request));
+    return plan.steps.back().precise >= request.share;
+  };
+  std::size_t few = 2, many = 3;
+  while (!is_enough(many)) {
+    if (many == request.most) return;
+    few = many, many = std::min(request.most, many * 2);
+  }
+  while (many - few > 1) {
+    const std::size_t middle = (few + many) / 2;
+    (is_enough(middle) ? many : few) = middle;
+  }
+  plan.people = many;
+}
+
+/// The factor that is sought.
+Result<std::size_t> factor_of(const CheckedExperiment& experiment, const std::string& named) {
+  if (named.empty() && experiment.over) return *experiment.over;
+  for (std::size_t i = 0; i < experiment.factors.size(); ++i) {
+    const ExperimentFactor& each = experiment.factors[i];
+    const bool is_number =
+        std::ranges::all_of(each.levels, [](const ExperimentLevel& level) { return level.value.has_value(); });
+    if (named.empty() ? is_number : each.name == named) {
+      if (is_number) return i;
+      return unfit(fmt::format("the factor `{}` has words for levels", each.name), "name one with quantities");
+    }
+  }
+  return unfit(named.empty() ? "the experiment has no factor with quantities"
+                             : fmt::format("the experiment has no factor `{}`", visible_text(named)),
+               named.empty() ? "give the sizes of its stimuli in a table, with --stimuli" : "name one of its factors");
+}
+
+}  // namespace
+
+Result<Plan> plan_experiment(const CheckedExperiment& experiment, const PlanRequest& request) {
+  Plan plan;
+  std::vector<double> values;
+  std::string name = "size";
+  std::size_t factor = 0;
+  if (request.sizes.empty()) {
+    const auto found = factor_of(experiment, request.over);
+    if (!found) return found.error();
+    factor = *found, name = experiment.factors[factor].name;
+    for (const ExperimentStimulus& each : experiment.stimuli)
+      if (each.levels[factor]) values.push_back(*experiment.factors[factor].levels[*each.levels[factor]].value);
+  } else {
+    values = request.sizes;
+  }
+  if (values.empty() || *std::ranges::min_element(values) <= 0)
+    return unfit(fmt::format("the {} of some stimuli is zero or below, or not known", name),
+                 "a law needs sizes above zero");
+  if (experiment.task == TrialTask::magnitude_estimation) {
+    double mean = 0;
+    for (double& each : values) each = std::log10(each), mean += each / static_cast<double>(values.size());
+    for (double& each : values) each -= mean;
+    plan.sought = "exponent of " + name;
+    plan.trials = values.size() * static_cast<std::size_t>(experiment.repetitions);
+    const auto [low, high] = std::ranges::minmax(values);
+    if (!(high > low))
+      return Error{.code = Code::not_measured,
+                   .sentence = "all stimuli have one size, so no study finds an exponent",
+                   .mend = "vary it"};
+    search(plan, MagnitudeStudies(values, experiment.repetitions, request), request);
+    return plan;
+  }
+  if (experiment.task != TrialTask::two_interval)
+    return unfit(fmt::format("people are planned for magnitude estimation and two intervals, not for `{}`",
+                             trial_task_names[static_cast<int>(experiment.task)]),
+                 "");
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  const bool is_ratio = request.sizes.empty() && experiment.factors[factor].unit.empty() && values.front() > 1;
+  const double first = is_ratio ? values.front() - 1 : values.front(),
+               last = is_ratio ? values.back() - 1 : values.back();
+  const double threshold = request.threshold.value_or(std::sqrt(first * last));
+  plan.sought = "threshold of " + name;
+  plan.trials = (is_adaptive(experiment) ? static_cast<std::size_t>(experiment.trials) : values.size()) *
+                static_cast<std::size_t>(experiment.repetitions);
+  search(plan, ThresholdStudies(experiment, values, is_ratio, threshold, request), request);
+  return plan;
+}
+
+}  // namespace wale

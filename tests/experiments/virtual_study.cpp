@@ -1,0 +1,141 @@
+// Virtual studies of the roughness design: planted observers feel its executed programs, and the analysis finds them
+// out.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+
+#include "calibration/analysis/magnitude.hpp"
+#include "calibration/experiment/planted_observer.hpp"
+#include "calibration/experiment/presenter.hpp"
+#include "tests/experiments/texts.hpp"
+#include "wale/simulated.hpp"
+
+namespace wale::experiments_test {
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(std::string(WALE_SOURCE_DIR) + path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The thirty gratings of chapter 5: what each did to the hand, when it was executed once.
+struct RoughnessDesign {
+  Design design{text_of("/calibration/experiments/minsky1995_chapter5.wale")};
+  std::map<std::string, std::string> amplitudes;  // N, by the stimulus's name
+  std::vector<FeltSize> felt;
+
+  /// `change` makes another device of the simulated one.
+  explicit RoughnessDesign(const std::function<void(DeviceProfile&)>& change = [](DeviceProfile&) {}) {
+    const auto table =
+        analysis::read_table("stimuli", text_of("/calibration/experiments/minsky1995_chapter5_stimuli.csv"));
+    for (std::size_t row = 0; row < table->rows(); ++row) amplitudes.emplace(table->cell(row, 0), table->cell(row, 1));
+    const auto ready = design.ready();
+    DevicePresenter presenter(
+        [&](const Program& program) -> Result<FeltDevice> {
+          DeviceProfile profile = program.description().device;
+          change(profile);
+          return FeltDevice{std::make_unique<SimulatedJoystick>(profile, HandModel{0.55, 6.5, 135}, Lateral{0.04, 1}),
+                            nullptr, "simulated", "lateral", true};
+        },
+        {.seconds = 3, .virtual_time = true, .folder = {}, .recordings = {}});
+    for (const Program& each : ready.stimuli) felt.push_back(*presenter.present(each, ""));
+  }
+};
+
+const RoughnessDesign& roughness_design() {
+  static const RoughnessDesign design;
+  return design;
+}
+
+/// Fifteen observers, whose exponents differ, in all three runs.
+analysis::Trials study(std::uint32_t seed, PlantedLaw law, double exponent, double spread,
+                       const RoughnessDesign& of = roughness_design()) {
+  const CheckedExperiment& experiment = of.design.experiment();
+  const Asked asked = questions_of_trial(experiment).front();
+  std::string text = "participant,run,trial,amplitude,response\n";
+  for (std::uint32_t person = 0; person < 15; ++person) {
+    const std::uint32_t own = seed * 100 + person;
+    law.exponent = std::max(0.0, exponent + spread * Draws(own, 99).normal(0));
+    law.modulus = 10 * std::exp(0.5 * Draws(own, 99).normal(1));  // a number scale of one's own
+    PlantedObserver observer(experiment, law, own);
+    for (const Trial& trial : trial_order(experiment, own)) {
+      observer.begin(trial, 0, 1, 1);
+      observer.felt({false, trial.stimulus}, of.felt[trial.stimulus]);
+      const auto answer = observer.say({.kind = Question::Kind::trial, .says = {}, .asked = &asked, .trial = &trial});
+      if (trial.block == 0) continue;
+      text += fmt::format("P{},{},{},{},{}\n", person, trial.block, trial.number,
+                          of.amplitudes.at(experiment.stimuli[trial.stimulus].name), *answer);
+    }
+  }
+  const auto table = analysis::read_table("study", text);
+  const auto trials = analysis::read_trials(*table, {.sizes = {{"amplitude", "", "N"}}});
+  EXPECT_TRUE(trials) << trials.error().sentence;
+  return *trials;
+}
+
+TEST(VirtualStudies, IntervalsCoverWhatWasPlanted) {
+  constexpr double exponent = 0.76, spread = 0.15;
+  int covered = 0, spread_covered = 0;
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    const auto fit = analysis::analyse_magnitudes(
+        study(seed, {.threshold = 0, .noise = 0.2, .feels_actuator = true}, exponent, spread),
+        {.size = {}, .alternatives = false});
+    ASSERT_TRUE(fit) << seed << ": " << fit.error().sentence;
+    covered += fit->exponent.low() <= exponent && exponent <= fit->exponent.high();
+    spread_covered += fit->spread_interval && fit->spread_interval->holds(spread);
+  }
+  EXPECT_GE(covered, 181);
+  EXPECT_GE(spread_covered, 181);
+}
+
+/// Those who feel the force between hand and handle contradict the actuator's: the same exponent, and another slope
+/// over the commanded level.
+TEST(VirtualStudies, TheHandleIsHeardOf) {
+  const PlantedLaw law{.threshold = 0, .noise = 0};
+  PlantedLaw actuator = law;
+  actuator.feels_actuator = true;
+  const auto slope = [](const analysis::Trials& trials) {
+    return analysis::regress_means(trials, "amplitude", false)->regression.coefficients[1].value;
+  };
+  const double by_actuator = slope(study(1, actuator, 0.76, 0)), by_interaction = slope(study(1, law, 0.76, 0));
+  EXPECT_NEAR(by_actuator, 0.76, 0.02);
+  EXPECT_GT(std::abs(by_interaction - by_actuator), 0.01);
+}
+
+/// A handle with three times the friction gives another map, by more than the map's interval.
+TEST(VirtualStudies, TripledFrictionShows) {
+  const PlantedLaw law{.threshold = 0, .noise = 0.1};
+  const auto exponent_of = [&](const RoughnessDesign& of) {
+    return analysis::analyse_magnitudes(study(5, law, 0.76, 0.02, of),
+                                        {.size = {}, .intervals_of_spread = false, .alternatives = false})
+        ->exponent;
+  };
+  const analysis::Coefficient whole = exponent_of(roughness_design());
+  const analysis::Coefficient changed =
+      exponent_of(RoughnessDesign([](DeviceProfile& profile) { profile.friction *= 3; }));
+  EXPECT_TRUE(changed.value < whole.low() || changed.value > whole.high())
+      << changed.value << " is within " << whole.low() << " to " << whole.high();
+}
+
+/// Observers whose answers bend with a threshold, or go along with the answer before, are found out.
+TEST(VirtualStudies, AlternativesFindOutOtherLaws) {
+  const auto p_of = [](const PlantedLaw& law, const std::string& name) {
+    const auto fit =
+        analysis::analyse_magnitudes(study(3, law, 0.76, 0.05), {.size = {}, .intervals_of_spread = false});
+    for (const analysis::Alternative& each : fit->alternatives)
+      if (each.name.starts_with(name)) return each.comparison.p;
+    return -1.0;
+  };
+  const PlantedLaw plain{.threshold = 0, .noise = 0.2, .feels_actuator = true};
+  PlantedLaw bent = plain, carrying = plain;
+  bent.threshold = 0.1, carrying.carry_over = 0.3;
+  EXPECT_LT(p_of(bent, "quadratic"), 1e-6);
+  EXPECT_LT(p_of(carrying, "with carry-over"), 1e-6);
+  EXPECT_GT(p_of(plain, "with carry-over"), 0.01);
+}
+
+}  // namespace
+}  // namespace wale::experiments_test

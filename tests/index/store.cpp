@@ -1,0 +1,201 @@
+// The index in a database: it answers as an index in memory does, follows each change, and survives what is done to it.
+#include "library/store/library_store.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "compiler/modules/load_modules.hpp"
+#include "library/index/find.hpp"
+#include "library/index/probe.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace wale::store_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string material(const std::string& name, double level, double period, const std::string& more = "") {
+  return "/// Ribs of " + name + ".\nmaterial " + name + " {\n  representative {\n    title \"The " + name +
+         "\"\n    called \"ribbed " + name + "\"\n    called de \"Gröber " + name +
+         "\"\n    kind trial.woven\n  }\n  perceptual { roughness " + std::to_string(level) +
+         " estimated }\n  physical {\n    height ribs = cos(2 pi * x / " + std::to_string(period) +
+         " mm)\n    force = lateral(ribs)" + more + "\n  }\n}\n";
+}
+
+class Store : public testing::Test {
+ protected:
+  Store() { write("wale.project", "licence \"CC0-1.0\"\n"); }
+
+  std::string write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
+  std::string path() const { return folder_ / "an.index"; }
+  std::vector<LibraryFile> files() const { return *library_files_in(std::vector<std::string>{folder_ / "shelf"}); }
+
+  /// Opens the index anew and brings it up to date.
+  std::unique_ptr<LibraryStore> updated() {
+    auto store = LibraryStore::open(path(), true);
+    EXPECT_TRUE(store) << (store ? "" : in_words(store.error()));
+    const auto report = (*store)->bring_up_to_date(files(), {});
+    EXPECT_TRUE(report) << (report ? "" : in_words(report.error()));
+    report_ = *report;
+    return *std::move(store);
+  }
+
+  static std::vector<std::string> names(const Result<FoundEntries>& found) {
+    std::vector<std::string> all;
+    for (const FoundEntry& each : found->entries) all.push_back(each.entry.name);
+    return all;
+  }
+
+  TemporaryFolder folder_;
+  StoreReport report_;
+};
+
+TEST_F(Store, ReadsOnlyWhatChangesAndWhatRestsOnIt) {
+  write("shelf/parts.wale", "wale 1\nexport let rib = 2 mm\n" + material("part", 0.4, 2));
+  write("shelf/uses.wale", "wale 1\nimport parts\n" + material("uses", 0.5, 3, "\n    show line(vector(-rib, 0 mm), vector(rib, 0 mm))"));
+  write("shelf/alone.wale", "wale 1\n" + material("alone", 0.6, 2.5));
+  write("shelf/names.wale", "wale 1\nmaterial mixed = 0.5 alone + 0.5 part {\n  representative { title \"Mixed\" }\n}\n");
+  updated();
+  EXPECT_EQ(report_.materials, 4u);
+  EXPECT_EQ(report_.read, 4u);
+  ASSERT_TRUE(report_.troubled.empty()) << report_.troubled[0].material << ": " << report_.troubled[0].why;
+  updated();
+  EXPECT_EQ(report_.read, 0u);
+  // One that nothing rests on but what names it without an import.
+  write("shelf/alone.wale", "wale 1\n" + material("alone", 0.7, 2.5));
+  updated();
+  EXPECT_EQ(report_.read, 2u) << "alone and mixed";
+  // One that another imports.
+  write("shelf/parts.wale", "wale 1\nexport let rib = 3 mm\n" + material("part", 0.4, 2));
+  updated();
+  EXPECT_EQ(report_.read, 3u) << "part, uses and mixed";
+  fs::remove(folder_ / "shelf/names.wale");
+  const auto store = updated();
+  EXPECT_EQ(report_.gone, 1u);
+  EXPECT_EQ(report_.materials, 3u);
+  EXPECT_FALSE(meant_entry(store->index(), "mixed"));
+}
+
+TEST_F(Store, AnswersAsAnIndexInMemoryDoes) {
+  for (int i = 0; i < 12; ++i)
+    write("shelf/m" + std::to_string(i) + ".wale",
+          "wale 1\n" + material("m" + std::to_string(i), 0.25 + 0.05 * i, 1.5 + 0.2 * (i * 5 % 12)));
+  const auto store = updated();
+  const auto memory = index_of(read_library(files(), {}), default_device);
+  const Declarations& declarations = common_modules()->declarations;
+  const Comparer comparer(declarations, default_device);
+  for (const MaterialIndex* index : {&store->index(), static_cast<const MaterialIndex*>(memory.get())}) ASSERT_EQ(index->columns().size(), 12u);
+  for (int i = 0; i < 12; ++i) {
+    const std::string name = "m" + std::to_string(i);
+    const auto in_store = meant_entry(store->index(), name), in_memory = meant_entry(*memory, name);
+    ASSERT_TRUE(in_store && in_memory);
+    const Entry entry = *store->index().entry(*in_store);
+    EXPECT_EQ(entry.content, memory->entry(*in_memory)->content);
+    EXPECT_EQ(entry.felt.percepts, memory->entry(*in_memory)->felt.percepts);
+    EXPECT_EQ(entry.felt.cues->values, memory->entry(*in_memory)->felt.cues->values);
+    EXPECT_EQ(entry.licence, "CC0-1.0");
+    const NearProbe probe(comparer, *entry.felt.cues);
+    const Sought near{.texts = {}, .kind = "trial", .feel = &probe, .without = {}, .most = 5};
+    EXPECT_EQ(names(find_entries(store->index(), near)), names(find_entries(*memory, near)));
+    EXPECT_EQ(names(find_entries(store->index(), near)).front(), name) << "nothing is nearer than itself";
+  }
+  for (const char* text : {"rib", "grober m3", "the", "m1", "nothing", "rib%", "m_"}) {
+    const Sought words{.texts = {text}, .kind = {}, .without = {}, .most = 20};
+    const auto one = find_entries(store->index(), words), other = find_entries(*memory, words);
+    ASSERT_EQ(names(one), names(other)) << text;
+    for (std::size_t i = 0; i < one->entries.size(); ++i) EXPECT_EQ(one->entries[i].score, other->entries[i].score);
+  }
+  EXPECT_TRUE(meant_entry(store->index(), "gröber M3")) << "capitals and marks do not matter";
+}
+
+TEST_F(Store, TellsWhatCannotBeFelt) {
+  write("shelf/good.wale", "wale 1\n" + material("good", 0.5, 2));
+  write("shelf/wrong.wale", "wale 1\nmaterial wrong { physical { force = nothing_such(x) } }\n");
+  write("shelf/noise.wale", std::string("\xff\xfe\0\1 no text", 13));
+  updated();
+  EXPECT_EQ(report_.troubled.size(), 2u);
+  const auto store = updated();
+  EXPECT_EQ(report_.read, 0u);
+  EXPECT_EQ(report_.troubled.size(), 2u) << "also when nothing has changed";
+  EXPECT_EQ(store->index().columns().size(), 3u);
+}
+
+TEST_F(Store, RefusesWhatIsNoIndex) {
+  const auto refused = [](const std::string& path, bool makes) {
+    const auto opened = LibraryStore::open(path, makes);
+    return opened ? Code{} : opened.error().code;
+  };
+  EXPECT_EQ(refused(write("text", "this is no database, but a text of some length"), true), Code::damaged_file);
+  EXPECT_EQ(refused(write("empty", ""), false), Code::damaged_file);
+  EXPECT_EQ(refused(folder_ / "missing", false), Code::unreadable_file);
+  EXPECT_EQ(refused(folder_ / "no/folder/an.index", true), Code::unreadable_file);
+  EXPECT_EQ(refused(folder_.path().string(), true), Code::unreadable_file);
+  write("shelf/good.wale", "wale 1\n" + material("good", 0.5, 2));
+  updated();
+  // Bytes in the middle of it.
+  std::fstream file(path(), std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(0, std::ios::end);
+  const auto size = static_cast<long>(file.tellp());
+  ASSERT_GT(size, 8192);
+  std::mt19937 random(5);
+  for (long at = 4096; at < size; at += 97) file.seekp(at), file.put(static_cast<char>(random()));
+  file.close();
+  fs::remove(path() + ".felt");
+  const auto opened = LibraryStore::open(path(), true);
+  if (opened) {  // what it has of the damage, each answer tells
+    const auto report = (*opened)->bring_up_to_date(files(), {});
+    EXPECT_TRUE(report || report.error().code == Code::damaged_file);
+  } else {
+    EXPECT_EQ(opened.error().code, Code::damaged_file);
+  }
+}
+
+/// The columns beside an index may be gone, of an older state, or no columns at all.
+TEST_F(Store, MakesItsColumnsAgain) {
+  write("shelf/good.wale", "wale 1\n" + material("good", 0.5, 2));
+  updated();
+  const std::string older = folder_ / "older.felt";
+  fs::copy_file(path() + ".felt", older);
+  write("shelf/other.wale", "wale 1\n" + material("other", 0.5, 2));
+  updated();
+  for (const std::string& put : {older, write("junk", "junk"), std::string()}) {
+    fs::remove(path() + ".felt");
+    if (!put.empty()) fs::copy_file(put, path() + ".felt");
+    const auto store = LibraryStore::open(path(), false);
+    ASSERT_TRUE(store);
+    EXPECT_EQ((*store)->index().columns().size(), 2u) << put;
+  }
+}
+
+TEST_F(Store, SurvivesAKilledProcess) {
+  for (int i = 0; i < 8; ++i)
+    write("shelf/m" + std::to_string(i) + ".wale", "wale 1\n" + material("m" + std::to_string(i), 0.4, 1.5 + 0.2 * i));
+  std::mt19937 random(17);
+  for (int round = 0; round < 6; ++round) {
+    // Each round something has changed, and the process dies somewhere in the middle of it.
+    write("shelf/m0.wale", "wale 1\n" + material("m0", 0.3 + 0.05 * round, 1.5));
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      auto store = LibraryStore::open(path(), true);
+      if (store) (void)(*store)->bring_up_to_date(files(), {});
+      _exit(0);
+    }
+    usleep(static_cast<useconds_t>(random() % 300'000));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+  }
+  const auto store = updated();
+  EXPECT_EQ(report_.materials, 8u);
+  const Entry entry = *store->index().entry(*meant_entry(store->index(), "m0"));
+  EXPECT_NEAR(*entry.felt.percept("roughness")->asked, 0.55, 1e-6);
+}
+
+}  // namespace
+}  // namespace wale::store_test
