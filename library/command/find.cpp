@@ -20,6 +20,7 @@
 #include "library/command/index_here.hpp"
 #include "library/index/entry_json.hpp"
 #include "library/index/find.hpp"
+#include "library/index/words.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 
@@ -156,7 +157,7 @@ Result<SoughtLevel> sought_level(const std::string& percept, const std::string& 
   const auto number = [](std::string each) -> std::optional<double> {
     const std::size_t begin = each.find_first_not_of(' '), end = each.find_last_not_of(" %");
     if (begin == std::string::npos || end == std::string::npos || end < begin) return std::nullopt;
-    const double scale = each.back() == '%' ? 0.01 : 1;
+    const double scale = each.find('%', end + 1) != std::string::npos ? 0.01 : 1;
     const auto value = read_number("", each.substr(begin, end - begin + 1));
     return value ? std::optional(*value * scale) : std::nullopt;
   };
@@ -246,16 +247,30 @@ int find_by_feel(const FindOptions& options) {
   return tell_found(options, find_entries(index, sought));
 }
 
-/// Texts of several words that no material has as they stand: those that have most of the words, the best first.
+/// Whether a material has at least half of the words, or words that begin so.
+bool has_half_of(const Entry& entry, const std::vector<std::string>& words) {
+  const WordCounts counted = count_words(entry);
+  const auto has = [&](const std::string& word) {
+    return std::ranges::any_of(counted.weights, [&](const auto& each) { return each.first.starts_with(word); });
+  };
+  return 2 * static_cast<std::size_t>(std::ranges::count_if(words, has)) >= words.size();
+}
+
+/// Of texts of several words that no material has as they stand: those that have most of the words, the best first.
 Result<FoundEntries> found_by_words(const FindOptions& options, const LibraryIndex& catalogue) {
+  std::vector<std::string> words;
+  for (const std::string& text : options.texts)
+    for (std::string& word : words_of(text)) words.push_back(std::move(word));
   std::vector<Entry> entries;
   for (const IndexedMaterial& each : catalogue.materials())
     if (each.origin != Origin::hidden) entries.push_back(entry_of(each));
   const auto index = index_of(std::move(entries), default_device);
-  return find_entries(*index, {.texts = options.texts,
-                               .kind = options.kind,
-                               .without = {},
-                               .most = options.most.value_or(usually_given)});
+  auto found = find_entries(*index, {.texts = options.texts,
+                                     .kind = options.kind,
+                                     .without = {},
+                                     .most = options.most.value_or(usually_given)});
+  if (found) std::erase_if(found->entries, [&](const FoundEntry& each) { return !has_half_of(each.entry, words); });
+  return found;
 }
 
 int find(const FindOptions& options) {
