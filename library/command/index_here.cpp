@@ -81,6 +81,10 @@ Result<IndexHere> index_here(const IndexChoice& choice) {
     auto opened = LibraryStore::open(choice.file, false);
     if (!opened) return opened.error();
     here.store = *std::move(opened);
+    if (!here.store->is_of_this_wale())
+      print_error("wale: warning: {} is of another build of Wale, whose maps may give other levels; `wale library index -o` "
+                  "brings it up to date\n",
+                  visible_text(choice.file));
     return here;
   }
   const FileRequest request = request_of(choice);

@@ -53,8 +53,6 @@ class SqliteStore final : public LibraryStore, MaterialIndex, WordTable {
     const std::int64_t version = database_.number("PRAGMA user_version");
     const bool is_empty = database_.number("SELECT count(*) FROM sqlite_schema") == 0;
     if (is_empty && makes) {
-      // Readers go on while one process writes, and a crash loses nothing that was committed.
-      (void)database_.execute("PRAGMA journal_mode = WAL");
       if (const auto made = database_.execute(schema); !made) return made;
     } else if (application != wale_application) {
       return Error{.code = Code::damaged_file,
@@ -67,13 +65,13 @@ class SqliteStore final : public LibraryStore, MaterialIndex, WordTable {
                    .mend = "make another one with this Wale: `wale library index -o FILE`",
                    .place = {.name = database_.path()}};
     }
-    (void)database_.execute("PRAGMA synchronous = NORMAL");
     return read_columns();
   }
 
   Result<StoreReport> bring_up_to_date(const std::vector<LibraryFile>& files, const FileRequest& request,
                                        const StoreProgress& tell) override;
   const MaterialIndex& index() const override { return *this; }
+  bool is_of_this_wale() const override { return fact("build") == compiler_build(); }
 
  private:
   const WordTable& words() const override { return *this; }

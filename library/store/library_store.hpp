@@ -45,6 +45,8 @@ class LibraryStore {
   /// rest on has changed, on all cores, and forgets those that are no more. Errors: W0505.
   virtual Result<StoreReport> bring_up_to_date(const std::vector<LibraryFile>& files, const FileRequest& request,
                                                const StoreProgress& tell = {}) = 0;
+  /// Whether it was brought up to date by this build of Wale. Maps and levels of another one may be others.
+  virtual bool is_of_this_wale() const = 0;
   /// What it holds, until it is brought up to date again.
   virtual const MaterialIndex& index() const = 0;
 };
