@@ -68,8 +68,9 @@ int make_index(LibraryIndexOptions& options) {
     for (const StoreReport::Troubled& each : report->troubled)
       print_error("wale: `{}` of {} cannot be felt: {}\n", visible_text(each.material), visible_text(each.file),
                   visible_text(each.why));
-    print_out("{}\n", readable("{} material{} of {} files; {} read anew, {} gone", report->materials,
-                               report->materials == 1 ? "" : "s", report->files, report->read, report->gone));
+    print_out("{}\n", readable("{} material{} of {} file{}; {} read anew, {} gone", report->materials,
+                               report->materials == 1 ? "" : "s", report->files, report->files == 1 ? "" : "s",
+                               report->read, report->gone));
     print_out("{}\n", visible_text(path));
   }
   return report->troubled.empty() ? done : refused;
