@@ -18,19 +18,20 @@ namespace {
 enum class Sought { nothing, file, material, folder, percept, device, place, code, kind };
 
 Sought sought_by(const CLI::App& verb, const CLI::Option& option) {
-  constexpr std::array<std::string_view, 8> of_files_alone = {"check",         "format",        "replay",
-                                                              "import",        "library-check", "library-sheet",
-                                                              "library-coverage", "library-import"};
+  constexpr std::array<std::string_view, 11> of_files_alone = {
+      "check",           "format",          "replay",         "import",         "library-check",    "library-sheet",
+      "library-coverage", "library-import", "experiment-run", "experiment-plan", "experiment-export"};
   if (option.get_positional()) {
     const std::string name = option.get_name(true);
     if (name == "PERCEPT") return Sought::percept;
     if (name == "CODE") return Sought::code;
-    if (name == "OLD" || name == "NEW") return Sought::file;
+    if (name == "OLD" || name == "NEW" || name == "PATH" || name == "TRIALS") return Sought::file;
+    if (verb.get_name() == "show" || verb.get_name() == "between") return Sought::material;
     if (name != "FILE") return Sought::nothing;
     return std::ranges::find(of_files_alone, verb.get_name()) == of_files_alone.end() ? Sought::material : Sought::file;
   }
   const std::string type = option.get_type_name();
-  if (option.check_lname("against")) return Sought::material;
+  if (option.check_lname("against") || option.check_lname("near")) return Sought::material;
   const bool is_where = option.check_lname("device") && verb.get_name() == "feel";  // a device in the hand
   if (is_where || option.check_lname("identify")) return Sought::place;
   if (option.check_lname("device") || option.check_lname("built-for")) return Sought::device;
