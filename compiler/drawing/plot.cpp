@@ -30,16 +30,32 @@ std::string with_unit(const std::string& name, const Notation& notation) {
   return notation.unit.empty() ? name : name + ", " + notation.unit;
 }
 
-/// The names of the curves, each after a line in its colour, right-aligned with the title.
+/// The lengths of a key: of the line before each name, from there to the name, and of the gap between two.
+struct KeyMeasure {
+  double line = 26, before = 10, gap = 26;
+};
+
+double key_width(Canvas& canvas, const Plot& plot, const KeyMeasure& measure) {
+  double width = 0;
+  for (const Curve& curve : plot.curves)
+    if (!curve.name.empty()) width += canvas.width_of(curve.name, style::label) + measure.before + measure.line + measure.gap;
+  return width;
+}
+
+/// The names of the curves, each after a line in its colour, right-aligned with the title. On a narrow plot they stand
+/// closer together, so that they do not run into the title.
 void write_key(Canvas& canvas, const PageBox& box, const Plot& plot) {
+  KeyMeasure measure;
+  const double room = box.width() - canvas.width_of(plot.title, style::heading);
+  if (key_width(canvas, plot, measure) > room) measure = {.line = 9, .before = 5, .gap = 9};
   double right = box.right;
   for (std::size_t i = plot.curves.size(); i-- > 0;) {
     const Curve& curve = plot.curves[i];
     if (curve.name.empty()) continue;
     canvas.write({right, box.top - 16}, curve.name, style::label, Align::right);
-    right -= canvas.width_of(curve.name, style::label) + 10;
-    canvas.line({right - 26, box.top - 21}, {right, box.top - 21}, {2.6, curve.colour});
-    right -= 26 + 26;
+    right -= canvas.width_of(curve.name, style::label) + measure.before;
+    canvas.line({right - measure.line, box.top - 21}, {right, box.top - 21}, {2.6, curve.colour});
+    right -= measure.line + measure.gap;
   }
 }
 
