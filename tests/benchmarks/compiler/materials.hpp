@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -142,6 +143,7 @@ inline std::vector<std::pair<std::string, std::string>> shipped_files() {
         std::ifstream file(entry.path(), std::ios::binary);
         files.emplace_back(entry.path().string(), std::string(std::istreambuf_iterator<char>(file), {}));
       }
+  std::ranges::sort(files);
   return files;
 }
 
