@@ -11,6 +11,7 @@ constexpr double rise_seconds = 0.5;    // s, to the full command and back
 constexpr double share_of_room = 0.08;  // of the workspace's diameter, in which the handle is shaken
 constexpr double share_of_push = 0.35;  // of the force that shakes; the rest draws the handle back to the middle
 constexpr double level_seconds = 3;     // s at each of the levels
+constexpr double settling_seconds = 1.5, braking_seconds = 0.15;
 constexpr std::array shake_levels{0.4, 0.7, 1.0};
 constexpr std::array half_periods{0.12, 0.2, 0.16};        // s; different ones tell damping from friction
 constexpr double gauge_noise = 0.002, gauge_zero = 0.004;  // of the device's force: a simulated gauge's
@@ -50,7 +51,7 @@ Result<Bench::Tick> Bench::tick(int axis, double command) {
 Result<double> Bench::push(Way way, double command, double seconds) {
   const int axis = axis_of(way);
   const auto ticks_of = [&](double time) { return std::max(1L, std::lround(time * profile().rate)); };
-  const long rise = ticks_of(rise_seconds), hold = ticks_of(seconds);
+  const long rise = ticks_of(std::min(rise_seconds, seconds)), hold = ticks_of(seconds);
   double taken = 0;
   for (long i = 0; i < 2 * rise + hold; ++i) {
     const double share = std::min({1.0, static_cast<double>(i + 1) / static_cast<double>(rise),
@@ -104,6 +105,16 @@ Result<std::vector<HandleTick>> Bench::shake(int axis, double most_newton, const
       // What the tick reports is where the handle was when it was told this command.
       ticks.push_back({position, response.force(done->command)});
     }
+  }
+  // It is brought to rest, so that the other axis begins in the middle too.
+  double before = position;
+  for (double time = 0; time < settling_seconds; time += seconds) {
+    const double speed = (position - before) / seconds;
+    before = position;
+    const double drawn = (position - start) / room + speed / (room / braking_seconds);
+    const auto done = tick(axis, response.command(-std::clamp(drawn, -1.0, 1.0) * most_newton));
+    if (!done) return done.error();
+    position = done->counts[axis] * profile().position_step();
   }
   let_go();
   return ticks;

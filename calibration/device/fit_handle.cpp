@@ -125,6 +125,9 @@ Result<HandleFit> fit_handle(std::span<const HandleTick> ticks, double tick_seco
     return (forces - columns * factors.solve(forces)).squaredNorm();
   };
   const double delay = analysis::lowest_within(misfit, 0, most_delay, 1e-7);
+  if (delay > 0.99 * most_delay)
+    return unfit_handle("the handle does not move as a mass with damping and friction does",
+                        "take your hand off it, and look whether it strikes its stop");
   const VectorXd forces = windows.forces(delay), found = factors.solve(forces);
   const double squares = (forces - columns * found).squaredNorm();
   const double freedom = static_cast<double>(windows.count()) - 4;

@@ -47,6 +47,31 @@ TEST_P(Shaken, GivesItsMassDampingFrictionAndDelay) {
   EXPECT_GT(bench.smallest_steps()[0], 0);
 }
 
+/// The first shaking leaves the handle where the second one can begin.
+TEST_P(Shaken, GivesTheSameAlongBothAxes) {
+  const Truth truth = GetParam();
+  const DeviceProfile profile{.name = "stick",
+                              .workspace_diameter = 0.2,
+                              .position_counts = 4096,
+                              .force_newton = 10,
+                              .force_counts = 2048,
+                              .rate = 900,
+                              .mass = truth.mass,
+                              .damping = truth.damping,
+                              .friction = truth.friction};
+  PlantedDevice device(profile, {}, 1);
+  const std::atomic<bool> stop{false};
+  Bench bench(device, {1, 1}, true, stop);
+  for (const int axis : {0, 1}) {
+    const auto ticks = bench.shake(axis, 2.5, DeviceWiring{}.response_of(0, profile.force_newton));
+    ASSERT_TRUE(ticks);
+    const auto fit = fit_handle(*ticks, 1 / profile.rate);
+    ASSERT_TRUE(fit) << fit.error().sentence;
+    EXPECT_NEAR(fit->mass.value, truth.mass, 0.03 * truth.mass) << truth.name << ", axis " << axis;
+    EXPECT_NEAR(fit->delay.value, 0, 5e-4);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Handles, Shaken,
                          testing::Values(Truth{"usual", 0.3, 1.2, 0.2, 2e-3}, Truth{"heavy", 0.8, 3, 0.4, 5e-3},
                                          Truth{"light", 0.12, 0.6, 0.1, 1e-3}),
