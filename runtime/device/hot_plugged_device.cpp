@@ -13,12 +13,18 @@ long ticks_to_settle(const DeviceProfile& profile) {
   return std::max(1L, static_cast<long>(profile.velocity_window) + 1);
 }
 
+std::array<AxisResponse, 2> responses_of(const DeviceWiring& wiring, const DeviceProfile& profile) {
+  if (profile.shaker) return {};
+  return {wiring.response_of(0, profile.force_newton), wiring.response_of(1, profile.force_newton)};
+}
+
 }  // namespace
 
 HotPluggedDevice::HotPluggedDevice(std::unique_ptr<PluggedDevice> device, DeviceWiring wiring, Reopen reopen,
                                    std::chrono::milliseconds patience)
     : profile_(device->profile()),
       wiring_(std::move(wiring)),
+      responses_{responses_of(wiring_, profile_)},
       reopen_(std::move(reopen)),
       patience_(patience),
       held_(device.release()) {
@@ -69,12 +75,12 @@ Force HotPluggedDevice::command(Force force) noexcept {
   Force own(0), exerted(0);
   for (int axis = 0; axis < 2; ++axis) {
     const SignedAxis& to = wiring_.motors[static_cast<std::size_t>(axis)];
-    own[to.axis] = static_cast<float>(to.sign * (force[axis] / wiring_.gain[static_cast<std::size_t>(axis)]));
+    own[to.axis] = static_cast<float>(to.sign * responses_[static_cast<std::size_t>(axis)].command(force[axis]));
   }
   own = held_->command(own);
   for (int axis = 0; axis < 2; ++axis) {
     const SignedAxis& to = wiring_.motors[static_cast<std::size_t>(axis)];
-    exerted[axis] = static_cast<float>(to.sign * (own[to.axis] * wiring_.gain[static_cast<std::size_t>(axis)]));
+    exerted[axis] = static_cast<float>(responses_[static_cast<std::size_t>(axis)].force(to.sign * own[to.axis]));
   }
   return exerted;
 }
