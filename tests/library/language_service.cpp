@@ -35,17 +35,21 @@ TEST(LanguageService, ColoursEachWordByWhatItIs) {
     found.emplace_back(text.substr(each.begin, each.end - each.begin), each.kind);
   using K = WordKind;
   const std::vector<std::pair<std::string, WordKind>> expected = {
-      {"wale", K::keyword},  {"1", K::number},       {"/// told", K::documentation}, {"material", K::keyword}, {"a", K::name},
-      {"{", K::symbol},      {"// why", K::comment}, {"physical", K::keyword},       {"{", K::symbol},         {"force", K::keyword},
-      {"=", K::symbol},      {"120", K::number},     {"N", K::unit},                 {"/", K::symbol},         {"m", K::unit},
-      {"*", K::symbol},      {"hand", K::name},      {"\"t\"", K::text},   {"}", K::symbol},         {"}", K::symbol}};
+      {"wale", K::keyword},     {"1", K::number},         {"/// told", K::documentation},
+      {"material", K::keyword}, {"a", K::name},           {"{", K::symbol},
+      {"// why", K::comment},   {"physical", K::keyword}, {"{", K::symbol},
+      {"force", K::keyword},    {"=", K::symbol},         {"120", K::number},
+      {"N", K::unit},           {"/", K::symbol},         {"m", K::unit},
+      {"*", K::symbol},         {"hand", K::name},        {"\"t\"", K::text},
+      {"}", K::symbol},         {"}", K::symbol}};
   EXPECT_EQ(found, expected);
 }
 
 TEST(LanguageService, AnyBytesAreSafe) {
   std::mt19937 random(19);
-  const std::string pieces[] = {"wale 1\n", "material a {", "}", "physical {", "\"", "//", "/*", "*/", "5 mm", "\xc3", "\0x",
-                                "patch b = oak { at", "workspace w {", "é", "\n", "..", "(", ")", "patches from", "///"};
+  const std::string pieces[] = {
+      "wale 1\n",           "material a {",  "}", "physical {", "\"", "//", "/*", "*/",           "5 mm", "\xc3", "\0x",
+      "patch b = oak { at", "workspace w {", "é", "\n",         "..", "(",  ")",  "patches from", "///"};
   for (int i = 0; i < 1500; ++i) {
     std::string text;
     for (unsigned n = random() % 14; n > 0; --n) text += pieces[random() % std::size(pieces)];
@@ -176,7 +180,8 @@ std::string with(std::string text, const std::string& what, const std::string& b
 
 TEST(LanguageService, WhatHasNotChangedIsWrittenAsItsAuthorWroteIt) {
   EXPECT_EQ(rewritten([](Layout&) {}), by_hand);
-  EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[0].at.x = 0.01; }), with(by_hand, "at -50 mm, 0 mm", "at 10 mm, 0 mm"));
+  EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[0].at.x = 0.01; }),
+            with(by_hand, "at -50 mm, 0 mm", "at 10 mm, 0 mm"));
   EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[1].size = glm::dvec2(0.05, 0.03); }),
             with(by_hand, "size 5 cm, 4 cm", "size 50 mm, 30 mm"));
   EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[1].made_of = "corduroy(wale: 3 mm)"; }),
@@ -193,7 +198,8 @@ TEST(LanguageService, WhatHasNotChangedIsWrittenAsItsAuthorWroteIt) {
   // Each comment stays with its patch where the order changes.
   const std::string turned = rewritten([](Layout& layout) { std::swap(layout.patches[0], layout.patches[2]); });
   EXPECT_NE(turned.find("r=oak   // as it is\n"), turned.npos) << turned;
-  EXPECT_NE(turned.find("  // left one\n  patch p = a { size 40 mm, 40 mm; at -50 mm, 0 mm } // why\n"), turned.npos) << turned;
+  EXPECT_NE(turned.find("  // left one\n  patch p = a { size 40 mm, 40 mm; at -50 mm, 0 mm } // why\n"), turned.npos)
+      << turned;
   EXPECT_LT(turned.find("r=oak"), turned.find("patch p")) << turned;
   const std::string one_line = "wale 1\nworkspace w { patch a = oak; patch b = denim }\n";
   EXPECT_EQ(rewritten([](Layout&) {}, one_line), one_line);

@@ -64,7 +64,9 @@ class Files : public DrivenWindow {
     }
     QTest::mouseClick(question->findChild<QPushButton*>("answer"), Qt::LeftButton);
   }
-  void wait_for_work() { ASSERT_TRUE(wait_until([&] { return !window->findChild<LongWork*>("long_work")->is_busy(); })); }
+  void wait_for_work() {
+    ASSERT_TRUE(wait_until([&] { return !window->findChild<LongWork*>("long_work")->is_busy(); }));
+  }
   std::size_t files_in_folder() { return QDir(folder.path()).entryList(QDir::Files).size(); }
 };
 
@@ -101,7 +103,8 @@ TEST_F(Files, AnArrayComesInWithItsFiguresAndLeavesAsTheSameBytes) {
 
 TEST_F(Files, MoviesAndShufflesGoBothWays) {
   open_table();
-  exchange().import_files({QString::fromStdString(golden + "demo.movie"), QString::fromStdString(golden + "demo.shuffle")});
+  exchange().import_files(
+      {QString::fromStdString(golden + "demo.movie"), QString::fromStdString(golden + "demo.shuffle")});
   EXPECT_TRUE(announced().contains("demo_shuffle")) << announced().toStdString();
   EXPECT_NE(window->document().text().find("movie demo { frames warm_up, grids, warm_up }"), std::string::npos);
   exchange().export_movie(path("out.movie"), "demo");
@@ -121,8 +124,11 @@ TEST_F(Files, MoviesAndShufflesGoBothWays) {
 TEST_F(Files, MalformedFilesAreSaidAndChangeNothing) {
   open_table();
   const std::size_t before = files_in_folder();
-  for (const auto& [name, bytes] : std::vector<std::pair<const char*, std::string>>{
-           {"a.depth", "abc"}, {"b.shuffle", "Movie: m\n"}, {"c", std::string("\x01\x20\x03\x00\x01\xff", 6)}, {"d.movie", "\n\n"}}) {
+  for (const auto& [name, bytes] :
+       std::vector<std::pair<const char*, std::string>>{{"a.depth", "abc"},
+                                                        {"b.shuffle", "Movie: m\n"},
+                                                        {"c", std::string("\x01\x20\x03\x00\x01\xff", 6)},
+                                                        {"d.movie", "\n\n"}}) {
     exchange().import_files({write(name, bytes)});
     EXPECT_TRUE(announced().contains(name)) << announced().toStdString();
     EXPECT_FALSE(window->findChild<Question*>("question")->isVisible()) << name;
@@ -209,7 +215,8 @@ TEST_F(Files, ProgramsPicturesAndPagesAreWritten) {
 
 TEST_F(Files, LongWorkIsCancelled) {
   std::string text = "wale 1\n\nworkspace many {\n";
-  for (int i = 0; i < 400; ++i) text += "  patch p" + std::to_string(i) + " = denim { at 0 mm, 0 mm; size 60 mm, 60 mm }\n";
+  for (int i = 0; i < 400; ++i)
+    text += "  patch p" + std::to_string(i) + " = denim { at 0 mm, 0 mm; size 60 mm, 60 mm }\n";
   ASSERT_TRUE(window->open(write("many.wale", text + "}\n")));
   wait_for_programs();
   exchange().export_pdf(path("many.pdf"));

@@ -86,7 +86,9 @@ class PresentedWindow : public DrivenWindow {
     }
     return most;
   }
-  void click_key(std::size_t key) { QTest::mouseClick(&table(), Qt::LeftButton, {}, table().box_of(sorting().keys()[key]).center().toPoint()); }
+  void click_key(std::size_t key) {
+    QTest::mouseClick(&table(), Qt::LeftButton, {}, table().box_of(sorting().keys()[key]).center().toPoint());
+  }
   void drag_key(std::size_t key, QPoint to) {
     const QPoint from = table().box_of(sorting().keys()[key]).center().toPoint();
     QTest::mousePress(&table(), Qt::LeftButton, {}, from);
@@ -160,7 +162,8 @@ TEST_F(PresentedWindow, ASortingSessionIsOnTheDiskAndInTheFile) {
   // The answers alone tell the groups.
   std::map<std::string, std::string> pile_of;
   for (const wale::SessionEntry* each : read_back->standing_answers())
-    if (const auto& answer = std::get<wale::SessionAnswer>(each->event); answer.question == "pile") pile_of[answer.about] = answer.answer;
+    if (const auto& answer = std::get<wale::SessionAnswer>(each->event); answer.question == "pile")
+      pile_of[answer.about] = answer.answer;
   EXPECT_EQ(pile_of.at("oak_one"), pile_of.at("oak_three"));
   EXPECT_EQ(pile_of.at("oak_two"), pile_of.at("oak_four"));
   EXPECT_NE(pile_of.at("oak_one"), pile_of.at("oak_two"));
@@ -191,7 +194,8 @@ TEST_F(PresentedWindow, ASortingSessionIsOnTheDiskAndInTheFile) {
   ASSERT_EQ(saved.groups.size(), 2u);
   for (const auto& each : saved.groups) {
     const bool is_hard = each.patches.front() == "oak_one";
-    EXPECT_EQ(each.patches, is_hard ? (std::vector<std::string>{"oak_one", "oak_three"}) : (std::vector<std::string>{"oak_four", "oak_two"}));
+    EXPECT_EQ(each.patches, is_hard ? (std::vector<std::string>{"oak_one", "oak_three"})
+                                    : (std::vector<std::string>{"oak_four", "oak_two"}));
     EXPECT_EQ(each.says, is_hard ? "rough, \"like bark\"" : "");
   }
   trigger("undo");
@@ -202,7 +206,9 @@ TEST_F(PresentedWindow, KeysAreSortedByKeyboardAlone) {
   const std::string before = window->document().text();
   start_sorting();
   table().setFocus();
-  const auto press = [&](int key, Qt::KeyboardModifiers with = {}) { QTest::keyClick(&table(), static_cast<Qt::Key>(key), with); };
+  const auto press = [&](int key, Qt::KeyboardModifiers with = {}) {
+    QTest::keyClick(&table(), static_cast<Qt::Key>(key), with);
+  };
   press(Qt::Key_N);
   press(Qt::Key_Plus);  // the first key is pile 1
   press(Qt::Key_N);
@@ -349,7 +355,8 @@ TEST_F(PresentedWindow, TheSameSeedGivesTheSameOrders) {
     start_sorting();
     runs.push_back(all_of<wale::SessionOrder>(log()));
     ASSERT_EQ(runs.back().size(), 4u);
-    for (const wale::SessionItem& each : runs.back().back().items) EXPECT_TRUE(QString::fromStdString(each.label).toInt() >= 100);
+    for (const wale::SessionItem& each : runs.back().back().items)
+      EXPECT_TRUE(QString::fromStdString(each.label).toInt() >= 100);
   }
   EXPECT_EQ(runs[0], runs[1]);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NE(runs[0][i].items, runs[2][i].items) << runs[0][i].what;
@@ -369,7 +376,8 @@ TEST_F(PresentedWindow, NumbersAreNewInEachSessionAndLogged) {
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(logged.items[i].label, labels[i]);
     trigger("next_frame");
     trigger("previous_frame");
-    EXPECT_EQ(canvas().label_of(placed("oak_one")).toStdString(), labels[0]);  // it keeps its own while the session runs
+    EXPECT_EQ(canvas().label_of(placed("oak_one")).toStdString(),
+              labels[0]);  // it keeps its own while the session runs
     seen.push_back(labels);
     window->findChild<QPushButton*>("session_button")->click();
   }
@@ -385,7 +393,8 @@ TEST_F(PresentedWindow, NothingTellsMaterialsToAParticipant) {
     QString all;
     QAccessibleInterface* list = QAccessible::queryAccessibleInterface(&widget);
     for (int i = 0; i < list->childCount(); ++i)
-      for (const auto kind : {QAccessible::Name, QAccessible::Value, QAccessible::Description}) all += list->child(i)->text(kind) + "\n";
+      for (const auto kind : {QAccessible::Name, QAccessible::Value, QAccessible::Description})
+        all += list->child(i)->text(kind) + "\n";
     return all;
   };
   EXPECT_FALSE(told(participant->canvas()).contains("oak"));
@@ -412,7 +421,8 @@ TEST_F(PresentedWindow, NothingTellsMaterialsToAParticipant) {
   EXPECT_EQ(participant->currentWidget(), &participant->canvas());
   // What the window announces is not read out while a participant hears it.
   QStringList read_out;
-  QObject::connect(window->findChild<Announcement*>(), &Announcement::read_out, [&](const QString& words) { read_out << words; });
+  QObject::connect(window->findChild<Announcement*>(), &Announcement::read_out,
+                   [&](const QString& words) { read_out << words; });
   trigger("next_frame");
   EXPECT_TRUE(announced().contains("second"));
   EXPECT_TRUE(read_out.isEmpty()) << read_out.join("|").toStdString();
@@ -450,7 +460,8 @@ TEST_F(PresentedWindow, ADeviceIsRecentredAndTheMouseIsNot) {
   device.move_centre({100, -40});
   EXPECT_EQ(device.sample().counts, glm::ivec2(20, 10));
   own.counts = {std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
-  EXPECT_EQ(device.sample().counts, glm::ivec2(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));  // not around the corner
+  EXPECT_EQ(device.sample().counts,
+            glm::ivec2(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));  // not around the corner
 
   trigger("recentre");
   EXPECT_TRUE(announced().contains("mouse")) << announced().toStdString();
@@ -462,7 +473,8 @@ TEST_F(PresentedWindow, ADeviceIsRecentredAndTheMouseIsNot) {
   trigger("recentre");
   EXPECT_FALSE(window->feeling().is_on());  // all lies elsewhere under the hand now
   EXPECT_NEAR(window->feeling().centre().x, window->feeling().now().position.x, 0.005);
-  EXPECT_TRUE(std::ranges::any_of(all_of<wale::SessionNote>(log()), [](const auto& each) { return each.text.find("centre") != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::any_of(all_of<wale::SessionNote>(log()),
+                                  [](const auto& each) { return each.text.find("centre") != std::string::npos; }));
   trigger("centre_back");
   EXPECT_EQ(window->feeling().centre(), glm::dvec2(0));
 }

@@ -220,7 +220,8 @@ workspace odd {
   ASSERT_EQ(checked.layouts.size(), 1u);
   const wale::Layout& layout = checked.layouts.front();
   const std::string text = wale::layout_text(layout);
-  for (const char* each : {"// of a", "// behind a", "/// told of b", "// inside b", "patches from picture", "// at the end"})
+  for (const char* each :
+       {"// of a", "// behind a", "/// told of b", "// inside b", "patches from picture", "// at the end"})
     EXPECT_NE(text.find(each), std::string::npos) << each << "\n" << text;
   const std::string again = odd.substr(0, layout.begin) + text + odd.substr(layout.end);
   const auto twice = language().check(again);
@@ -360,7 +361,8 @@ workspace w {
   window->document().choose({placed("mixed").id});
   ASSERT_TRUE(wait_until([&] { return !window->findChildren<SliderRow*>().empty(); }));
   SliderRow* row = window->findChildren<SliderRow*>().front();
-  const float wanted = 0.5f * (row->parameter().soft_low + row->parameter().soft_high) + 0.1f * (row->parameter().soft_high - row->parameter().soft_low);
+  const float wanted = 0.5f * (row->parameter().soft_low + row->parameter().soft_high) +
+                       0.1f * (row->parameter().soft_high - row->parameter().soft_low);
   emit row->moved(wanted, true);
   trigger("save");
   const std::string text = read(file);

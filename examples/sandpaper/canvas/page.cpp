@@ -37,14 +37,16 @@ QImage covered(const PagePatch& patch, QSize pixels) {
 }
 
 void draw_patch(QPainter& painter, const PagePatch& patch, QRectF box) {
-  const QSize pixels(std::clamp(static_cast<int>(box.width() / 2), 1, most_pixels), std::clamp(static_cast<int>(box.height() / 2), 1, most_pixels));
+  const QSize pixels(std::clamp(static_cast<int>(box.width() / 2), 1, most_pixels),
+                     std::clamp(static_cast<int>(box.height() / 2), 1, most_pixels));
   const wale::LaidOutPatch& laid = patch.placed->patch;
   QImage image(pixels, QImage::Format_ARGB32_Premultiplied);
   image.fill(QColor(220, 220, 220));
   if (patch.program) {
-    const wale::Bank bank(*patch.program, patch.parameters, {static_cast<float>(patch.size.x), static_cast<float>(patch.size.y), 0});
-    image = surface_image(bank, nullptr, glm::vec2(patch.size), laid.outline.stretched(glm::vec2(patch.size)), pixels, Look::relief,
-                          colour_of(laid.made_of))
+    const wale::Bank bank(*patch.program, patch.parameters,
+                          {static_cast<float>(patch.size.x), static_cast<float>(patch.size.y), 0});
+    image = surface_image(bank, nullptr, glm::vec2(patch.size), laid.outline.stretched(glm::vec2(patch.size)), pixels,
+                          Look::relief, colour_of(laid.made_of))
                 .convertToFormat(QImage::Format_ARGB32_Premultiplied);
   }
   if (!laid.outline.is_rectangle()) {
@@ -94,11 +96,14 @@ bool draw_pages(QPagedPaintDevice& device, const WorkspacePage& page, const std:
   // All that lies on the workspace, also what lies beyond the device's reach.
   double across = page.diameter;
   for (const PagePatch& each : page.patches)
-    for (int axis = 0; axis < 2; ++axis) across = std::max(across, 2 * std::abs(each.placed->patch.at[axis]) + each.size[axis]);
+    for (int axis = 0; axis < 2; ++axis)
+      across = std::max(across, 2 * std::abs(each.placed->patch.at[axis]) + each.size[axis]);
   const double room = std::min(paper_width - 2 * edge, picture_height - 20);
   const double scale = across * 1000 <= room ? 1 : room / (across * 1000);
   const QPointF middle(dots(paper_width / 2), dots(edge + 10 + room / 2));
-  const auto place = [&](double x, double y) { return middle + QPointF(dots(1000 * x * scale), -dots(1000 * y * scale)); };
+  const auto place = [&](double x, double y) {
+    return middle + QPointF(dots(1000 * x * scale), -dots(1000 * y * scale));
+  };
   painter.setPen(QPen(Qt::gray, dots(0.2)));
   painter.setBrush(Qt::NoBrush);
   const double reach = dots(500 * page.diameter * scale);
@@ -119,7 +124,8 @@ bool draw_pages(QPagedPaintDevice& device, const WorkspacePage& page, const std:
     for (int i = 0; i < cells.size(); ++i) {
       const double right = i == 3 ? paper_width - edge : columns[i + 1];
       const QRectF box(dots(columns[i]), dots(top), dots(right - columns[i] - 2), dots(row_height));
-      painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, painter.fontMetrics().elidedText(cells[i], Qt::ElideRight, static_cast<int>(box.width())));
+      painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter,
+                       painter.fontMetrics().elidedText(cells[i], Qt::ElideRight, static_cast<int>(box.width())));
     }
     top += row_height;
   };
@@ -127,7 +133,8 @@ bool draw_pages(QPagedPaintDevice& device, const WorkspacePage& page, const std:
   painter.setPen(Qt::black);
   row(heading);
   for (std::size_t i = 0; i < page.patches.size(); ++i) {
-    if (i % 64 == 0 && !progress(0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(page.patches.size()))) return false;
+    if (i % 64 == 0 && !progress(0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(page.patches.size())))
+      return false;
     if (top + row_height > paper_height - edge) {
       device.newPage();
       top = edge;
@@ -135,8 +142,10 @@ bool draw_pages(QPagedPaintDevice& device, const WorkspacePage& page, const std:
     }
     const PagePatch& each = page.patches[i];
     const wale::LaidOutPatch& laid = each.placed->patch;
-    row({QString::fromStdString(laid.name), QString::fromStdString(laid.made_of) + (each.program ? QString() : tr(" (has an error)")),
-         millimetres(laid.at.x) + ", " + millimetres(laid.at.y), millimetres(each.size.x) + " × " + millimetres(each.size.y)});
+    row({QString::fromStdString(laid.name),
+         QString::fromStdString(laid.made_of) + (each.program ? QString() : tr(" (has an error)")),
+         millimetres(laid.at.x) + ", " + millimetres(laid.at.y),
+         millimetres(each.size.x) + " × " + millimetres(each.size.y)});
   }
   return painter.end();
 }

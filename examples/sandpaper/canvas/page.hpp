@@ -29,12 +29,13 @@ struct WorkspacePage {
   std::vector<PagePatch> patches;
 };
 
-/// Draws it on A4 pages of a device that was set up for them, in a resolution of 300 dots per inch without margins. False if
-/// `progress` ended it.
+/// Draws it on A4 pages of a device that was set up for them, in a resolution of 300 dots per inch without margins.
+/// False if `progress` ended it.
 bool draw_pages(QPagedPaintDevice& device, const WorkspacePage& page, const std::function<bool(double)>& progress);
 
-/// As a PDF of A4 pages: the workspace from above with a scale bar, at true size where that fits and else scaled, and the
-/// table of its patches. From any thread. `progress` gets 0 .. 1, and ends the work by false; then nothing is returned.
+/// As a PDF of A4 pages: the workspace from above with a scale bar, at true size where that fits and else scaled, and
+/// the table of its patches. From any thread. `progress` gets 0 .. 1, and ends the work by false; then nothing is
+/// returned.
 std::optional<QByteArray> pdf_of(const WorkspacePage& page, const std::function<bool(double)>& progress);
 
 }  // namespace sandpaper

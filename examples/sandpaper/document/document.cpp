@@ -71,7 +71,8 @@ void Document::make_new() {
 }
 
 Contents Document::read(const std::string& text, const QString& workspace) {
-  const wale::CheckedText checked = language_.check(text, {.name = file_.isEmpty() ? "untitled.wale" : file_.toStdString()});
+  const wale::CheckedText checked =
+      language_.check(text, {.name = file_.isEmpty() ? "untitled.wale" : file_.toStdString()});
   problems_ = checked.problems;
   workspaces_.clear();
   for (const wale::Layout& each : checked.layouts) workspaces_ << QString::fromStdString(each.name);
@@ -242,7 +243,8 @@ void Document::change_placed(const QString& what, const std::set<std::uint64_t>&
   change(what, std::move(next), merge);
 }
 
-void Document::set_argument(std::uint64_t id, const std::string& name, float si, const std::string& written, int merge) {
+void Document::set_argument(std::uint64_t id, const std::string& name, float si, const std::string& written,
+                            int merge) {
   const Placed* placed = contents_.find(id);
   if (!placed || !placed->is_changeable()) return;
   const QString what = tr("Set %1").arg(QString::fromStdString(name));
@@ -286,7 +288,9 @@ std::vector<std::uint64_t> Document::add(const QString& what, std::vector<wale::
 
 void Document::remove(const std::set<std::uint64_t>& ids) {
   Contents next = contents_;
-  std::erase_if(next.placed, [&](const PlacedRef& each) { return ids.contains(each->id) && each->is_changeable() && !each->locked; });
+  std::erase_if(next.placed, [&](const PlacedRef& each) {
+    return ids.contains(each->id) && each->is_changeable() && !each->locked;
+  });
   if (next.placed.size() == contents_.placed.size()) return;
   change(tr("Delete %n patch(es)", nullptr, static_cast<int>(contents_.placed.size() - next.placed.size())),
          std::move(next));

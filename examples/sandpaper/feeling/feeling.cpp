@@ -133,7 +133,8 @@ wale::PatchOptions Feeling::options(const Felt& felt) const {
   if (patch.size) size.width = static_cast<float>(patch.size->x), size.height = static_cast<float>(patch.size->y);
   else if (!patch.outline.is_rectangle() && patch.shape != "ellipse")
     size.width = patch.outline.size().x, size.height = patch.outline.size().y;
-  size.rim = static_cast<float>(patch.rim.value_or(std::min(usual_rim, widest_rim * std::min(size.width, size.height))));
+  size.rim =
+      static_cast<float>(patch.rim.value_or(std::min(usual_rim, widest_rim * std::min(size.width, size.height))));
   return {.at = glm::vec2(patch.at), .size = size, .layer = static_cast<float>(felt.layer), .shape = patch.outline};
 }
 
@@ -141,7 +142,8 @@ void Feeling::place(Felt& felt) {
   if (!felt.program || felt.patch || felt.placed->away) return;
   auto patch = stage_->add(*felt.program, options(felt));
   if (!patch) {
-    emit said(tr("%1 cannot be felt: %2").arg(QString::fromStdString(felt.placed->patch.name), words_of(patch.error())));
+    emit said(
+        tr("%1 cannot be felt: %2").arg(QString::fromStdString(felt.placed->patch.name), words_of(patch.error())));
     return;
   }
   felt.patch = *patch;

@@ -42,17 +42,21 @@ void Programs::set_device(const std::string& device) {
   ++generation_;
 }
 
-MaterialProgramRef Programs::find(const std::string& surroundings, const std::string& file, const std::string& made_of, int urgency) {
+MaterialProgramRef Programs::find(const std::string& surroundings, const std::string& file, const std::string& made_of,
+                                  int urgency) {
   const std::string key = std::to_string(std::hash<std::string>()(surroundings)) + "|" + file + "|" + made_of;
   const auto [found, is_new] = known_.try_emplace(key);
   if (!is_new) return found->second;
   const std::string text = surroundings + "\nmaterial " + patch_material + " = " + made_of + "\n";
-  const wale::CompileOptions options{.device = device_, .material = patch_material, .name = file.empty() ? "untitled.wale" : file};
+  const wale::CompileOptions options{
+      .device = device_, .material = patch_material, .name = file.empty() ? "untitled.wale" : file};
   thread_.post(urgency, key, [this, key, made_of, text, options, generation = generation_] {
     wale::CompiledText compiled = language_.compile(text, options);
     auto program = std::make_shared<MaterialProgram>();
-    program->program = renamed(compiled.program, material_name(made_of)), program->problems = std::move(compiled.problems);
-    QMetaObject::invokeMethod(this, [this, key, made_of, program, generation] { keep(key, made_of, program, generation); });
+    program->program = renamed(compiled.program, material_name(made_of)),
+    program->problems = std::move(compiled.problems);
+    QMetaObject::invokeMethod(this,
+                              [this, key, made_of, program, generation] { keep(key, made_of, program, generation); });
   });
   return nullptr;
 }

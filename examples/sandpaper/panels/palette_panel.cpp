@@ -32,14 +32,17 @@ void PaletteModel::search(const QString& words, const QString& kind) {
   endResetModel();
 }
 
-int PaletteModel::rowCount(const QModelIndex& parent) const { return parent.isValid() ? 0 : static_cast<int>(entries_.size()); }
+int PaletteModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(entries_.size());
+}
 
 QVariant PaletteModel::thumbnail(const wale::CatalogueEntry& entry) const {
   QImage image;
-  if (const auto material = programs_.find(nothing_around, {}, entry.spelling, thumbnail_urgency); material && material->program) {
+  if (const auto material = programs_.find(nothing_around, {}, entry.spelling, thumbnail_urgency);
+      material && material->program) {
     const wale::Program& program = *material->program;
-    image = pictures_.find(program, program.default_parameters(), thumbnail_size, {}, {thumbnail_side, thumbnail_side}, Look::relief,
-                           colour_of(entry.spelling), thumbnail_urgency);
+    image = pictures_.find(program, program.default_parameters(), thumbnail_size, {}, {thumbnail_side, thumbnail_side},
+                           Look::relief, colour_of(entry.spelling), thumbnail_urgency);
   }
   if (image.isNull()) {
     image = QImage(thumbnail_side, thumbnail_side, QImage::Format_RGB32);
@@ -53,15 +56,18 @@ QVariant PaletteModel::data(const QModelIndex& index, int role) const {
   const wale::CatalogueEntry& each = entry(index.row());
   const QString name = QString::fromStdString(each.name), title = QString::fromStdString(each.title);
   switch (role) {
-    case Qt::DisplayRole: return title.isEmpty() || title.compare(name, Qt::CaseInsensitive) == 0 ? name : name + "\n" + title;
+    case Qt::DisplayRole:
+      return title.isEmpty() || title.compare(name, Qt::CaseInsensitive) == 0 ? name : name + "\n" + title;
     case Qt::DecorationRole: return thumbnail(each);
-    case Qt::AccessibleTextRole: return tr("%1, %2").arg(title.isEmpty() ? name : title, QString::fromStdString(each.kind));
+    case Qt::AccessibleTextRole:
+      return tr("%1, %2").arg(title.isEmpty() ? name : title, QString::fromStdString(each.kind));
     case Qt::AccessibleDescriptionRole: return QString::fromStdString(each.documentation);
     case Qt::ToolTipRole: {
       QString tip = "<b>" + (title.isEmpty() ? name : title).toHtmlEscaped() + "</b> " +
                     QString::fromStdString(each.kind).toHtmlEscaped();
       if (!each.documentation.empty()) tip += "<br>" + QString::fromStdString(each.documentation).toHtmlEscaped();
-      for (const std::string& like : each.feels) tip += "<br><i>" + QString::fromStdString(like).toHtmlEscaped() + "</i>";
+      for (const std::string& like : each.feels)
+        tip += "<br><i>" + QString::fromStdString(like).toHtmlEscaped() + "</i>";
       return tip;
     }
     case Qt::UserRole: return QString::fromStdString(each.spelling);

@@ -39,7 +39,8 @@ void MarkedSlider::paintEvent(QPaintEvent* event) {
   QSlider::paintEvent(event);
 }
 
-SliderRow::SliderRow(const wale::Parameter& parameter, bool is_percept, float value, float default_value, QWidget* parent)
+SliderRow::SliderRow(const wale::Parameter& parameter, bool is_percept, float value, float default_value,
+                     QWidget* parent)
     : QWidget(parent),
       parameter_(parameter),
       is_percept_(is_percept),
@@ -115,7 +116,8 @@ SliderRow::SliderRow(const wale::Parameter& parameter, bool is_percept, float va
 int SliderRow::step_of(float value) const {
   const double span = parameter_.soft_high - parameter_.soft_low;
   if (span <= 0) return 0;
-  return static_cast<int>(std::lround(std::clamp((value - parameter_.soft_low) / span, 0.0, 1.0) * MarkedSlider::steps));
+  return static_cast<int>(
+      std::lround(std::clamp((value - parameter_.soft_low) / span, 0.0, 1.0) * MarkedSlider::steps));
 }
 
 void SliderRow::set_value(float value) {
@@ -138,7 +140,8 @@ void SliderRow::set_marks(std::optional<float> low, std::optional<float> high, c
     return (*end - parameter_.soft_low) / span;
   };
   slider_->set_marks(share(low), share(high));
-  slider_->setToolTip(low || high ? tr("marked: %1").arg(says.isEmpty() ? tr("it still feels like this") : says) : QString());
+  slider_->setToolTip(low || high ? tr("marked: %1").arg(says.isEmpty() ? tr("it still feels like this") : says)
+                                  : QString());
 }
 
 }  // namespace sandpaper

@@ -35,7 +35,8 @@ class SliderRow : public QWidget {
 
  public:
   /// `default_value` is what the reset gives.
-  SliderRow(const wale::Parameter& parameter, bool is_percept, float value, float default_value, QWidget* parent = nullptr);
+  SliderRow(const wale::Parameter& parameter, bool is_percept, float value, float default_value,
+            QWidget* parent = nullptr);
 
   const std::string& name() const { return parameter_.name; }
   const wale::Parameter& parameter() const { return parameter_; }

@@ -19,7 +19,8 @@ class Presenting : public QObject {
   Q_OBJECT
 
  public:
-  Presenting(const wale::Library& library, Document& document, Numbers& numbers, Feeling& feeling, QObject* parent = nullptr);
+  Presenting(const wale::Library& library, Document& document, Numbers& numbers, Feeling& feeling,
+             QObject* parent = nullptr);
 
   Session& session() { return session_; }
   Sorting& sorting() { return sorting_; }

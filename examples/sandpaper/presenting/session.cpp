@@ -15,11 +15,16 @@ constexpr std::size_t patches_in_a_line = 5000;  // far from the longest line of
 
 }  // namespace
 
-wale::Result<> Session::begin(const QString& participant, std::uint32_t seed, const QString& file, const QString& device) {
+wale::Result<> Session::begin(const QString& participant, std::uint32_t seed, const QString& file,
+                              const QString& device) {
   if (participant.trimmed().isEmpty())
-    return wale::Error{.code = wale::Code::malformed_value, .sentence = "a session needs an identifier of the participant", .mend = "type one, as S48"};
+    return wale::Error{.code = wale::Code::malformed_value,
+                       .sentence = "a session needs an identifier of the participant",
+                       .mend = "type one, as S48"};
   if (file.isEmpty())
-    return wale::Error{.code = wale::Code::unwritable_file, .sentence = "the log lies beside the file, which has no name yet", .mend = "save it first"};
+    return wale::Error{.code = wale::Code::unwritable_file,
+                       .sentence = "the log lies beside the file, which has no name yet",
+                       .mend = "save it first"};
   QString name = participant.trimmed().left(longest_name);
   name.replace(QRegularExpression("[^A-Za-z0-9_-]"), "_");
   const QFileInfo presented(file);
@@ -29,7 +34,8 @@ wale::Result<> Session::begin(const QString& participant, std::uint32_t seed, co
                                  .file = presented.fileName().toStdString(),
                                  .versions = {{"wale", WALE_VERSION}, {"qt", qVersion()}}};
   for (int number = 1;; ++number) {
-    const QString path = presented.dir().filePath(QString("%1-%2-%3.session").arg(presented.completeBaseName(), name).arg(number));
+    const QString path =
+        presented.dir().filePath(QString("%1-%2-%3.session").arg(presented.completeBaseName(), name).arg(number));
     if (QFileInfo::exists(path)) continue;
     auto log = wale::SessionLog::create(path.toStdString(), begin);
     if (!log) return log.error();
@@ -57,7 +63,8 @@ void Session::end(const char* why) {
 std::optional<std::uint64_t> Session::log(const wale::SessionEvent& event) {
   if (!log_) return 0;
   const auto line = log_->append(event);
-  const QString before = std::exchange(trouble_, line ? QString() : QString::fromStdString(wale::in_words(line.error())));
+  const QString before =
+      std::exchange(trouble_, line ? QString() : QString::fromStdString(wale::in_words(line.error())));
   if (before != trouble_) emit changed();
   if (line) return *line;
   emit said(tr("Nothing is presented that cannot be logged: %1").arg(trouble_));

@@ -38,9 +38,9 @@ class Session : public QObject {
   /// Brings an event to the disk and gives the number of its line, 0 without a session. If it cannot be written, that
   /// is said and nothing is given: then what it announces must not be presented.
   std::optional<std::uint64_t> log(const wale::SessionEvent& event);
-  /// Logs the programs that are not what was logged of these patches before: one line for each material, with all patches
-  /// that are made of it, so that a workspace of thousands waits for the disk some times and not thousands of times.
-  /// False if one cannot be written.
+  /// Logs the programs that are not what was logged of these patches before: one line for each material, with all
+  /// patches that are made of it, so that a workspace of thousands waits for the disk some times and not thousands of
+  /// times. False if one cannot be written.
   bool log_programs(const std::vector<PatchToLog>& patches);
   /// A seed for what is random next: of the session's own sequence, or any without a session.
   std::uint32_t next_seed();

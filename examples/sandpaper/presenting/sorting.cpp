@@ -53,13 +53,15 @@ bool Sorting::start(const wale::MiniKeys& declared, const Contents& contents, st
   if (keys.empty()) return false;
   declared_ = declared;
   std::mt19937 random(seed);
-  table_ = 2.0 * glm::dvec2(std::abs(area_at().x) + area_size().x / 2, std::abs(area_at().y) + area_size().y / 2) + 4 * pitch * side();
+  table_ = 2.0 * glm::dvec2(std::abs(area_at().x) + area_size().x / 2, std::abs(area_at().y) + area_size().y / 2) +
+           4 * pitch * side();
   if (table_.x < 1.4 * table_.y) table_.x = 1.4 * table_.y;
   std::vector<glm::dvec2> places;
   while ((places = free_places(table_, side(), area_at(), area_size())).size() < room * keys.size()) table_ *= growth;
   shuffle_list(places, random);
   std::set<std::uint32_t> numbers;
-  const auto many = static_cast<std::uint32_t>(std::max<std::size_t>(900, 10 * keys.size()));  // three digits for 90 keys and more
+  const auto many =
+      static_cast<std::uint32_t>(std::max<std::size_t>(900, 10 * keys.size()));  // three digits for 90 keys and more
   wale::SessionOrder order{.what = "keys", .of = declared.name, .seed = seed};
   for (std::size_t i = 0; i < keys.size(); ++i) {
     std::uint32_t number = 0;
@@ -110,7 +112,9 @@ std::optional<std::size_t> Sorting::key_at(glm::dvec2 metres) const {
 
 void Sorting::choose(std::size_t key) {
   if (key >= keys_.size() || chosen_ == key) return;
-  if (!session_.log(wale::SessionShown{"key", keys_[key].name, keys_[key].label.toStdString(), static_cast<std::uint32_t>(key + 1)})) return;
+  if (!session_.log(wale::SessionShown{"key", keys_[key].name, keys_[key].label.toStdString(),
+                                       static_cast<std::uint32_t>(key + 1)}))
+    return;
   chosen_ = key;
   emit chosen_changed();
   emit changed();
@@ -162,11 +166,13 @@ void Sorting::tidy(int pile) {
       const glm::dvec2 least = at - 0.5 * whole, most = at + 0.5 * whole;
       return from.x < most.x && to.x > least.x && from.y < most.y && to.y > least.y;
     };
-    return !lies_on(area_at(), area_size()) &&
-           std::ranges::none_of(keys_, [&](const SortingKey& each) { return each.pile != pile && lies_on(each.at, glm::dvec2(side())); });
+    return !lies_on(area_at(), area_size()) && std::ranges::none_of(keys_, [&](const SortingKey& each) {
+      return each.pile != pile && lies_on(each.at, glm::dvec2(side()));
+    });
   };
   const auto within = [&](glm::dvec2 corner) {
-    return glm::dvec2(std::clamp(corner.x, low.x, std::max(low.x, high.x)), std::clamp(corner.y, low.y, std::max(low.y, high.y)));
+    return glm::dvec2(std::clamp(corner.x, low.x, std::max(low.x, high.x)),
+                      std::clamp(corner.y, low.y, std::max(low.y, high.y)));
   };
   const glm::dvec2 wanted = within(first - 0.5 * gap * side());
   glm::dvec2 corner = wanted;
@@ -174,10 +180,13 @@ void Sorting::tidy(int pile) {
     double nearest = std::numeric_limits<double>::infinity();
     for (double x = low.x; x <= high.x; x += side() / 4)
       for (double y = low.y; y <= high.y; y += side() / 4)
-        if (const double way = std::hypot(x - wanted.x, y - wanted.y); way < nearest && is_free({x, y})) nearest = way, corner = {x, y};
+        if (const double way = std::hypot(x - wanted.x, y - wanted.y); way < nearest && is_free({x, y}))
+          nearest = way, corner = {x, y};
   }
   for (std::size_t i = 0; i < of_it.size(); ++i)
-    of_it[i]->at = corner + gap * side() * glm::dvec2(static_cast<double>(i % in_a_row) + 0.5, static_cast<double>(i / in_a_row) + 0.5);
+    of_it[i]->at =
+        corner +
+        gap * side() * glm::dvec2(static_cast<double>(i % in_a_row) + 0.5, static_cast<double>(i / in_a_row) + 0.5);
 }
 
 void Sorting::put(std::size_t key, int pile) {
@@ -258,7 +267,8 @@ std::string groups_text(const wale::SortedGroups& groups) {
     for (std::size_t i = 0; i < group.patches.size(); ++i) text += (i ? ", " : "") + group.patches[i];
     if (!group.says.empty()) {
       text += ", \"";
-      for (const char letter : group.says) text += letter == '"' || letter == '\\' ? std::string("\\") + letter : std::string(1, letter);
+      for (const char letter : group.says)
+        text += letter == '"' || letter == '\\' ? std::string("\\") + letter : std::string(1, letter);
       text += "\"";
     }
     text += "\n";

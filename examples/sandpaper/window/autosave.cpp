@@ -25,7 +25,9 @@ bool is_alive(qint64 process) { return process > 0 && (kill(static_cast<pid_t>(p
 }  // namespace
 
 Autosave::Autosave(Document& document, QObject* parent)
-    : QObject(parent), document_(document), path_(folder() + QString("/%1.json").arg(QCoreApplication::applicationPid())) {
+    : QObject(parent),
+      document_(document),
+      path_(folder() + QString("/%1.json").arg(QCoreApplication::applicationPid())) {
   timer_.setSingleShot(true);
   timer_.setInterval(after_change);
   connect(&timer_, &QTimer::timeout, this, &Autosave::save_now);

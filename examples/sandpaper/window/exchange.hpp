@@ -15,8 +15,8 @@
 
 namespace sandpaper {
 
-/// Takes what other programs and other workspaces made into the document, and gives it away in other formats. What fails is
-/// said (`said`), and leaves neither half a file nor a changed document. In the window's thread.
+/// Takes what other programs and other workspaces made into the document, and gives it away in other formats. What
+/// fails is said (`said`), and leaves neither half a file nor a changed document. In the window's thread.
 class Exchange : public QObject {
   Q_OBJECT
 
@@ -32,8 +32,8 @@ class Exchange : public QObject {
 
   /// Arrays, movies and shuffles of the thesis's Sandpaper, or waves. The figures that arrays do not say are asked for.
   void import_files(QStringList files, bool waves = false);
-  /// Puts the first workspace of a Wale file, and all that it declares, into the open one: one step of undo. Names that are
-  /// taken get new ones.
+  /// Puts the first workspace of a Wale file, and all that it declares, into the open one: one step of undo. Names that
+  /// are taken get new ones.
   void merge(const QString& file);
 
   void export_picture(const QString& file);

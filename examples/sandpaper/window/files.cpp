@@ -41,13 +41,15 @@ bool MainWindow::save_as() {
 
 void MainWindow::when_saved(const QString& what, const std::function<void()>& then) {
   if (!document_.is_modified()) return then();
-  announcement_->offer(tr("%1 has changes that are not saved. Save it first (Ctrl+S), or %2 without them.").arg(document_.title(), what),
-                       tr("Discard the changes and %1").arg(what), then);
+  announcement_->offer(
+      tr("%1 has changes that are not saved. Save it first (Ctrl+S), or %2 without them.").arg(document_.title(), what),
+      tr("Discard the changes and %1").arg(what), then);
 }
 
 void MainWindow::open_asked() {
   when_saved(tr("open another file"), [this] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Open a workspace"), QFileInfo(document_.file()).path(), tr(wale_files));
+    const QString file =
+        QFileDialog::getOpenFileName(this, tr("Open a workspace"), QFileInfo(document_.file()).path(), tr(wale_files));
     if (!file.isEmpty()) open(file);
   });
 }
@@ -68,13 +70,15 @@ void MainWindow::place_material(const QString& spelling, glm::dvec2 at) {
 
 void MainWindow::place_recipe(const QString& recipe, glm::dvec2 at) {
   editor_->commit();
-  if (document_.is_stale()) return announcement_->say(tr("The text has errors: mend them first, then this can be placed"));
+  if (document_.is_stale())
+    return announcement_->say(tr("The text has errors: mend them first, then this can be placed"));
   const WithRecipe placed = with_recipe(language_, document_.contents(), recipe.toStdString(), at);
   const std::string text = document_.text_of(placed.contents);
   const std::string name = document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString();
   for (const wale::Problem& each : language_.check(text, {.name = name}).problems)
     if (wale::severity_of(each.error.code) == wale::Severity::error)
-      return announcement_->say(tr("This cannot be placed here: %1").arg(QString::fromStdString(wale::in_words(each.error))));
+      return announcement_->say(
+          tr("This cannot be placed here: %1").arg(QString::fromStdString(wale::in_words(each.error))));
   document_.set_text(text, tr("Place a recipe"));
   std::set<std::uint64_t> ids;
   for (const PlacedRef& each : document_.contents().placed)
@@ -91,7 +95,8 @@ void MainWindow::place_picture(const QString& path, glm::dvec2 at) {
 }
 
 void MainWindow::place_picture(const QString& path, glm::dvec2 at, double scale) {
-  const QString file = document_.file().isEmpty() ? path : QDir(QFileInfo(document_.file()).path()).relativeFilePath(path);
+  const QString file =
+      document_.file().isEmpty() ? path : QDir(QFileInfo(document_.file()).path()).relativeFilePath(path);
   QString quoted = file;
   quoted.replace('\\', "\\\\").replace('"', "\\\"");
   Contents next = document_.contents();

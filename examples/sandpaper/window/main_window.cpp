@@ -109,7 +109,8 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
     if (!feeling_.is_on()) return;
     const wale::Now& now = canvas_->now();
     plots_->add(now);
-    if (now.guards.lost > 0 && lost_ == 0) announcement_->say(tr("The device is gone: there is no force until it is back."));
+    if (now.guards.lost > 0 && lost_ == 0)
+      announcement_->say(tr("The device is gone: there is no force until it is back."));
     lost_ = now.guards.lost;
   });
   plotting_.start(16);
@@ -227,7 +228,8 @@ void MainWindow::update_title() {
 
 void MainWindow::update_actions() {
   const bool some = !document_.chosen().empty(), many = document_.chosen().size() > 1;
-  for (const char* name : {"delete", "duplicate", "raise", "lower", "front", "back", "lock", "rename", "rectangle", "ellipse"})
+  for (const char* name :
+       {"delete", "duplicate", "raise", "lower", "front", "back", "lock", "rename", "rectangle", "ellipse"})
     if (QAction* each = action(name)) each->setEnabled(some);
   for (const char* name : {"align_left", "align_right", "align_top", "align_bottom", "align_x", "align_y"})
     if (QAction* each = action(name)) each->setEnabled(many);
@@ -242,9 +244,11 @@ void MainWindow::update_description() {
   QString why = tr("compiling …");
   if (material && !material->program) {
     why.clear();
-    for (const wale::Problem& each : material->problems) why += QString::fromStdString(wale::in_words(each.error)) + "\n";
+    for (const wale::Problem& each : material->problems)
+      why += QString::fromStdString(wale::in_words(each.error)) + "\n";
   }
-  description_->show(QString::fromStdString(placed->patch.name + " = " + placed->compiled_from), feeling_.program(placed->id), why);
+  description_->show(QString::fromStdString(placed->patch.name + " = " + placed->compiled_from),
+                     feeling_.program(placed->id), why);
 }
 
 void MainWindow::touched_changed() {
@@ -253,8 +257,9 @@ void MainWindow::touched_changed() {
   const Placed* placed = touched ? document_.contents().find(*touched) : nullptr;
   palette_->set_touched(placed ? QString::fromStdString(placed->patch.made_of) : QString());
   if (!document_.is_stale() && panels_before_.isEmpty())
-    statusBar()->showMessage(placed ? tr("on %1 = %2").arg(canvas_->label_of(*placed), QString::fromStdString(placed->patch.made_of))
-                                    : QString());
+    statusBar()->showMessage(
+        placed ? tr("on %1 = %2").arg(canvas_->label_of(*placed), QString::fromStdString(placed->patch.made_of))
+               : QString());
 }
 
 void MainWindow::announce(const wale::Error& error) {
@@ -295,9 +300,10 @@ void MainWindow::show_page(const QString& page) {
 void MainWindow::seek_advice() {
   if (document_.is_stale() || document_.contents().placed.empty()) return;
   const std::string text = document_.text();
-  const wale::WorkspaceOptions options{.device = programs_.device(),
-                                       .workspace = document_.contents().name,
-                                       .name = document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString()};
+  const wale::WorkspaceOptions options{
+      .device = programs_.device(),
+      .workspace = document_.contents().name,
+      .name = document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString()};
   advisor_.post(0, "advice", [this, text, options] {
     auto problems = language_.legibility(text, options);
     QMetaObject::invokeMethod(this, [this, text, problems] { document_.set_advice({text, problems}); });

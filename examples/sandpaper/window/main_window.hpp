@@ -42,8 +42,10 @@ class MainWindow : public QMainWindow {
   Presenting& presenting() { return presenting_; }
   Canvas& canvas() { return *canvas_; }
   Exchange& exchange() { return *exchange_; }
-  bool is_busy() const { return work_->is_busy() || programs_.is_busy() || pictures_.is_busy() || description_->is_busy() ||
-                                advising_.isActive() || advisor_.waiting() > 0; }
+  bool is_busy() const {
+    return work_->is_busy() || programs_.is_busy() || pictures_.is_busy() || description_->is_busy() ||
+           advising_.isActive() || advisor_.waiting() > 0;
+  }
   /// The action with that object name; null if there is none.
   QAction* action(const QString& name) const { return findChild<QAction*>(name); }
 
@@ -53,7 +55,8 @@ class MainWindow : public QMainWindow {
 
  private:
   // actions.cpp
-  QAction* add(QMenu* menu, const QString& name, const QString& text, const QKeySequence& key, const std::function<void()>& act);
+  QAction* add(QMenu* menu, const QString& name, const QString& text, const QKeySequence& key,
+               const std::function<void()>& act);
   QAction* add_toggle(QMenu* menu, const QString& name, const QString& text, const QKeySequence& key, bool on,
                       const std::function<void(bool)>& act);
   void make_file_menu();

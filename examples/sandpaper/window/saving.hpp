@@ -6,8 +6,8 @@
 
 namespace sandpaper {
 
-/// Writes a file: a new one beside it first, which then takes its place, so that a full disk leaves what was there. Error:
-/// `unwritable_file`. From any thread.
+/// Writes a file: a new one beside it first, which then takes its place, so that a full disk leaves what was there.
+/// Error: `unwritable_file`. From any thread.
 inline wale::Result<> save_bytes(const QString& path, const QByteArray& bytes) {
   QSaveFile file(path);
   if (file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size() && file.commit()) return {};

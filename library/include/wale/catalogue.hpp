@@ -26,8 +26,8 @@ class Catalogue {
  public:
   virtual ~Catalogue() = default;
 
-  /// Error: `unreadable_file` about the first of `LibraryOptions::folders` that is no folder; the materials of the others
-  /// are there.
+  /// Error: `unreadable_file` about the first of `LibraryOptions::folders` that is no folder; the materials of the
+  /// others are there.
   virtual Result<> folders_exist() const = 0;
 
   /// The materials that contain every word of `words` at the beginning of one of theirs, as `wale find` gives them; all

@@ -76,8 +76,8 @@ struct LaidOutPatch {
   glm::dvec2 at{0};                ///< m from the workspace's centre, of the patch's centre
   bool at_is_written = false;      ///< also where it is the workspace's centre, which needs not be written
   std::optional<glm::dvec2> size;  ///< m, if it is written
-  std::string shape;               ///< as written: "ellipse", "mask(\"river.png\", scale: 0.5 mm/px)"; empty without one
-  Shape outline;                   ///< what that is; `outline.size()` is its own size, of an ellipse that of a circle of 1 m
+  std::string shape;  ///< as written: "ellipse", "mask(\"river.png\", scale: 0.5 mm/px)"; empty without one
+  Shape outline;      ///< what that is; `outline.size()` is its own size, of an ellipse that of a circle of 1 m
   std::optional<double> rim;       ///< m, if it is written
   std::vector<LaidOutMark> marks;
   bool on_one_line = false;  ///< its braces are on the line of its name
@@ -86,7 +86,8 @@ struct LaidOutPatch {
   /// A statement that is kept as it is written, such as `patches from picture(…) { … }` or a patch with an error; then
   /// of the others only `before` counts, and `name` may be empty.
   std::string verbatim;
-  /// It is an area of a picture, laid out by the statement that is kept before it: it is felt, and is not written itself.
+  /// It is an area of a picture, laid out by the statement that is kept before it: it is felt, and is not written
+  /// itself.
   bool is_of_picture = false;
   std::shared_ptr<const WrittenPatch> written = {};  ///< where it was read; null for a new one
 };
@@ -138,8 +139,8 @@ struct ToldMaterial {
 
 /// What an editor of Wale texts needs. The answers are those of the command line.
 ///
-/// All calls are safe from any thread, also at the same time; none is for a real-time thread. They need a stack of 8 MB.
-/// `check`, `words` and `proposals` take some milliseconds for a usual file, `compile` and `tell` up to a second.
+/// All calls are safe from any thread, also at the same time; none is for a real-time thread. They need a stack of 8
+/// MB. `check`, `words` and `proposals` take some milliseconds for a usual file, `compile` and `tell` up to a second.
 class LanguageService {
  public:
   explicit LanguageService(const LibraryOptions& options = {});
@@ -158,8 +159,8 @@ class LanguageService {
   /// Compiles one material of a text, by default the first.
   CompiledText compile(std::string_view text, const CompileOptions& options = {}) const;
 
-  /// What a hand cannot tell on a workspace of the text, and what it does not reach, as `wale check` warns of it; and the
-  /// errors of its materials; `unknown_device`, `unknown_workspace`. Reads every program: up to a second each.
+  /// What a hand cannot tell on a workspace of the text, and what it does not reach, as `wale check` warns of it; and
+  /// the errors of its materials; `unknown_device`, `unknown_workspace`. Reads every program: up to a second each.
   std::vector<Problem> legibility(std::string_view text, const WorkspaceOptions& options = {}) const;
 
   /// Reads what a program feels like. Without a percept that the author asked for, the program's force is read too,
