@@ -9,6 +9,7 @@
 #include <set>
 
 #include "wale/catalogue.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale::language_service_test {
 namespace {
@@ -206,6 +207,43 @@ TEST(LanguageService, WhatHasNotChangedIsWrittenAsItsAuthorWroteIt) {
   rewritten([](Layout& layout) { std::swap(layout.patches[0], layout.patches[1]); }, one_line);
   rewritten([](Layout& layout) { layout.patches.erase(layout.patches.begin()); }, one_line);
   rewritten([](Layout& layout) { layout.patches.push_back({.name = "c", .made_of = "oak"}); }, one_line);
+}
+
+TEST(LanguageService, CompilesAMaterialUnderAnotherName) {
+  const std::string text = "wale 1\nmaterial of_a_window = denim(roughness: 0.3)\n";
+  const CompiledText own = service().compile(text, {.material = "of_a_window"});
+  const CompiledText called = service().compile(text, {.material = "of_a_window"}, "denim");
+  ASSERT_TRUE(own.program && called.program);
+  PatchProgram description = own.program->description();
+  EXPECT_EQ(description.material, "of_a_window");
+  description.material = "denim";
+  EXPECT_EQ(write_patch_program(called.program->description()), write_patch_program(description))
+      << "only its name differs";
+  // Nothing says a name that nobody wrote.
+  const std::string wrong = "wale 1\nmaterial of_a_window { physical { force = vector(20 N, 0 N) } }\n";
+  for (const Problem& each : service().compile(wrong, {.material = "of_a_window"}, "mine").problems)
+    EXPECT_EQ(in_words(each.error).find("of_a_window"), std::string::npos) << in_words(each.error);
+  EXPECT_FALSE(service().compile(text, {.material = "missing"}, "denim").program);
+}
+
+TEST(LanguageService, DrawsWhatPreviewDraws) {
+  const CompiledText compiled = service().compile("wale 1\nmaterial m = corduroy\n");
+  ASSERT_TRUE(compiled.program);
+  const Program& program = *compiled.program;
+  const auto svg = service().preview(program, program.default_parameters(), program.default_size(), "a.svg");
+  ASSERT_TRUE(svg) << in_words(svg.error());
+  const std::string text(reinterpret_cast<const char*>(svg->data()), svg->size());
+  EXPECT_NE(text.find("<svg"), std::string::npos);
+  EXPECT_EQ(service().preview(program, program.default_parameters(), program.default_size(), "a.xyz").error().code,
+            Code::malformed_value);
+  const auto parts = service().preview_parts(program, program.default_parameters(), program.default_size());
+  ASSERT_TRUE(parts) << in_words(parts.error());
+  EXPECT_EQ(parts->front().name, "surface");
+  EXPECT_EQ(std::ranges::count(*parts, "spectrum", &PreviewPart::name), 1);
+  for (const PreviewPart& each : *parts) {
+    ASSERT_GT(each.png.size(), 8u) << each.name;
+    EXPECT_EQ(each.png[1], std::byte{'P'}) << each.name;
+  }
 }
 
 TEST(LanguageService, TellsWhatAMaterialReadsAs) {

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -137,6 +138,13 @@ struct ToldMaterial {
   std::string text;  ///< what `wale describe` prints, several lines
 };
 
+/// A picture of a material, or a plot of its force.
+struct PreviewPart {
+  std::string name;   ///< "surface" or "field"; "height", "force", "velocity", "hand", "time", "spectrum"; each once
+  std::string title;  ///< "Force along x"; empty for the surface and the field
+  std::vector<std::byte> png;
+};
+
 /// What an editor of Wale texts needs. The answers are those of the command line.
 ///
 /// All calls are safe from any thread, also at the same time; none is for a real-time thread. They need a stack of 8
@@ -156,8 +164,9 @@ class LanguageService {
   /// first, and have its name as `error.place.name`.
   CheckedText check(std::string_view text, const CompileOptions& options = {}) const;
 
-  /// Compiles one material of a text, by default the first.
-  CompiledText compile(std::string_view text, const CompileOptions& options = {}) const;
+  /// Compiles one material of a text, by default the first. `called`: how the program and the problems call it, as for
+  /// a text with a material that only its caller knows; empty: by its name.
+  CompiledText compile(std::string_view text, const CompileOptions& options = {}, const std::string& called = {}) const;
 
   /// What a hand cannot tell on a workspace of the text, and what it does not reach, as `wale check` warns of it; and
   /// the errors of its materials; `unknown_device`, `unknown_workspace`. Reads every program: up to a second each.
@@ -166,6 +175,17 @@ class LanguageService {
   /// Reads what a program feels like. Without a percept that the author asked for, the program's force is read too,
   /// which takes longer. Error: `unknown_device` if nothing declares the program's device.
   Result<ToldMaterial> tell(const Program& program) const;
+
+  /// The page that `wale preview` draws of a program with these parameters (SI, in the order of its description) in a
+  /// patch of this size: relief or field, profile, force, and the spectrum of the force on a stroking hand. The bytes
+  /// of a picture in the format that the extension of `name` says: png, svg and others. Takes up to some seconds.
+  /// Errors: `unknown_device`; `missing_library` without the drawing library; `malformed_value` for another extension.
+  Result<std::vector<std::byte>> preview(const Program& program, std::span<const float> parameters, PatchSize size,
+                                         const std::string& name) const;
+  /// What such a page is made of, for a window with a layout of its own: the surface or the field in 320 x 320 pixels,
+  /// and then the plots in 560 x 280. Errors: `unknown_device`, `missing_library`.
+  Result<std::vector<PreviewPart>> preview_parts(const Program& program, std::span<const float> parameters,
+                                                 PatchSize size) const;
 
   /// The text in the standard style. Error: the first one in the text.
   Result<std::string> format(std::string_view text) const;
