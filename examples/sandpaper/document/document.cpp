@@ -58,6 +58,7 @@ Document::Document(const wale::LanguageService& language, QObject* parent)
 QString Document::title() const { return file_.isEmpty() ? tr("untitled") : QFileInfo(file_).fileName(); }
 
 void Document::make_new() {
+  emit unloading();
   file_.clear();
   workspaces_.clear();
   problems_.clear();
@@ -127,6 +128,7 @@ wale::Result<> Document::open(const QString& path, const QString& workspace) {
                        .place = {.name = path.toStdString()}};
   const std::string text = file.readAll().toStdString();
   if (file.error() != QFile::NoError) return unreadable(file);
+  emit unloading();
   file_ = QFileInfo(path).absoluteFilePath();
   load(text, workspace);
   emit loaded();
@@ -148,6 +150,7 @@ void Document::load(const std::string& text, const QString& workspace) {
 }
 
 void Document::restore(const QString& file, const std::string& text) {
+  emit unloading();
   file_ = file;
   load(text, {});
   saved_draft_.reset();

@@ -89,7 +89,8 @@ class Document : public QObject {
   void contents_changed();
   void chosen_changed();
   void file_changed();
-  void loaded();  ///< another file, or none, with a text of its own
+  void unloading();  ///< another file, or none, is about to take the place of this one
+  void loaded();     ///< it has
   void problems_changed();
   void refused(const QString& why);
 

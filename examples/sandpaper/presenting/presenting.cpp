@@ -7,6 +7,35 @@
 #include <utility>
 
 namespace sandpaper {
+namespace {
+
+constexpr std::size_t numbers_in_a_line = 5000;  // far from the longest line of a log
+constexpr std::size_t longest_shape = 1000;      // bytes; of a longer one the file tells the rest
+
+/// At most so many bytes of a text, without half a letter at its end.
+std::string beginning_of(const std::string& text, std::size_t most) {
+  std::size_t length = std::min(most, text.size());
+  while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
+  return text.substr(0, length);
+}
+
+/// The patches as the log tells where they lie.
+std::vector<wale::SessionPlace> places_of(const Contents& contents) {
+  std::vector<wale::SessionPlace> places;
+  for (const PlacedRef& each : contents.placed) {
+    if (!each->is_laid_out()) continue;
+    const wale::LaidOutPatch& patch = each->patch;
+    places.push_back({.name = patch.name,
+                      .at = patch.at,
+                      .size = patch.size,
+                      .shape = beginning_of(patch.shape, longest_shape),
+                      .rim = patch.rim,
+                      .layer = static_cast<std::uint32_t>(places.size() + 1)});
+  }
+  return places;
+}
+
+}  // namespace
 
 Presenting::Presenting(const wale::Library& library, Document& document, Numbers& numbers, Feeling& feeling,
                        QObject* parent)
@@ -30,7 +59,7 @@ Presenting::Presenting(const wale::Library& library, Document& document, Numbers
     session_.log(
         wale::SessionNote{"device " + feeling_.profile().name + " (" + feeling_.spelling().toStdString() + ")"});
   });
-  connect(&document_, &Document::loaded, this, [this] {
+  connect(&document_, &Document::unloading, this, [this] {
     end("another file was opened");
     movie_.clear(), order_.clear();
     frame_ = -1;
@@ -54,7 +83,13 @@ void Presenting::follow_contents() {
     session_.log(wale::SessionShown{"frame", shown_, "", 0});
   }
   log_numbers();
+  lay_out();
   log_programs();
+}
+
+void Presenting::lay_out() {
+  if (!session_.runs()) return;
+  session_.lay_out("patches", shown_, [contents = document_.contents()] { return places_of(contents); });
 }
 
 Contents Presenting::felt() const {
@@ -88,6 +123,7 @@ void Presenting::begin_session(const QString& participant, std::uint32_t seed) {
   shown_ = document_.contents().name;
   numbers_.renew(session_.next_seed());
   if (!session_.log(wale::SessionShown{"frame", shown_, "", 0}) || !log_numbers()) return;
+  lay_out();
   if (feeling_.is_on()) session_.log(wale::SessionNote{"force on"});
   log_programs();
   if (session_.trouble().isEmpty())
@@ -95,14 +131,21 @@ void Presenting::begin_session(const QString& participant, std::uint32_t seed) {
 }
 
 bool Presenting::log_numbers() {
-  if (!session_.runs() || numbered_.contains(shown_)) return true;
+  if (!session_.runs()) return true;
+  std::set<std::string>& known = numbered_[shown_];
   wale::SessionOrder order{.what = "numbers", .of = shown_, .seed = numbers_.seed()};
-  for (const PlacedRef& each : document_.contents().placed)
-    if (each->is_laid_out())
-      order.items.push_back({each->patch.name, numbers_.of(*each).toStdString(), each->patch.at});
-  if (!session_.log(order)) return false;
-  numbered_.insert(shown_);
-  return true;
+  const auto log_order = [&] {
+    if (order.items.empty()) return true;
+    if (!session_.log(order)) return false;
+    for (const wale::SessionItem& each : std::exchange(order.items, {})) known.insert(each.name);
+    return true;
+  };
+  for (const PlacedRef& each : document_.contents().placed) {
+    if (!each->is_laid_out() || known.contains(each->patch.name)) continue;
+    order.items.push_back({each->patch.name, numbers_.of(*each).toStdString(), each->patch.at});
+    if (order.items.size() == numbers_in_a_line && !log_order()) return false;
+  }
+  return log_order();
 }
 
 void Presenting::log_programs() {

@@ -75,6 +75,7 @@ bool Sorting::start(const wale::MiniKeys& declared, const Contents& contents, st
   for (const SortingKey& each : keys) order.items.push_back({each.name, each.label.toStdString(), each.at});
   if (!session_.log(order)) return false;
   keys_ = std::move(keys);
+  lay_out();
   emit changed();
   return true;
 }
@@ -83,6 +84,14 @@ void Sorting::stop() {
   keys_.clear(), says_.clear(), steps_.clear();
   chosen_.reset();
   emit changed();
+}
+
+void Sorting::lay_out() {
+  session_.lay_out("keys", declared_.name, [keys = keys_] {
+    std::vector<wale::SessionPlace> places;
+    for (const SortingKey& each : keys) places.push_back({.name = each.name, .at = each.at});
+    return places;
+  });
 }
 
 std::vector<int> Sorting::piles() const {
@@ -124,6 +133,7 @@ void Sorting::move(std::size_t key, glm::dvec2 to) {
   if (key >= keys_.size()) return;
   const glm::dvec2 most = 0.5 * (table_ - side());
   keys_[key].at = {std::clamp(to.x, -most.x, most.x), std::clamp(to.y, -most.y, most.y)};
+  lay_out();
   emit changed();
 }
 
@@ -201,6 +211,7 @@ void Sorting::put(std::size_t key, int pile) {
     tidy(pile);
   }
   if (before != 0) tidy(before);
+  lay_out();
   emit changed();
 }
 
@@ -213,6 +224,7 @@ void Sorting::put_on(std::size_t key, std::size_t other) {
   keys_[key].pile = keys_[other].pile = pile;
   tidy(pile);
   if (before != 0) tidy(before);
+  lay_out();
   emit changed();
 }
 
@@ -228,6 +240,7 @@ void Sorting::join(int pile, int into) {
     if (each.pile == pile) each.pile = into, each.at = where;
   std::ranges::find(keys_, into, &SortingKey::pile)->at = where;
   tidy(into);
+  lay_out();
   emit changed();
 }
 
@@ -245,6 +258,7 @@ void Sorting::take_back() {
   if (!last.answers.empty() && !session_.log(wale::SessionTakenBack{last.answers})) return;
   keys_ = std::move(last.keys), says_ = std::move(last.says);
   steps_.pop_back();
+  lay_out();
   emit changed();
 }
 
