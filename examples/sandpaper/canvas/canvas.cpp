@@ -23,20 +23,6 @@ constexpr int small = 12;              // pixels: smaller patches are drawn plai
 constexpr int largest_mask = 2048;     // pixels
 constexpr double arrow_per_newton = 0.01;  // m
 
-/// The place inside a shape that is farthest from its edge, roughly; m from its centre.
-glm::dvec2 inner_place(const wale::Shape& outline, glm::dvec2 size) {
-  constexpr int places = 16;
-  const wale::Shape shape = outline.stretched(glm::vec2(size));
-  glm::dvec2 best{0};
-  float farthest = -1;
-  for (int i = 0; i < places * places; ++i) {
-    const glm::dvec2 at = size * glm::dvec2((i % places + 0.5) / places - 0.5, (i / places + 0.5) / places - 0.5);
-    const float distance = shape.edge(glm::vec2(at)).metres;
-    if (distance > farthest) farthest = distance, best = at;
-  }
-  return best;
-}
-
 }  // namespace
 
 Canvas::Canvas(Document& document, Feeling& feeling, Pictures& pictures, const Numbers& numbers, QWidget* parent)

@@ -222,11 +222,12 @@ void Canvas::dropEvent(QDropEvent* event) {
   } else if (event->mimeData()->hasFormat(of_recipes)) {
     emit recipe_dropped(QString::fromUtf8(event->mimeData()->data(of_recipes)), at);
   } else {
-    for (const QUrl& each : event->mimeData()->urls()) {
-      const QString file = each.toLocalFile();
-      if (file.endsWith(".wale") || file.endsWith(".wws")) emit file_dropped(file);
-      else if (!file.isEmpty()) emit picture_dropped(file, at);
-    }
+    QStringList workspaces, others;
+    for (const QUrl& each : event->mimeData()->urls())
+      if (const QString file = each.toLocalFile(); !file.isEmpty())
+        (file.endsWith(".wale") || file.endsWith(".wws") ? workspaces : others) << file;
+    if (!workspaces.isEmpty()) emit file_dropped(workspaces.front());
+    else if (!others.isEmpty()) emit others_dropped(others, at);
   }
   event->acceptProposedAction();
 }

@@ -111,4 +111,17 @@ QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::ve
   return image;
 }
 
+glm::dvec2 inner_place(const wale::Shape& outline, glm::dvec2 size) {
+  constexpr int places = 16;
+  const wale::Shape shape = outline.stretched(glm::vec2(size));
+  glm::dvec2 best{0};
+  float farthest = -1;
+  for (int i = 0; i < places * places; ++i) {
+    const glm::dvec2 at = size * glm::dvec2((i % places + 0.5) / places - 0.5, (i / places + 0.5) / places - 0.5);
+    const float distance = shape.edge(glm::vec2(at)).metres;
+    if (distance > farthest) farthest = distance, best = at;
+  }
+  return best;
+}
+
 }  // namespace sandpaper

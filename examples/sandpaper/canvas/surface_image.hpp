@@ -28,4 +28,8 @@ QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::ve
 /// `denim`.
 QColor colour_of(const std::string& made_of);
 
+/// The place inside a shape of that size (m) that is farthest from its edge, roughly, where a name is written; m from
+/// its centre.
+glm::dvec2 inner_place(const wale::Shape& outline, glm::dvec2 size);
+
 }  // namespace sandpaper

@@ -2,10 +2,11 @@
 
 #include <QFile>
 #include <QFileInfo>
-#include <QSaveFile>
 #include <QUndoCommand>
 #include <algorithm>
 #include <utility>
+
+#include "document/saving.hpp"
 
 namespace sandpaper {
 
@@ -161,12 +162,7 @@ void Document::restore(const QString& file, const std::string& text) {
 }
 
 wale::Result<> Document::save(const QString& path) {
-  QSaveFile file(path);
-  const QByteArray bytes = QByteArray::fromStdString(text());
-  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !file.commit())
-    return wale::Error{.code = wale::Code::unwritable_file,
-                       .sentence = file.errorString().toStdString(),
-                       .place = {.name = path.toStdString()}};
+  if (const auto saved = save_bytes(path, QByteArray::fromStdString(text())); !saved) return saved;
   file_ = QFileInfo(path).absoluteFilePath();
   undo_.setClean();
   saved_draft_ = draft_;

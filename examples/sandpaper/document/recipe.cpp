@@ -12,8 +12,8 @@ namespace {
 
 constexpr double usual_side = 0.05;  // m, of a patch whose recipe gives no size
 
-/// A text in which words that name a material have other names: behind `material` and `like`, and on the line behind the
-/// `=` of a material, a patch or a colour. A function or an argument of that name stays.
+/// A text in which words that name a material have other names: behind `material` and `like`, and on the line behind
+/// the `=` of a material, a patch or a colour. A function or an argument of that name stays.
 std::string renamed(const std::string& text, const std::map<std::string, std::string>& names) {
   const auto words = wale::coloured_words(text);
   const auto word = [&](std::size_t i) {

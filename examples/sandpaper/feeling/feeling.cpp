@@ -95,6 +95,7 @@ void Feeling::set_on(bool on) {
   if (on) {
     if (const auto begun = stage_->start(); !begun) {
       emit said(tr("Nothing can be felt: %1").arg(words_of(begun.error())));
+      if (is_recording()) end_recording(words_of(begun.error()));  // the next time one feels without it
       return;
     }
   } else if (const auto ended = stage_->stop(); !ended) {
@@ -102,12 +103,14 @@ void Feeling::set_on(bool on) {
     emit said(problem);
   }
   on_ = on;
-  if (!on && is_recording()) {
-    const QString file = std::exchange(record_, {});
-    renew_stage();  // a stage that records has one run
-    emit recorded(file, problem);
-  }
+  if (!on && is_recording()) end_recording(problem);
   emit on_changed();
+}
+
+void Feeling::end_recording(const QString& problem) {
+  const QString file = std::exchange(record_, {});
+  renew_stage();  // a stage that records has one run
+  emit recorded(file, problem);
 }
 
 void Feeling::record(const QString& file) {

@@ -92,6 +92,7 @@ class Feeling : public QObject {
   };
   void take(QString spelling, wale::Result<std::unique_ptr<wale::Device>> device, std::uint64_t attempt);
   void renew_stage();
+  void end_recording(const QString& problem);
   void place(Felt& felt);
   void update(Felt& felt, const PlacedRef& placed, std::size_t layer);
   void follow_programs();

@@ -12,8 +12,8 @@
 
 namespace sandpaper {
 
-/// The sliders of the chosen patch, or else of the touched one: percepts first, then parameters. In the window's
-/// thread.
+/// The sliders of the chosen patch, or else of the touched one: percepts first, then parameters, then weights. In the
+/// window's thread.
 class SliderPanel : public QWidget {
   Q_OBJECT
 
@@ -36,6 +36,7 @@ class SliderPanel : public QWidget {
   void moved(const SliderRow& row, float value, bool is_final);
   void reset(const SliderRow& row);
   void mark(const SliderRow& row, std::optional<bool> high);
+  void say(const SliderRow& row, const QString& says);
 
   Document& document_;
   Feeling& feeling_;

@@ -1,4 +1,5 @@
 // The menus: every command, with its key.
+#include <QAccessible>
 #include <QActionGroup>
 #include <QApplication>
 #include <QDesktopServices>
@@ -7,12 +8,18 @@
 #include <QMenuBar>
 #include <QProcess>
 #include <QSettings>
+#include <QStatusBar>
 #include <QUrl>
 
 #include "document/arranging.hpp"
 #include "window/main_window.hpp"
 
 namespace sandpaper {
+namespace {
+
+constexpr int said_milliseconds = 10000;
+
+}  // namespace
 
 QAction* MainWindow::add(QMenu* menu, const QString& name, const QString& text, const QKeySequence& key,
                          const std::function<void()>& act) {
@@ -224,8 +231,10 @@ void MainWindow::make_view_menu() {
 
 void MainWindow::make_feel_menu() {
   QMenu* menu = menuBar()->addMenu(tr("F&eel"));
-  add_toggle(menu, "feel", tr("&Feel it"), tr("Ctrl+Space"), false, [this](bool on) { feeling_.set_on(on); })
-      ->setShortcutContext(Qt::WindowShortcut);
+  add_toggle(menu, "feel", tr("&Feel it"), tr("Ctrl+Space"), false, [this](bool on) {
+    feeling_.set_on(on);
+    update_safety();  // a run that could not begin has changed nothing, but the mark of this command
+  })->setShortcutContext(Qt::WindowShortcut);
   add(menu, "no_force", tr("&Take all force away (Space)"), {}, [this] { feeling_.set_on(false); });
   add_toggle(menu, "feel_when_opened", tr("Feel this file as soon as it is &opened"), {}, false, [this](bool on) {
     QSettings settings;
@@ -249,7 +258,9 @@ void MainWindow::make_feel_menu() {
                           : placed                     ? told.told_of(*placed)
                                                        : tr("nothing is touched");
     announcement_->say(words);
-    QProcess::startDetached("spd-say", {words});  // if there is a speech dispatcher
+    if (!QProcess::startDetached("spd-say", {words}) && !QAccessible::isActive())
+      statusBar()->showMessage(tr("Nothing speaks here: install speech-dispatcher, or use a screen reader"),
+                               said_milliseconds);
   });
   add(menu, "devices", tr("Look for &devices again"), tr("F5"), [this] {
     device_->clear();

@@ -1,6 +1,7 @@
 // What leaves the window in other formats, and the commands of the File menu.
 #include <QBuffer>
 #include <QDateTime>
+#include <QDir>
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -8,6 +9,7 @@
 #include <QPrinterInfo>
 #include <QRandomGenerator>
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -17,7 +19,7 @@
 #include <wale/recording.hpp>
 
 #include "window/exchange.hpp"
-#include "window/saving.hpp"
+#include "document/saving.hpp"
 
 namespace sandpaper {
 namespace {
@@ -26,6 +28,21 @@ constexpr double most_cells = 65535;
 
 QString told(const wale::Result<>& saved, const QString& file) {
   return saved ? Exchange::tr("Exported %1").arg(file) : QString::fromStdString(wale::in_words(saved.error()));
+}
+
+/// What somebody has felt is not thrown away because it could not become the file that was asked for: it is kept beside
+/// it as a recording under a name that is free. Says so. From any thread.
+QString kept_recording(const QString& part, const QString& file) {
+  if (!wale::Recording::open(part.toStdString())) {
+    QFile::remove(part);
+    return Exchange::tr("Nothing was recorded");
+  }
+  const QFileInfo wanted(file);
+  const QString base = wanted.dir().filePath(wanted.completeBaseName());
+  QString kept = base + ".wrec";
+  for (int number = 2; QFileInfo::exists(kept); ++number) kept = QString("%1-%2.wrec").arg(base).arg(number);
+  if (!QFile::rename(part, kept)) kept = part;
+  return Exchange::tr("What was felt is kept in %1").arg(kept);
 }
 
 QByteArray bytes_in(const std::vector<std::byte>& bytes) {
@@ -93,6 +110,8 @@ void Exchange::add_to(QMenu& menu, QWidget& window) {
     });
   };
   add_export("export_picture", tr("A &picture …"), ".png", tr("Pictures (*.png)"), &Exchange::export_picture);
+  add_export("export_preview", tr("A pre&view of the patch …"), ".png", tr("Pictures (*.png *.svg)"),
+             &Exchange::export_preview);
   add_export("export_pdf", tr("A P&DF of the workspace …"), ".pdf", tr("PDF (*.pdf)"), &Exchange::export_pdf);
   add_export("export_program", tr("The patch p&rogram …"), ".wpp", tr("Patch programs (*.wpp)"),
              &Exchange::export_program);
@@ -147,6 +166,29 @@ void Exchange::export_picture(const QString& file) {
   if (!canvas_.grab().save(&buffer, "PNG"))
     return emit said(tr("%1 cannot be made: the picture is too large").arg(file));
   emit said(told(save_bytes(file, bytes), file));
+}
+
+Previewed Exchange::previewed(const Placed& placed, const wale::Program& program) const {
+  const glm::dvec2 size = canvas_.size_of(placed);
+  const double rim = placed.patch.rim.value_or(program.default_size().rim);
+  return {program,
+          parameters_of(placed, program),
+          {static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(rim)}};
+}
+
+void Exchange::export_preview(const QString& file) {
+  const auto shown = shown_();
+  const wale::Program* program = shown ? feeling_.program(*shown) : nullptr;
+  const Placed* placed = shown ? document_.contents().find(*shown) : nullptr;
+  if (!program || !placed) return emit said(tr("Choose the patch whose preview is to be exported"));
+  const auto draw = [&language = language_, what = previewed(*placed, *program),
+                     file](const LongWork::Progress& progress) {
+    const auto bytes = language.preview(what.program, what.parameters, what.size, file.toStdString());
+    if (!bytes) return told(bytes.error(), file);
+    return progress(1) ? told(save_bytes(file, bytes_in(*bytes)), file) : QString();
+  };
+  if (!work_.begin(tr("Exporting %1").arg(file), draw))
+    emit said(tr("Other work is under way: wait for it, or cancel it"));
 }
 
 void Exchange::export_program(const QString& file) {
@@ -209,20 +251,26 @@ void Exchange::export_movie(const QString& file, const QString& name) {
   emit said(told(save_bytes(file, QByteArray::fromStdString(*text)), file));
 }
 
-void Exchange::export_shuffle(const QString& file, const QString& name, const QString& other) {
+bool Exchange::export_shuffle(const QString& file, const QString& name, const QString& other) {
   const auto shown = presentation();
-  const auto movie = shown ? frames_of(*shown, name) : std::nullopt,
-             shuffled = shown ? frames_of(*shown, other) : std::nullopt;
-  if (!movie || !shuffled) return;
+  const auto movie = shown ? frames_of(*shown, name) : std::nullopt;
+  const auto shuffled = shown ? frames_of(*shown, other) : std::nullopt;
+  if (!movie || !shuffled) return false;
+  const auto refuse = [this](const wale::Error& error) {
+    emit refused(error);
+    return false;
+  };
   auto shuffle = wale::shuffle_of(*movie, *shuffled);
-  if (!shuffle) return emit refused(shuffle.error());
+  if (!shuffle) return refuse(shuffle.error());
   const QDateTime now = QDateTime::currentDateTime();
   shuffle->movie = name.toStdString();
   shuffle->date = now.toString("yyyy-MM-dd").toStdString();
   shuffle->time = now.toString("HH:mm").toStdString();
   const auto text = wale::write_thesis_shuffle(*shuffle);
-  if (!text) return emit refused(text.error());
-  emit said(told(save_bytes(file, QByteArray::fromStdString(*text)), file));
+  if (!text) return refuse(text.error());
+  const auto saved = save_bytes(file, QByteArray::fromStdString(*text));
+  emit said(told(saved, file));
+  return saved.has_value();
 }
 
 void Exchange::shuffle_movie(const QString& file, const QString& name, std::uint32_t seed) {
@@ -241,7 +289,9 @@ void Exchange::shuffle_movie(const QString& file, const QString& name, std::uint
   for (std::size_t i = 0; i < frames.size(); ++i) text += (i ? ", " : "") + frames[i];
   while (next.tail.ends_with("\n")) next.tail.pop_back();
   next.tail += "\n\n" + text + " }\n";
-  if (take(next, tr("Shuffle %1").arg(name))) export_shuffle(file, name, QString::fromStdString(declared));
+  if (!take(next, tr("Shuffle %1").arg(name))) return;
+  // An order that is in no file was not drawn.
+  if (!export_shuffle(file, name, QString::fromStdString(declared))) document_.undo_stack().undo();
 }
 
 WorkspacePage Exchange::page() const {
@@ -272,10 +322,7 @@ void Exchange::print(const QString& name) {
   const bool begun =
       work_.begin(tr("Printing on %1").arg(name), [page = page(), name](const LongWork::Progress& progress) {
         QPrinter printer(QPrinterInfo::printerInfo(name));
-        printer.setPageSize(QPageSize(QPageSize::A4));
-        printer.setFullPage(true);
-        printer.setResolution(300);
-        return draw_pages(printer, page, progress) ? tr("Printed on %1").arg(name) : tr("%1 does not print").arg(name);
+        return print_pages(printer, page, progress) ? tr("Printed on %1").arg(name) : tr("%1 does not print").arg(name);
       });
   if (!begun) emit said(tr("Other work is under way: wait for it, or cancel it"));
 }
@@ -296,32 +343,28 @@ void Exchange::record(const QString& file) {
 void Exchange::keep_recording(const QString& part, const QString& problem) {
   const QString file = std::exchange(recording_, {});
   if (file.isEmpty()) return;
-  if (!problem.isEmpty()) {
-    QFile::remove(part);
-    return emit said(tr("%1 is not written: %2").arg(file, problem));
-  }
+  if (!problem.isEmpty())
+    return emit said(tr("%1 is not whole: %2. %3").arg(file, problem, kept_recording(part, file)));
   if (!file.endsWith(".wav")) {
     if (std::rename(QFile::encodeName(part).constData(), QFile::encodeName(file).constData()) == 0)
       return emit said(tr("Recorded %1").arg(file));
-    QFile::remove(part);
-    return emit said(tr("%1 cannot be written").arg(file));
+    const int error = errno;
+    return emit said(tr("%1 cannot be written: %2. %3").arg(file, qt_error_string(error), kept_recording(part, file)));
   }
   const bool begun = work_.begin(tr("Writing %1").arg(file), [part, file](const LongWork::Progress& progress) {
-    const auto words = [&]() -> QString {
+    const auto saved = [&]() -> wale::Result<> {
       const auto recording = wale::Recording::open(part.toStdString());
-      if (!recording) return QString::fromStdString(wale::in_words(recording.error()));
+      if (!recording) return recording.error();
       std::ostringstream out;
-      if (const auto sound = wale::write_wav(out, *recording); !sound)
-        return QString::fromStdString(wale::in_words(sound.error()));
-      return progress(0.9) ? told(save_bytes(file, QByteArray::fromStdString(out.str())), file) : QString();
+      if (const auto sound = wale::write_wav(out, *recording); !sound) return sound.error();
+      return progress(0.9) ? save_bytes(file, QByteArray::fromStdString(out.str())) : wale::Result<>();
     }();
+    if (!saved) return told(saved, file) + ". " + kept_recording(part, file);
     QFile::remove(part);
-    return words;
+    return told(saved, file);
   });
-  if (!begun) {
-    QFile::remove(part);
-    emit said(tr("Other work was under way, so %1 is not written").arg(file));
-  }
+  if (!begun)
+    emit said(tr("Other work was under way, so %1 is not written. %2").arg(file, kept_recording(part, file)));
 }
 
 }  // namespace sandpaper

@@ -6,7 +6,7 @@
 
 #include "document/recipe.hpp"
 #include "window/exchange.hpp"
-#include "window/saving.hpp"
+#include "document/saving.hpp"
 
 namespace sandpaper {
 namespace {

@@ -75,6 +75,7 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   connect(&document_, &Document::contents_changed, this, [this] {
     feeling_.follow(presenting_.felt());
     update_actions();
+    update_preview();
     advising_.start(before_advice);
   });
   advising_.setSingleShot(true);
@@ -82,6 +83,9 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   connect(&document_, &Document::file_changed, this, &MainWindow::update_title);
   connect(&document_, &Document::chosen_changed, this, &MainWindow::update_actions);
   connect(&document_, &Document::refused, announcement_, &Announcement::say);
+  autosave_.set_typed([this] { return editor_->typed(); });
+  connect(editor_, &TextEditor::typing, &autosave_, &Autosave::changed);
+  connect(&autosave_, &Autosave::failed, announcement_, &Announcement::say);
   connect(&document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::update_title);
   connect(&feeling_, &Feeling::said, announcement_, &Announcement::say);
   connect(&feeling_, &Feeling::on_changed, this, &MainWindow::update_safety);
@@ -93,7 +97,7 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   });
   connect(canvas_, &Canvas::material_dropped, this, &MainWindow::place_material);
   connect(canvas_, &Canvas::recipe_dropped, this, &MainWindow::place_recipe);
-  connect(canvas_, &Canvas::picture_dropped, this, qOverload<const QString&, glm::dvec2>(&MainWindow::place_picture));
+  connect(canvas_, &Canvas::others_dropped, this, &MainWindow::take_dropped);
   connect(canvas_, &Canvas::file_dropped, this, [this](const QString& file) {
     when_saved(tr("open another file"), [this, file] { open(file); });
   });
@@ -157,6 +161,8 @@ void MainWindow::make_panels() {
   session_panel_ = new SessionPanel(presenting_.session());
   auto* plots = dock("plots", tr("Run"), plots_, Qt::BottomDockWidgetArea);
   tabifyDockWidget(text, plots);
+  preview_ = new PreviewPanel(language_);
+  tabifyDockWidget(plots, dock("preview", tr("Preview"), preview_, Qt::BottomDockWidgetArea));
   dock("session", tr("Session"), session_panel_, Qt::RightDockWidgetArea)->hide();
   text->raise();
   resizeDocks({findChild<QDockWidget*>("dock_palette"), sliders}, {230, 330}, Qt::Horizontal);
@@ -237,6 +243,7 @@ void MainWindow::update_actions() {
 }
 
 void MainWindow::update_description() {
+  update_preview();
   const auto shown = sliders_->shown();
   const Placed* placed = shown ? document_.contents().find(*shown) : nullptr;
   if (!placed) return description_->show(tr("Choose or touch a patch."), nullptr);
@@ -249,6 +256,15 @@ void MainWindow::update_description() {
   }
   description_->show(QString::fromStdString(placed->patch.name + " = " + placed->compiled_from),
                      feeling_.program(placed->id), why);
+}
+
+void MainWindow::update_preview() {
+  const auto shown = sliders_->shown();
+  const Placed* placed = shown ? document_.contents().find(*shown) : nullptr;
+  const wale::Program* program = placed ? feeling_.program(placed->id) : nullptr;
+  if (!program) return preview_->show({}, std::nullopt);
+  preview_->show(QString::fromStdString(placed->patch.name + " = " + placed->patch.made_of),
+                 exchange_->previewed(*placed, *program));
 }
 
 void MainWindow::touched_changed() {
@@ -276,11 +292,16 @@ void MainWindow::offer_left_behind() {
   announcement_->offer(tr("A window was closed by force. Its work on %1 from %2 was kept.")
                            .arg(name, left->time.toString(Qt::ISODate)),
                        tr("Restore it"), [this, left = *left] {
-                         document_.restore(left.file, left.text.toStdString());
-                         autosave_.save_now();
-                         Autosave::forget(left);
-                         announcement_->say(tr("Restored what was not saved, from %1. It is not saved yet.")
-                                                .arg(left.time.toString(Qt::ISODate)));
+                         editor_->commit();
+                         when_saved(tr("restore what was kept"), [this, left] {
+                           if (!QFile::exists(left.kept_in))  // another window was faster
+                             return announcement_->say(tr("It was restored already."));
+                           document_.restore(left.file, left.text.toStdString());
+                           autosave_.save_now();
+                           Autosave::forget(left);
+                           announcement_->say(tr("Restored what was not saved, from %1. It is not saved yet.")
+                                                  .arg(left.time.toString(Qt::ISODate)));
+                         });
                        });
 }
 
