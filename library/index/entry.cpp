@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 #include "compiler/describe/describe_extracted.hpp"
@@ -10,12 +9,10 @@
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/resolver.hpp"
 #include "library/index/content_hash.hpp"
-#include "library/licence/licence.hpp"
+#include "library/licence/passing_on.hpp"
 
 namespace wale {
 namespace {
-
-namespace fs = std::filesystem;
 
 EntryPercept entry_percept(const DescribedPercept& told) {
   EntryPercept percept{.name = told.name,
@@ -59,17 +56,6 @@ void add_lost(std::vector<EntryPercept>& percepts, const PatchProgram& program) 
   }
   std::ranges::move(percepts, std::back_inserter(ordered));
   percepts = std::move(ordered);
-}
-
-/// The licence that the library of a file states: of the nearest folder above with a `wale.project`; empty if there is
-/// none.
-Result<std::string> licence_around(const std::string& file) {
-  std::error_code ignored;
-  for (fs::path folder = fs::absolute(file, ignored).parent_path(); !folder.empty(); folder = folder.parent_path()) {
-    if (fs::exists(folder / project_marker, ignored)) return licence_of_library(folder.string());
-    if (folder == folder.parent_path()) break;
-  }
-  return std::string();
 }
 
 std::string first_part(const std::string& dotted) { return dotted.substr(0, dotted.find('.')); }
@@ -178,12 +164,12 @@ Result<FileEntries> read_entries(const FileRequest& request, const std::string& 
   LibraryIndex index;
   index.add(module, request.file, parse(read.opened.sources, read.opened.source, again));
   // What is in this binary is in the public domain (library/LICENSE).
-  const auto licence = read.opened.is_on_disk ? licence_around(request.file) : Result<std::string>("CC0-1.0");
+  const std::string licence = read.opened.is_on_disk ? licence_over(request.file) : "CC0-1.0";
   for (const IndexedMaterial& material : index.materials()) {
     if (!read.opened.material.empty() && material.name != read.opened.material) continue;
     Entry& entry = read.entries.emplace_back(entry_of(material));
     entry.device = request.device;
-    if (entry.licence.empty() && licence) entry.licence = *licence;
+    if (entry.licence.empty()) entry.licence = licence;
     if (!read.opened.diagnostics.has_errors()) {
       compile_entry(entry, read, watched, feel);
       continue;
