@@ -169,7 +169,10 @@ Result<Measured> measure_simulated(const CalibrateDeviceOptions& options, const 
   auto fitted = fit_readings(measured.forces.readings, declared.profile.force_newton);
   if (!fitted) return std::move(fitted.error());
   measured.calibration = *std::move(fitted);
-  if (auto shaken = measure_handle(bench, declared, most, measured.calibration); !shaken) return shaken.error();
+  // No gauge holds the simulated handle, so the pushes have left it at the edge: it is put back into the middle.
+  PlantedDevice centred(declared.profile, declared.wiring, options.seed.value_or(1));
+  Bench shaking(centred, {1, 1}, true, stop);
+  if (auto shaken = measure_handle(shaking, declared, most, measured.calibration); !shaken) return shaken.error();
   return measured;
 }
 
@@ -239,7 +242,8 @@ Result<Measured> measure_plugged(const CalibrateDeviceOptions& options, DeviceTo
   if (!fitted) return std::move(fitted.error());
   measured.calibration = *std::move(fitted);
   print_error(
-      "\ntake the gauge and your hand off: the handle is shaken for twenty seconds. Enter goes on, n leaves it out: ");
+      "\nput the handle into the middle, and take the gauge and your hand off: it is shaken for twenty seconds. Enter "
+      "goes on, n leaves it out: ");
   std::string answer;
   if (!std::getline(typed, answer) || answer == "n") return measured;
   if (auto shaken = measure_handle(bench, device.declared, options.max_force.value_or(HUGE_VAL), measured.calibration);
