@@ -133,6 +133,18 @@ struct Measured {
   ForceReadings forces;
 };
 
+/// How far the forces of a shaking may all be off, as a standard error over their mean size: what the noise of the
+/// readings leaves open in the responses of both ways. Mass, damping and friction are off by as much.
+double error_of_forces(const DeviceCalibration& calibration, std::size_t axis, const std::vector<HandleTick>& ticks) {
+  constexpr double parameters = 6;  // of a response
+  double squares = 0, sizes = 0;
+  for (const std::size_t way : {2 * axis, 2 * axis + 1})
+    if (const auto& fit = calibration.ways[way])
+      squares += fit->deviation * fit->deviation * parameters / static_cast<double>(fit->readings);
+  for (const HandleTick& tick : ticks) sizes += std::abs(tick.force) / static_cast<double>(ticks.size());
+  return sizes > 0 ? std::sqrt(squares) / 2 / sizes : 0;
+}
+
 /// Shakes the handle along both axes, by the responses that were just fitted.
 Result<> measure_handle(Bench& bench, const DeclaredDevice& declared, double most, DeviceCalibration& into) {
   const auto noise = bench.rest(rest_seconds);
@@ -144,11 +156,15 @@ Result<> measure_handle(Bench& bench, const DeclaredDevice& declared, double mos
         bench.shake(static_cast<int>(axis), std::min(most, share_to_shake * bench.profile().force_newton),
                     so_far.wiring.response_of(axis, bench.profile().force_newton));
     if (!ticks) return ticks.error();
-    const auto fit = fit_handle(*ticks, 1 / bench.profile().rate);
-    if (fit)
-      into.handle[axis] = *fit;
-    else
+    auto fit = fit_handle(*ticks, 1 / bench.profile().rate);
+    if (!fit) {
       into.handle_problem[axis] = fit.error().sentence + "; " + fit.error().mend;
+      continue;
+    }
+    const double relative = error_of_forces(into, axis, *ticks);
+    for (auto* figure : {&fit->mass, &fit->damping, &fit->friction})
+      figure->error = std::hypot(figure->error, relative * figure->value);
+    into.handle[axis] = *fit;
   }
   into.smallest_steps = bench.smallest_steps();
   return {};
@@ -169,7 +185,10 @@ Result<Measured> measure_simulated(const CalibrateDeviceOptions& options, const 
   auto fitted = fit_readings(measured.forces.readings, declared.profile.force_newton);
   if (!fitted) return std::move(fitted.error());
   measured.calibration = *std::move(fitted);
-  if (auto shaken = measure_handle(bench, declared, most, measured.calibration); !shaken) return shaken.error();
+  // No gauge holds the simulated handle, so the pushes have left it at the edge: it is put back into the middle.
+  PlantedDevice centred(declared.profile, declared.wiring, options.seed.value_or(1));
+  Bench shaking(centred, {1, 1}, true, stop);
+  if (auto shaken = measure_handle(shaking, declared, most, measured.calibration); !shaken) return shaken.error();
   return measured;
 }
 
@@ -239,7 +258,8 @@ Result<Measured> measure_plugged(const CalibrateDeviceOptions& options, DeviceTo
   if (!fitted) return std::move(fitted.error());
   measured.calibration = *std::move(fitted);
   print_error(
-      "\ntake the gauge and your hand off: the handle is shaken for twenty seconds. Enter goes on, n leaves it out: ");
+      "\nput the handle into the middle, and take the gauge and your hand off: it is shaken for twenty seconds. Enter "
+      "goes on, n leaves it out: ");
   std::string answer;
   if (!std::getline(typed, answer) || answer == "n") return measured;
   if (auto shaken = measure_handle(bench, device.declared, options.max_force.value_or(HUGE_VAL), measured.calibration);
