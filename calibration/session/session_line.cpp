@@ -45,7 +45,9 @@ double finite(double value) {
   return value;
 }
 
-Json in_mm(glm::dvec2 metres) { return {finite(metres.x * metre_in_mm), finite(metres.y * metre_in_mm)}; }
+/// Without the digits behind the nanometre, which come from binary fractions: 2 and not 2.0000000000000018.
+double in_mm(double metres) { return finite(std::round(metres * metre_in_mm * 1e6) / 1e6); }
+Json in_mm(glm::dvec2 metres) { return {in_mm(metres.x), in_mm(metres.y)}; }
 
 // ---- writing
 
@@ -89,7 +91,7 @@ struct Write {
       Json item = {{"name", each.name}, {"at_mm", in_mm(each.at)}};
       if (each.size) item["size_mm"] = in_mm(*each.size);
       if (!each.shape.empty()) item["shape"] = each.shape;
-      if (each.rim) item["rim_mm"] = finite(*each.rim * metre_in_mm);
+      if (each.rim) item["rim_mm"] = in_mm(*each.rim);
       if (each.layer != 0) item["layer"] = each.layer;
       items.push_back(std::move(item));
     }

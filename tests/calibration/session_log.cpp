@@ -109,6 +109,12 @@ TEST(SessionLog, IsAsItsPageSays) {
   EXPECT_EQ(std::get<SessionAnswer>(record->standing_answers()[1]->event), (SessionAnswer{"pile", "mat", "1"}));
 }
 
+TEST(SessionLog, HasLengthsAsAPersonWritesThem) {
+  const auto line = session_line({.event = SessionOrder{"places", "w", 1, {{"a", "", glm::dvec2(0.1 + 0.2, 0.0242)}}}});
+  ASSERT_TRUE(line);
+  EXPECT_NE(line->find("\"at_mm\":[300.0,24.2]"), std::string::npos) << *line;
+}
+
 TEST(SessionLog, IsOnTheDiskBeforeTheCallReturns) {
   const TemporaryFolder folder;
   const std::string path = folder / "one.session";

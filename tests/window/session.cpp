@@ -76,21 +76,25 @@ TEST_F(DrivenWindow, ASliderChangesTheForceAtTheHandle) {
   wait_for_programs();
   trigger("feel");
   ASSERT_TRUE(window->feeling().is_on()) << announced().toStdString();
-  EXPECT_NEAR(rub(-40, 20, 15), 1.0, 0.1);  // of the sine's 1 N
+  // On a busy machine the hand jumps, and the passivity observer may add its damping to one look.
+  const auto pushes = [&](double newton) {
+    return wait_until([&] { return std::abs(rub(-40, 20, 15) - newton) < 0.1 * newton; });
+  };
+  EXPECT_TRUE(pushes(1.0));  // of the sine's 1 N
   ASSERT_TRUE(wait_until([&] { return canvas().touched() == placed("board").id; }));
   // The touched patch's sliders are shown after a quarter of a second.
   ASSERT_TRUE(wait_until([&] { return window->findChild<QDoubleSpinBox*>("number_size"); }));
   window->findChild<QDoubleSpinBox*>("number_size")->setValue(2.5);
   QTest::qWait(100);
-  EXPECT_NEAR(rub(-40, 20, 15), 2.5, 0.25);
+  EXPECT_TRUE(pushes(2.5));
   EXPECT_EQ(placed("board").patch.made_of, "ridges(size: 2.5 N)");
   window->findChild<QSlider*>("slider_size")->setValue(0);
   QTest::qWait(100);
-  EXPECT_LT(rub(-40, 20, 15, 1), 0.2);
+  EXPECT_TRUE(wait_until([&] { return rub(-40, 20, 15, 1) < 0.2; }));
   trigger("undo");
   EXPECT_EQ(placed("board").patch.made_of, "ridges");  // the moves of one slider are one step
   QTest::qWait(100);
-  EXPECT_NEAR(rub(-40, 20, 15), 1.0, 0.1);
+  EXPECT_TRUE(pushes(1.0));
 }
 
 TEST_F(DrivenWindow, TheSpaceBarTakesAllForceAway) {

@@ -222,8 +222,14 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
   }
   if (!program && box.width() > 60 && box.height() > 16) {
     painter.setPen(Qt::black);
-    painter.drawText(box, Qt::AlignCenter | Qt::TextWordWrap,
-                     material ? tr("an error in its material") : tr("compiling …"));
+    QRectF words = box;
+    if (!is_plain)  // below the name, and inside: the middle of a polygon's box can lie on another patch
+      words.moveCenter(to_pixels(placed.patch.at + inner_place(placed.patch.outline, size_of(placed))) +
+                       QPointF(0, 1.2 * fontMetrics().height()));
+    painter.drawText(words, Qt::AlignCenter | Qt::TextWordWrap,
+                     !material               ? tr("compiling …")
+                     : document_.is_stale() ? tr("an error in the text")
+                                            : tr("an error in its material"));
   }
   if (!is_blind || is_chosen) {
     painter.setPen(QPen(is_chosen ? palette().color(QPalette::Highlight) : QColor(0, 0, 0, 110), is_chosen ? 2 : 1));
