@@ -1,4 +1,4 @@
-#include "compiler/read/read.hpp"
+#include "compiler/read/read_again.hpp"
 
 #include <algorithm>
 #include <array>
@@ -125,12 +125,7 @@ double chance_of_line(const Relief& relief, glm::dvec2 half) {
   return 2 * relief.amplitude * std::sqrt(1 - relief.regularity) * std::min(1.0, relief.period / side);
 }
 
-/// How much more the force pushes a hand at first, N.
-struct AtFirst {
-  glm::dvec2 force{0};
-  double uncertain = 0;  ///< so much at most: as it differs from place to place
-  SlowChange slow;       ///< what comes or goes later
-};
+using AtFirst = ReadFirst::AtFirst;
 
 /// What of a push is the same on all sides of the steps: none along an axis along which it turns about.
 glm::dvec2 alike_beside(const std::vector<StaticStep>& steps, glm::dvec2 push, glm::dvec2 half) {
@@ -365,11 +360,19 @@ void tell_held_button(const Bank& bank, ForceReading& found) {
 
 }  // namespace
 
-ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
+ForceReading read(const Bank& bank, const Declarations& declarations, ReadParts wanted) {
+  ReadFirst none;
+  return read_again(bank, declarations, wanted, none);
+}
+
+ForceReading read_again(const Bank& bank, const Declarations&, ReadParts wanted, ReadFirst& first) {
   if (bank.program().description().vibrates()) return {};  // such a program has no force
   ForceReading found;
   const bool remembers = remembers_anything(bank.program().description());
   AtFirst at_first;
+  if (first.moving && wanted.moving) found = *first.moving, at_first = first.at_first;
+  if (first.still && wanted.still) found.still = *first.still;
+  const bool reads_still = wanted.still && !first.still, reads_moving = wanted.moving && !first.moving;
   const auto read_still = [&] { found.still = static_force(bank); };
   const auto read_moving = [&] {
     found.opposing = opposing_force(bank);
@@ -393,16 +396,21 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   };
   const auto part = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (i == 0 && wanted.still) read_still();
-      if (i == 1 && wanted.moving) read_moving();
+      if (i == 0 && reads_still) read_still();
+      if (i == 1 && reads_moving) read_moving();
     }
   };
   // Strokes that run tick by tick take as long as all static measurements together.
   const std::size_t parts = leaves_out_motion(bank.program().description()) ? 1 : 2;
-  if (remembers && wanted.still && wanted.moving)
+  if (remembers && reads_still && reads_moving)
     in_parallel(parts, part);
   else
     part(0, parts);
+  if (reads_still) first.still = found.still;
+  if (reads_moving && parts == 2) {
+    first.moving = found, first.at_first = at_first;
+    first.moving->still = {};
+  }
   if (!wanted.still) {
     tell_held_button(bank, found);
     return found;

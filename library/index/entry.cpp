@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "compiler/compile_to_read.hpp"
 #include "compiler/describe/describe_extracted.hpp"
 #include "compiler/describe/describe_percept.hpp"
 #include "compiler/parse/parse.hpp"
@@ -84,10 +85,31 @@ std::string first_error(const Diagnostics& diagnostics) {
   return "it cannot be built";
 }
 
+Felt felt_again(const Program& program, const Declarations& declarations, ReadFirst& first) {
+  const Bank bank(program);
+  const PatchProgram& built = program.description();
+  Felt felt;
+  Description description{.material = built.material, .device = built.device, .patch = bank.size()};
+  if (built.vibrates()) {
+    description.percepts = recorded_percepts(bank, {}, declarations);
+  } else {
+    const ForceReading reading = read_again(bank, declarations, {}, first);
+    felt.cues = cues_of(bank, reading);
+    description.percepts = recorded_percepts(bank, reading, declarations);
+    describe_extracted(description, bank, reading, declarations);
+  }
+  for (const DescribedPercept& each : description.percepts) felt.percepts.push_back(entry_percept(each));
+  add_lost(felt.percepts, built);
+  return felt;
+}
+
 /// Builds one material and reads it.
 void compile_entry(Entry& entry, FileEntries& read, const FileRequest& request, const Feel& feel) {
   Diagnostics diagnostics;
-  const auto program = compile_opened(read.opened, request, entry.name, diagnostics);
+  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
+  ReadFirst first;
+  const auto program = compile_to_read(*read.opened.module, entry.name, request.device, read.opened.sources,
+                                       read.opened.source, *resolver, diagnostics, first);
   for (const Diagnostic& each : diagnostics.all()) read.opened.diagnostics.report(each);
   if (!program) {
     entry.trouble = first_error(diagnostics);
@@ -96,7 +118,10 @@ void compile_entry(Entry& entry, FileEntries& read, const FileRequest& request, 
   entry.device = program->description().device.name;
   entry.parameters = program->description().parameters;
   entry.program = write_patch_program(program->description());
-  entry.felt = feel(*program, read.opened.module->declarations());
+  // The program differs from the one that was measured in fates alone, so its reading need not begin anew.
+  const auto* own = feel.target<Felt (*)(const Program&, const Declarations&)>();
+  const Declarations& declarations = read.opened.module->declarations();
+  entry.felt = own && *own == felt_of ? felt_again(*program, declarations, first) : feel(*program, declarations);
 }
 
 }  // namespace
@@ -109,21 +134,8 @@ const EntryPercept* Felt::percept(const std::string& name) const {
 }
 
 Felt felt_of(const Program& program, const Declarations& declarations) {
-  const Bank bank(program);
-  const PatchProgram& built = program.description();
-  Felt felt;
-  Description description{.material = built.material, .device = built.device, .patch = bank.size()};
-  if (built.vibrates()) {
-    description.percepts = recorded_percepts(bank, {}, declarations);
-  } else {
-    const ForceReading reading = read(bank, declarations);
-    felt.cues = cues_of(bank, reading);
-    description.percepts = recorded_percepts(bank, reading, declarations);
-    describe_extracted(description, bank, reading, declarations);
-  }
-  for (const DescribedPercept& each : description.percepts) felt.percepts.push_back(entry_percept(each));
-  add_lost(felt.percepts, built);
-  return felt;
+  ReadFirst first;
+  return felt_again(program, declarations, first);
 }
 
 Entry entry_of(const IndexedMaterial& material) {
