@@ -61,7 +61,10 @@ class Arguments:
         """A WaleText. Paths may hold bytes that are no UTF-8. TypeError for what is no text; `name` is its argument's."""
         if not isinstance(text, (str, bytes, os.PathLike)):
             raise TypeError(f"{name}: expected a text, found {text!r}")
-        data = os.fsencode(text) if not isinstance(text, str) else text.encode("utf-8", "surrogateescape")
+        try:
+            data = os.fsencode(text) if not isinstance(text, str) else text.encode("utf-8", "surrogateescape")
+        except UnicodeEncodeError as why:
+            raise ValueError(f"{name}: expected a text, found half a character, {text!r}") from why
         buffer = ffi.from_buffer(data)
         made = ffi.new("WaleText*", (buffer, len(data)))
         self._kept += [data, buffer, made]
@@ -117,14 +120,20 @@ def number(value: Any, name: str) -> float:
         raise ValueError(f"{name}: expected a smaller number, found {value!r}") from why
 
 
-def whole(value: Any, name: str) -> int:
-    """A whole number, or a yes or no, that is an argument. TypeError for anything else."""
+def whole(value: Any, name: str, bits: int = 0) -> int:
+    """A whole number, or a yes or no, that is an argument. TypeError for anything else.
+
+    With `bits` ValueError for one that a signed number of so many bits cannot hold.
+    """
     if isinstance(value, np.bool_):
         return int(value)
     try:
-        return operator.index(value)
+        number = operator.index(value)
     except TypeError as why:
         raise TypeError(f"{name}: expected a whole number, found {value!r}") from why
+    if bits and not -(2 ** (bits - 1)) <= number < 2 ** (bits - 1):
+        raise ValueError(f"{name}: expected a number of {bits} bits, found {value!r}")
+    return number
 
 
 def two(values: Any, name: str, of: str) -> tuple[Any, Any]:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wale._abi import Handle, bytes_of, call, described, ffi, lib, made, read, sized
+from wale.device import Profile, profile_of
 from wale.errors import Error
 
 
@@ -100,6 +101,13 @@ class Program(Handle):
 
         held = self._pointer
         return [one(i) for i in range(self._counts[1])]
+
+    @property
+    def profile(self) -> Profile:
+        """The figures of the device that it is built for, also of one that only its text declares."""
+        of, held = sized("WaleProfile"), self._pointer  # whose texts are read
+        call(lib.wale_program_profile, held, of)
+        return profile_of(of)
 
     @property
     def warnings(self) -> Sequence[Error]:

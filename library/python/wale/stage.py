@@ -55,8 +55,13 @@ class Patch(Handle):
 
     @property
     def id(self) -> int:
-        """What `Now` and `Contact` call it; never 0."""
+        """What `Now`, `Contact` and `Run.ticks` call it; never 0."""
         return int(lib.wale_patch_id(self._pointer))
+
+    @property
+    def number(self) -> int:
+        """What `Recording.ticks` call it. A later patch may get the number of a removed one."""
+        return int(lib.wale_patch_number(self._pointer))
 
     @property
     def exists(self) -> bool:
@@ -82,7 +87,7 @@ class Patch(Handle):
 
     def enable(self, enabled: bool = True) -> None:
         """A patch that is not enabled is not felt, and keeps its memory."""
-        call(lib.wale_patch_enable, self._pointer, whole(enabled, "enabled"))
+        call(lib.wale_patch_enable, self._pointer, whole(enabled, "enabled", 32))
 
     def bring(self, layer: float = 0.0) -> None:
         """Puts it in front of all patches of a layer."""
@@ -122,7 +127,7 @@ class Edit(Handle):
         call(lib.wale_edit_replace, self._pointer, held(patch, Patch, "patch"), held(program, Program, "program"))
 
     def enable(self, patch: Patch, enabled: bool = True) -> None:
-        call(lib.wale_edit_enable, self._pointer, held(patch, Patch, "patch"), whole(enabled, "enabled"))
+        call(lib.wale_edit_enable, self._pointer, held(patch, Patch, "patch"), whole(enabled, "enabled", 32))
 
     def bring(self, patch: Patch, layer: float = 0.0) -> None:
         call(lib.wale_edit_bring, self._pointer, held(patch, Patch, "patch"), number(layer, "layer"))
