@@ -73,6 +73,8 @@ int32_t wale_patch_exists(const WalePatch* patch) { return patch != nullptr && p
 
 uint64_t wale_patch_id(const WalePatch* patch) { return patch == nullptr ? 0 : patch->patch.id(); }
 
+uint32_t wale_patch_number(const WalePatch* patch) { return patch == nullptr ? 0xffffffffu : patch->patch.number(); }
+
 void wale_patch_free(WalePatch* patch) { free_handle(patch); }
 
 WaleCode wale_stage_edit(WaleStage* stage, WaleEdit** edit, WaleError** error) {

@@ -87,7 +87,9 @@ WaleCode wale_run_ticks(const WaleRun* run, size_t first, size_t count, size_t e
                       .interaction = vector_of(tick.interaction),
                       .lateness = tick.lateness,
                       .skipped = tick.skipped,
-                      .inside = tick.inside};
+                      .inside = tick.inside,
+                      .patch = tick.patch,
+                      .change = tick.change};
     });
   });
 }

@@ -48,7 +48,8 @@ Result<StageOptions> read_stage_options(const WaleStageOptions* options) {
 Result<PatchOptions> read_options(const WalePatchOptions* options) {
   const auto given = read_sized("options", options);
   if (!given) return given.error();
-  if (!std::isfinite(given->rim)) return about_argument("rim", "expected a finite number", "0 is no rim");
+  if (!(given->rim >= 0 && std::isfinite(given->rim)))
+    return about_argument("rim", "expected a finite number that is not negative", "0 is no rim");
   PatchOptions read{.at = {given->x, given->y}, .layer = given->layer};
   if (given->width != 0 || given->height != 0) read.size = PatchSize{given->width, given->height, given->rim};
   if (given->shape != nullptr) read.shape = given->shape->shape;
