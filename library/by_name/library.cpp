@@ -204,9 +204,11 @@ Result<Compiled> Library::find(const std::string& name, const CompileOptions& op
     if (error.place.name.empty()) error.place.name = "name";
     for (const std::string ending : {".wale", ".wpp"}) {
       if (error.code != Code::unknown_name || !name.ends_with(ending)) continue;
-      error.mend = "`find` takes the name of a material; `open` reads the file of a path";
       const std::string stem = name.substr(0, name.size() - ending.size());
-      if (find_named_material(stem, parts_->roots)) error.nearest = {stem};
+      error.mend = "`open` reads the file of a path, and `find` takes the name of a material";
+      if (!find_named_material(stem, parts_->roots)) continue;
+      error.mend += ", as in `" + stem + "`";
+      error.nearest = {stem};
     }
     return error;
   }
