@@ -248,10 +248,9 @@ void draw_field_and_scale(Canvas& canvas, const PageBox& picture, const Bank& ba
     write_caption(canvas, picture, fmt::format("force over {}, means; a full arrow is {}", of_velocity ? "velocity" : "position",
                                       shown_quantity(strongest, force_notation(strongest))));
   } else {
-    // A hand elsewhere, or one that moves or stays, may feel one all the same.
-    write_caption(canvas, picture, of_velocity ? "no force " + moving_place_name(exhibit)
-                                   : exhibit.resists_motion ? std::string("no force on a hand at rest")
-                                                            : std::string("no force anywhere"));
+    // One that speeds up, stays or is elsewhere may feel one all the same.
+    write_caption(canvas, picture,
+                  of_velocity ? "no force " + moving_place_name(exhibit) : std::string("no force on a hand at rest"));
   }
 }
 
