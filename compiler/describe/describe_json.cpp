@@ -221,6 +221,7 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
                                    {"unit", each.unit}};
   if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
     json["constant_push_newton"] = {figure(push.x), figure(push.y)};
+  if (description.rest) json["spring_rest_m"] = {figure(description.rest->x), figure(description.rest->y)};
   if (description.sway.amplitude > 0)
     json["sway"] = {{"amplitude_newton", figure(description.sway.amplitude)},
                     {"frequency_hz", figure(description.sway.frequency)}};

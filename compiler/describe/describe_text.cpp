@@ -85,7 +85,7 @@ std::vector<std::string> reading_lines(const DescribedPercept& percept, const De
     lines.push_back(readable("{}`{}` renders it as {}", description.shaking ? "" : "the author wrote no physics: ",
                              description.device.name, percept.realisation));
   if (!percept.alone && !percept.extracted)
-    lines.push_back(readable("{}, so a run cannot read it back", percept.changed       ? "a factor changes its force"
+    lines.push_back(readable("{}, so a run cannot read it back", percept.changed       ? "a limit, a factor or a condition changes its force"
                                                                  : description.shaking ? "other percepts shake it too"
                                                                                        : "other forces push too"));
   return lines;
@@ -331,9 +331,13 @@ std::string other_forces(const Description& description) {
   if (description.swirl != 0)
     text += readable("  a swirl of {:.3g} N/m, which turns a resting hand {}\n", std::abs(description.swirl),
                      description.swirl > 0 ? "counterclockwise" : "clockwise");
+  if (description.rest)
+    text += readable("  its spring pulls to {:.3g} mm, {:.3g} mm from the middle\n", 1e3 * description.rest->x,
+                     1e3 * description.rest->y);
   if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
     text +=
-        readable("  a constant push of {:.3g} N towards {}\n", std::hypot(push.x, push.y),
+        readable("  a {} of {:.3g} N towards {}\n",
+                 description.rest ? "push in the middle" : "constant push", std::hypot(push.x, push.y),
                  in_degrees(readable("{:.0f}", std::round(std::atan2(push.y, push.x) * 180 / std::numbers::pi) + 0.0)));
   if (description.sway.amplitude > 0)
     text += readable("  a sway of {:.3g} N at {:.3g} Hz, which no percept tells\n", description.sway.amplitude,

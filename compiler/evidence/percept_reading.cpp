@@ -190,8 +190,8 @@ std::string cause_of_difference(const PerceptRecord& record, const PerceptReadin
   if (record.extractor == Extractor::vibration && found.sway.amplitude >= least_force &&
       found.vibration.amplitude < least_force)
     return readable("it goes slower than {:.0f} Hz, which is a sway and no vibration", slowest_vibration);
-  if (record.alone) return "the device or the shape of the force changes it";
   if (!record.basis.summand) return "its force is changed after it was solved";
+  if (record.alone) return "the device or the shape of the force changes it";
   return reading.size < reading.aimed ? "another force takes from it" : "another force adds to it";
 }
 
