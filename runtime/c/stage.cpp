@@ -61,8 +61,11 @@ Result<const Program*> read_program(const WaleProgram* program) {
   return &program->program;
 }
 
-void hand_out_patch(Patch patch, WalePatch** to) {
-  if (to != nullptr) hand_out(std::make_unique<WalePatch>(WalePatch{std::move(patch)}), to);
+Result<> is_stage_here(const WaleStage* stage) {
+  if (auto given = is_stage(stage); !given) return given;
+  if (stage->home.is_here()) return {};
+  return about_argument("stage", "it is the parent process's, and this is a child of its fork",
+                        "make a stage and a device of the child's own", Code::wrong_moment);
 }
 
 }  // namespace wale::c
@@ -116,9 +119,11 @@ WaleCode wale_stage_add(WaleStage* stage, const WaleProgram* program, const Wale
     if (!known) return known.error();
     const auto read = read_options(options);
     if (!read) return read.error();
+    HandleToBe<WalePatch> handle(patch);
     auto added = stage->stage.add(**known, *read);
     if (!added) return std::move(added).error();
-    hand_out_patch(*std::move(added), patch);
+    if (handle) handle->patch = *std::move(added);
+    handle.give();
     return {};
   });
 }
@@ -138,9 +143,10 @@ WaleCode wale_stage_run(WaleStage* stage, const WaleRunOptions* options, WaleRun
     if (given->kept_seconds != 0) read.kept_seconds = given->kept_seconds;
     read.stop = &stage->interrupted;
     stage->interrupted = false;
+    HandleToBe<WaleRun> handle(run);
     auto done = stage->stage.run(read);  // `stage` may be gone now
     if (!done) return std::move(done).error();
-    hand_out_run(*std::move(done), run);
+    give_run(*std::move(done), handle);
     return {};
   });
 }
@@ -160,9 +166,10 @@ WaleCode wale_stage_stop(WaleStage* stage, WaleRun** run, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (run != nullptr) *run = nullptr;
     if (auto given = is_stage(stage); !given) return given;
+    HandleToBe<WaleRun> handle(run);
     auto done = stage->stage.stop();
     if (!done) return std::move(done).error();
-    hand_out_run(*std::move(done), run);
+    give_run(*std::move(done), handle);
     return {};
   });
 }
@@ -188,7 +195,7 @@ WaleCode wale_stage_now(const WaleStage* stage, WaleNow* now) {
 
 WaleCode wale_stage_on_contact(WaleStage* stage, WaleReceiveContact receive, void* user, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
-    if (auto given = is_stage(stage); !given) return given;
+    if (auto given = is_stage_here(stage); !given) return given;
     if (receive == nullptr) {
       stage->stage.on_contact({});
       return {};
@@ -210,7 +217,7 @@ WaleCode wale_stage_on_contact(WaleStage* stage, WaleReceiveContact receive, voi
 WaleCode wale_stage_poll(WaleStage* stage, size_t* dropped, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (dropped != nullptr) *dropped = 0;
-    if (auto given = is_stage(stage); !given) return given;
+    if (auto given = is_stage_here(stage); !given) return given;
     const std::size_t lost = stage->stage.poll();
     if (dropped != nullptr) *dropped = lost;
     return {};

@@ -1,6 +1,7 @@
 #include "runtime/device/hot_plugged_device.hpp"
 
 #include <algorithm>
+#include <new>
 
 #include "runtime/device/driver.hpp"
 #include "schema/without_place.hpp"
@@ -115,29 +116,40 @@ bool HotPluggedDevice::rest() {
   return !ends_;
 }
 
-/// Runs on the other thread.
-void HotPluggedDevice::attend() {
+/// Runs on the other thread. Without memory it says less, and tries again later.
+void HotPluggedDevice::attend() noexcept {
+  const auto say = [this](const auto& what) noexcept {
+    const std::lock_guard lock(mutex_);
+    try {
+      what();
+    } catch (const std::bad_alloc&) {
+    }
+  };
   while (rest()) {
     std::unique_ptr<PluggedDevice> lost(retired_.exchange(nullptr, std::memory_order_acquire));
     if (!lost) continue;
-    {
-      const std::lock_guard lock(mutex_);
+    say([&] {
       report_.reason = lost->reason();
       report_.manner = lost->manner();
       add(report_.tally, lost->tally());
-    }
+    });
     lost.reset();
     do {
-      OpenedDevice opened = reopen_();
-      {
-        const std::lock_guard lock(mutex_);
-        report_.refusal = opened ? "" : in_words_without_place(opened.error());
-      }
+      OpenedDevice opened = opened_again();
+      say([&] { report_.refusal = opened ? "" : in_words_without_place(opened.error()); });
       if (!opened) continue;
       returns_.fetch_add(1, std::memory_order_relaxed);
       offered_.store(opened->release(), std::memory_order_release);
       break;
     } while (rest());
+  }
+}
+
+OpenedDevice HotPluggedDevice::opened_again() const noexcept {
+  try {
+    return reopen_();
+  } catch (const std::bad_alloc&) {
+    return Error{.code = Code::short_of_resources};
   }
 }
 

@@ -54,7 +54,8 @@ class HotPluggedDevice final : public Device {
   HotPlugReport report() const;
 
  private:
-  void attend();
+  void attend() noexcept;
+  OpenedDevice opened_again() const noexcept;
   /// Waits for the next look; false: the device is being destroyed.
   bool rest();
   static void add(std::vector<std::pair<std::string, long>>& sum,
