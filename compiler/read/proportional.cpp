@@ -95,6 +95,8 @@ ForceReading times_as_strong(ForceReading found, double times) {
     each.range *= times;
   }
   for (Wall& each : still.obstacles.walls) each.stiffness *= times, each.preload *= times;
+  if (still.obstacles.hill)
+    for (double& each : still.obstacles.hill->push) each *= times;
   for (std::vector<StaticStep>* steps : {&still.obstacles.steps, &found.steps})
     for (StaticStep& each : *steps) each.change *= times;
   Relief& relief = still.relief;

@@ -207,6 +207,8 @@ double outward_push(const Bank& bank, const ForceReading& found) {
   double power = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     forces[i] -= found.still.trend.at(places[i]);
+    for (const Feature& each : found.still.features)
+      if (each.monotone) forces[i] -= each.at(places[i]);
     middle += glm::dot(forces[i], forces[i]) * places[i], power += glm::dot(forces[i], forces[i]);
   }
   if (!(power > 0)) return 0;

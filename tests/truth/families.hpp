@@ -23,6 +23,7 @@ std::vector<Family> memory_families();
 std::vector<Family> mixture_families();
 std::vector<Family> axis_families();
 std::vector<Family> obstacle_families();
+std::vector<Family> place_families();
 
 /// All of them.
 std::vector<Family> families();

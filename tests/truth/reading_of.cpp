@@ -54,7 +54,10 @@ Reading reading_of(const Program& program) {
   for (const CueKind kind :
        {CueKind::stiffness_axis, CueKind::viscosity_axis, CueKind::friction_axis, CueKind::mass_axis})
     if (cues[kind]) reading[Cue::axis] = cues[kind];
-  if (found.wall) reading[Cue::face] = glm::dot(found.wall->place, found.wall->inward);
+  if (found.wall) {
+    reading[Cue::face] = glm::dot(found.wall->place, found.wall->inward);
+    reading[Cue::wall_jump] = found.wall->preload, reading[Cue::wall_push] = found.wall_push;
+  }
   const auto tell_wall = [&](const WallFace& wall) {
     if (wall.radius > 0)
       reading.walls.push_back({wall.stiffness, wall.radius, 0, wall.fills ? -1 : 1, wall.centre.x, wall.centre.y});

@@ -87,10 +87,19 @@ const std::map<std::string, Floor>& floors() {
       {"box", {8, 192}},
       {"round wall", {8, 192}},
       {"wall beside slow waves", {8, 192}},
-      {"step beside", {7, 198}},
+      {"step beside", {8, 200}},
       {"few steps", {8, 200}},
       {"staircase", {8, 184}},
       {"resistance at a limit", {8, 183}},
+      {"hill beside a trend", {8, 176}},
+      {"hill beside a wall", {8, 184}},
+      {"hill beside a step", {7, 181}},
+      {"jumping wall on texture", {8, 200}},
+      {"two jumping walls", {8, 200}},
+      {"nested walls", {8, 200}},
+      {"half spring", {0, 138}},
+      {"soft step", {6, 191}},
+      {"limited wall", {8, 200}},
   };
   return table;
 }

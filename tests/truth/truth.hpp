@@ -34,8 +34,11 @@ enum class Cue {
   axis,              ///< rad in [0, pi)
   wall_damping,      ///< N s/m: what a wall adds to the drag outside of it
   face,              ///< m from the patch's centre: where a wall begins
+  // Judged in the classes of which they are known.
+  wall_jump,  ///< N: with which a wall begins
+  wall_push,  ///< N: with which it pushes at most
 };
-inline constexpr std::size_t cue_count = 23;
+inline constexpr std::size_t cue_count = 25;
 
 struct CueRule {
   Cue cue;
@@ -84,8 +87,10 @@ struct StepTruth {
 };
 bool alike(const StepTruth& a, const StepTruth& b);
 
-/// All that is known of a program. Without a word a cue is none.
+/// All that is known of a program. Without a word a cue is none, and a wall's jump and push are not judged.
 struct Truth {
+  Truth() { (*this)[Cue::wall_jump] = (*this)[Cue::wall_push] = open; }
+
   std::array<Expected, cue_count> cues;
   /// All walls and steps; not judged if nothing.
   std::optional<std::vector<WallTruth>> walls;
