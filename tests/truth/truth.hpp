@@ -34,8 +34,14 @@ enum class Cue {
   axis,              ///< rad in [0, pi)
   wall_damping,      ///< N s/m: what a wall adds to the drag outside of it
   face,              ///< m from the patch's centre: where a wall begins
+  other_vibration,       ///< N: amplitude of what vibrates beside the strongest
+  other_vibration_rate,  ///< Hz: of the second strongest
+  other_sway,            ///< N: likewise below 10 Hz
+  other_sway_rate,       ///< Hz
+  one_way_mass,          ///< kg: by how much a mass is more on one way than on the other
+  uneven_mass,           ///< kg: by how much it is more in a part of the patch
 };
-inline constexpr std::size_t cue_count = 23;
+inline constexpr std::size_t cue_count = 29;
 
 struct CueRule {
   Cue cue;
