@@ -114,6 +114,8 @@ struct Description {
   };
   std::vector<Directed> directed;
   Swing sway;                        ///< slower than 10 Hz, which no percept tells; of amplitude 0 if there is none
+  std::vector<SwingPart> vibration_parts;       ///< of a vibration that is the sum of several
+  Mass mass;                                    ///< what of it differs with the way, and from place to place
   std::optional<SwingCourse> vibration_course;  ///< of a vibration that dies away or grows
   Swing noise;                       ///< what changes with time without a rate; of amplitude 0 if nothing does
   OpposingForce motion;              ///< what resists a moving hand

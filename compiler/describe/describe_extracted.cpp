@@ -168,6 +168,8 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
   if (found.sway.amplitude >= least_force) description.sway = found.sway;
   if (found.vibration.noise && found.vibration.amplitude >= least_force) description.noise = found.vibration;
   if (found.vibration.amplitude >= least_force) description.vibration_course = found.vibration.course;
+  if (found.vibration.amplitude >= least_force) description.vibration_parts = found.vibration.parts;
+  description.mass = found.inertia;
   description.motion = found.opposing;
   description.held = held_figures(found);
   description.uneven = found.sway.least ? found.sway : found.vibration;

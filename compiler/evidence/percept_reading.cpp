@@ -155,6 +155,8 @@ PerceptReading percept_reading(const Bank& bank, std::size_t index, const ForceR
   // Nor has a drag a level that no one friction or viscosity tells.
   const bool drags = record.extractor == Extractor::damping || record.extractor == Extractor::opposing_force;
   told.unknown |= told.readable && told.size == 0 && told.aimed > 0 && drags && found.opposing.by_no_figure();
+  told.unknown |= told.readable && told.size == 0 && told.aimed > 0 && record.extractor == Extractor::inertia &&
+                  !found.inertia.is_one();
   if (told.unknown) told.level = told.magnitude = std::numeric_limits<double>::quiet_NaN();
   return told;
 }

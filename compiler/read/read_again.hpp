@@ -14,6 +14,8 @@ struct ReadFirst {
     glm::dvec2 force{0};
     double uncertain = 0;  ///< so much at most: as it differs from place to place
     SlowChange slow;       ///< what comes or goes later
+    /// N: where the swing differs from place to place, the means over time at some places; otherwise none.
+    std::vector<glm::dvec2> means{};
   };
 
   std::optional<StaticForce> still;    ///< of hands at rest; nothing if it was not measured
