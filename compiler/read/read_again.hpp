@@ -1,6 +1,8 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <optional>
+#include <vector>
 
 #include "compiler/read/read.hpp"
 #include "compiler/read/slow_change.hpp"

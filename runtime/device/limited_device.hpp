@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "runtime/stage/user_limit.hpp"
+#include "runtime/device/user_limit.hpp"
 #include "wale/device.hpp"
 
 namespace wale {

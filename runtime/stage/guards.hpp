@@ -6,7 +6,7 @@
 #include "runtime/stage/energy_meter.hpp"
 #include "runtime/stage/motor_heat.hpp"
 #include "runtime/stage/passivity_observer.hpp"
-#include "runtime/stage/user_limit.hpp"
+#include "runtime/device/user_limit.hpp"
 #include "wale/device_profile.hpp"
 #include "wale/run.hpp"
 

@@ -1,5 +1,5 @@
 // The largest force that a user allows is never exceeded by what a device exerts, whatever its steps are.
-#include "runtime/stage/user_limit.hpp"
+#include "runtime/device/user_limit.hpp"
 
 #include <gtest/gtest.h>
 

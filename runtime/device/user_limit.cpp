@@ -1,4 +1,4 @@
-#include "runtime/stage/user_limit.hpp"
+#include "runtime/device/user_limit.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
