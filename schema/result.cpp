@@ -8,9 +8,10 @@
 namespace wale {
 
 std::string in_words_without_place(const Error& error) {
-  std::string words = visible_lines(error.mend.empty() ? error.sentence : error.sentence + "; " + error.mend);
-  std::ranges::replace(words, '\n', ' ');  // some mends have lines to copy
-  return words;
+  std::string words = visible_lines(error.sentence);
+  std::ranges::replace(words, '\n', ' ');
+  // Some mends have lines to copy, such as rules for a file.
+  return error.mend.empty() ? words : words + "; " + visible_lines(error.mend);
 }
 
 std::string in_words(const Error& error) {

@@ -384,9 +384,9 @@ std::string felt_json(const FeltReport& report) {
           {"level", back->level},     {"magnitude", back->magnitude},         {"delivered", report.levels[i].size},
           {"aimed", report.aimed[i]}, {"let_through", report.let_through[i]}, {"at_least", bool(report.at_least[i])},
           {"unit", report.units[i]}};
-    if (const float shown = report.shown[i]; shown > 0 && report.levels[i].back) entry["on_the_way"] = shown;
     else
       entry = {{"refused", in_words_without_place(report.levels[i].back.error())}};
+    if (const float shown = report.shown[i]; shown > 0 && report.levels[i].back) entry["on_the_way"] = shown;
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
   }
   for (const ReadLevel& each : report.read)

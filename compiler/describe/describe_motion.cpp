@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "compiler/describe/describe_figure.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"

@@ -252,8 +252,9 @@ void look_at(const char* function, const WaleError* wrong, WaleCode code) {
   };
   if (is_plain(told.place) && !holds(told.in_words, told.place)) fail("place in its words");
   if (std::any_of(told.in_words.data, told.in_words.data + told.in_words.length,
-                  [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
-    fail("words in one line that a terminal shows");
+                  [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; }))
+    fail("words that a terminal shows");
+  if (std::strchr(told.in_words.data, '\n') && !std::strchr(told.mend.data, '\n')) fail("words in one line");
   if (told.column >= 0 && (told.column < 1 || told.number < 1)) fail("line and column");
   if (std::string(told.place.data, told.place.length).find(".wale") != std::string::npos && code / 100 < 5 &&
       told.column < 1)
