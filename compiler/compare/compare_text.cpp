@@ -115,9 +115,7 @@ void write_alike(std::string& text, const ComparisonMatrix& matrix) {
                        matrix.materials()[pair.b].material);
   if (alike > most_listed) text += readable("  and {} more; --json has all distances\n", alike - most_listed);
   if (unknown > 0)
-    text += readable("{} unknown: {} in a cue that has no known threshold\n",
-                     unknown == 1 ? "1 pair is" : readable("{} pairs are", unknown),
-                     unknown == 1 ? "it differs" : "they differ");
+    text += readable("{} pairs are unknown: they differ in a cue that has no known threshold\n", unknown);
 }
 
 /// One pair cue by cue, as JSON.

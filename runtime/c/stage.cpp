@@ -48,8 +48,7 @@ Result<StageOptions> read_stage_options(const WaleStageOptions* options) {
 Result<PatchOptions> read_options(const WalePatchOptions* options) {
   const auto given = read_sized("options", options);
   if (!given) return given.error();
-  if (!(given->rim >= 0 && std::isfinite(given->rim)))
-    return about_argument("rim", "expected a finite number that is not negative", "0 is no rim");
+  if (!std::isfinite(given->rim)) return about_argument("rim", "expected a finite number", "0 is no rim");
   PatchOptions read{.at = {given->x, given->y}, .layer = given->layer};
   if (given->width != 0 || given->height != 0) read.size = PatchSize{given->width, given->height, given->rim};
   if (given->shape != nullptr) read.shape = given->shape->shape;
@@ -61,11 +60,8 @@ Result<const Program*> read_program(const WaleProgram* program) {
   return &program->program;
 }
 
-Result<> is_stage_here(const WaleStage* stage) {
-  if (auto given = is_stage(stage); !given) return given;
-  if (stage->home.is_here()) return {};
-  return about_argument("stage", "it is the parent process's, and this is a child of its fork",
-                        "make a stage and a device of the child's own", Code::wrong_moment);
+void hand_out_patch(Patch patch, WalePatch** to) {
+  if (to != nullptr) hand_out(std::make_unique<WalePatch>(WalePatch{std::move(patch)}), to);
 }
 
 }  // namespace wale::c
@@ -119,11 +115,9 @@ WaleCode wale_stage_add(WaleStage* stage, const WaleProgram* program, const Wale
     if (!known) return known.error();
     const auto read = read_options(options);
     if (!read) return read.error();
-    HandleToBe<WalePatch> handle(patch);
     auto added = stage->stage.add(**known, *read);
     if (!added) return std::move(added).error();
-    if (handle) handle->patch = *std::move(added);
-    handle.give();
+    hand_out_patch(*std::move(added), patch);
     return {};
   });
 }
@@ -143,10 +137,9 @@ WaleCode wale_stage_run(WaleStage* stage, const WaleRunOptions* options, WaleRun
     if (given->kept_seconds != 0) read.kept_seconds = given->kept_seconds;
     read.stop = &stage->interrupted;
     stage->interrupted = false;
-    HandleToBe<WaleRun> handle(run);
     auto done = stage->stage.run(read);  // `stage` may be gone now
     if (!done) return std::move(done).error();
-    give_run(*std::move(done), handle);
+    hand_out_run(*std::move(done), run);
     return {};
   });
 }
@@ -166,10 +159,9 @@ WaleCode wale_stage_stop(WaleStage* stage, WaleRun** run, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (run != nullptr) *run = nullptr;
     if (auto given = is_stage(stage); !given) return given;
-    HandleToBe<WaleRun> handle(run);
     auto done = stage->stage.stop();
     if (!done) return std::move(done).error();
-    give_run(*std::move(done), handle);
+    hand_out_run(*std::move(done), run);
     return {};
   });
 }
@@ -195,7 +187,7 @@ WaleCode wale_stage_now(const WaleStage* stage, WaleNow* now) {
 
 WaleCode wale_stage_on_contact(WaleStage* stage, WaleReceiveContact receive, void* user, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
-    if (auto given = is_stage_here(stage); !given) return given;
+    if (auto given = is_stage(stage); !given) return given;
     if (receive == nullptr) {
       stage->stage.on_contact({});
       return {};
@@ -217,7 +209,7 @@ WaleCode wale_stage_on_contact(WaleStage* stage, WaleReceiveContact receive, voi
 WaleCode wale_stage_poll(WaleStage* stage, size_t* dropped, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (dropped != nullptr) *dropped = 0;
-    if (auto given = is_stage_here(stage); !given) return given;
+    if (auto given = is_stage(stage); !given) return given;
     const std::size_t lost = stage->stage.poll();
     if (dropped != nullptr) *dropped = lost;
     return {};

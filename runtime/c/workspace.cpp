@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <deque>
 #include <limits>
 #include <span>
 
@@ -143,15 +142,10 @@ WaleCode wale_stage_add_workspace(WaleStage* stage, const WaleWorkspace* workspa
     if (auto given = is_given("workspace", workspace); !given) return given;
     if (patches != nullptr) std::fill_n(patches, workspace->workspace.patches.size(), nullptr);
     if (auto given = is_stage(stage); !given) return given;
-    std::deque<HandleToBe<WalePatch>> handles;
-    for (std::size_t i = 0; patches != nullptr && i < workspace->workspace.patches.size(); ++i)
-      handles.emplace_back(&patches[i]);
     auto put = wale::put_on(stage->stage, workspace->workspace);
     if (!put) return std::move(put).error();
-    for (std::size_t i = 0; i < handles.size(); ++i) {
-      handles[i]->patch = std::move((*put)[i]);
-      handles[i].give();
-    }
+    if (patches == nullptr) return {};
+    for (std::size_t i = 0; i < put->size(); ++i) hand_out_patch(std::move((*put)[i]), &patches[i]);
     return {};
   });
 }

@@ -33,8 +33,9 @@ Result<Identified> identify_device(Device& device, const IdentifyOptions& option
 }
 
 DeviceWiring rewired(DeviceWiring wiring, const Identified& found) {
-  wiring = wiring.with_motors(*found.motors_settled);
+  if (found.motors_settled->front().axis != wiring.motors.front().axis) std::swap(wiring.gain[0], wiring.gain[1]);
   wiring.axes = *found.axes_settled;
+  wiring.motors = *found.motors_settled;
   return wiring;
 }
 

@@ -28,16 +28,6 @@ PatchSize sensible(PatchSize size, PatchSize fallback, float most) {
   return size;
 }
 
-/// Error: the program's bytes would not load again, since a text is longer than a file holds, or a figure is not one of
-/// a file's. Heights are left out: verification has seen all that a reader checks of them, and they may be large.
-Result<> is_loaded_again(const PatchProgram& program) {
-  PatchProgram without_heights = program;
-  without_heights.tables.clear();
-  Result<PatchProgram> read = read_patch_program(write_patch_program(without_heights));
-  if (!read) return std::move(read).error();
-  return {};
-}
-
 }  // namespace
 
 Result<Program> Program::load(std::span<const std::byte> bytes) {
@@ -53,9 +43,8 @@ Result<Program> Program::load(std::span<const std::byte> bytes) {
 }
 
 Result<Program> Program::load(PatchProgram program) {
-  make_visible(program);  // first, since two names may become one, and a text too long for a file
   if (Result<> verified = verify(program); !verified) return std::move(verified).error();
-  if (Result<> again = is_loaded_again(program); !again) return std::move(again).error();
+  make_visible(program);
   return Program(std::make_shared<const DecodedProgram>(std::move(program)));
 }
 

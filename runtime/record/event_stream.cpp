@@ -38,10 +38,8 @@ Result<> EventStream::append(EventCode kind, std::uint64_t ticks, std::span<cons
 Result<> EventStream::store(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     if (used_ == events_per_chunk) {
-      chunks_.reserve(chunks_.size() + 1);
-      const Result<std::byte*> chunk = file_.grow(ChunkKind::events, made_);
+      const Result<std::byte*> chunk = file_.grow(ChunkKind::events, made_++);
       if (!chunk) return chunk.error();
-      ++made_;
       chunks_.push_back(*chunk);
       used_ = 0;
     }

@@ -8,8 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from wale._abi import ffi, number
 
-_plain = {"float": np.float32, "double": np.float64, "int32_t": np.int32, "uint32_t": np.uint32, "int64_t": np.int64,
-          "uint64_t": np.uint64}
+_plain = {"float": np.float32, "double": np.float64, "int32_t": np.int32, "uint32_t": np.uint32, "int64_t": np.int64}
 
 
 def dtype_of(kind: str) -> np.dtype[np.void]:

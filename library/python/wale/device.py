@@ -166,8 +166,8 @@ class Device(Handle):
 
     @property
     def profile(self) -> Profile:
-        of, held = sized("WaleProfile"), self._pointer  # whose texts are read
-        call(lib.wale_device_profile, held, of)
+        of = sized("WaleProfile")
+        call(lib.wale_device_profile, self._pointer, of)
         return profile_of(of)
 
 
