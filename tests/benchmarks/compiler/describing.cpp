@@ -93,8 +93,8 @@ void Describe(benchmark::State& state, Program (*make)()) {
   state.counters["planes"] = seconds / static_cast<double>(state.iterations()) / (0.5 * planes);
 }
 
-/// Every material of the library once, or of one in `state.range(0)` of its files: how much processor time half of them take at most, all but a twentieth, and the
-/// slowest, ms; and half of those that ask for one percept.
+/// Every material of one in `state.range(0)` of the library's files: how much processor time half of them take at most,
+/// all but a twentieth, and the slowest, ms; and half of those that ask for one percept.
 template <class What>
 void each_of_the_library(benchmark::State& state, What what) {
   command::keep_freed_memory();  // as the command does
