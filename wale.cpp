@@ -16,7 +16,7 @@
 namespace wale::command {
 
 // Each is defined in FOLDER/command/VERB.cpp.
-extern const Verb between_verb, build_verb, calibrate_fit_verb, calibrate_report_verb, check_verb, compare_verb,
+extern const Verb between_verb, build_verb, calibrate_device_verb, calibrate_fit_verb, calibrate_report_verb, check_verb, compare_verb,
     describe_verb, devices_verb, experiment_export_verb, experiment_plan_verb, experiment_run_verb, explain_verb,
     export_verb, feel_verb, find_verb, format_verb, import_verb, levels_verb, library_check_verb, library_compare_verb,
     library_coverage_verb, library_import_verb, library_index_verb, library_serve_verb, library_sheet_verb,
@@ -36,7 +36,7 @@ constexpr const Verb* verbs[] = {
     &library_compare_verb, &library_import_verb, &library_index_verb,   &library_site_verb,
     &library_serve_verb,  &levels_verb,         &feel_verb,             &replay_verb,
     &sample_verb,         &experiment_plan_verb, &experiment_run_verb,  &experiment_export_verb,
-    &calibrate_fit_verb,  &calibrate_report_verb, &preview_verb,        &import_verb,
+    &calibrate_device_verb, &calibrate_fit_verb,  &calibrate_report_verb, &preview_verb,        &import_verb,
     &export_verb,         &sandpaper_verb,      &devices_verb,          &manual_verb};
 
 /// The footer of `wale --help`.

@@ -1,4 +1,4 @@
-#include "compiler/compile.hpp"
+#include "compiler/compile_to_read.hpp"
 
 #include <fmt/format.h>
 
@@ -136,6 +136,7 @@ struct FinishedMaterial {
   SolvedMaterial solved;
   std::optional<Program> program;
   ForceReading found;
+  ReadFirst first;  ///< what that reading has measured
 };
 
 FinishedMaterial finish(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
@@ -148,7 +149,9 @@ FinishedMaterial finish(const CheckedMaterial& material, const CheckedModule& mo
     if (!finished.program || std::ranges::none_of(finished.solved.percepts,
                                                   [](const SolvedPercept& each) { return each.asked.has_value(); }))
       return;
-    finished.found = read(Bank(*finished.program), module.declarations(), parts_for(finished.program->description()));
+    finished.first = {};
+    finished.found = read_again(Bank(*finished.program), module.declarations(),
+                                parts_for(finished.program->description()), finished.first);
   };
   make(first, {});
   BandShares shares;
@@ -291,6 +294,64 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > shown ? fmt::format("{} and {} more", text, names.size() - shown) : text;
 }
 
+/// Compiles a material. With `first`, which gets what was measured of it, without the warnings that take their own
+/// measurements and change nothing of the program.
+std::optional<Program> compiled(const CheckedMaterial& checked, const CheckedModule& module, const std::string& device,
+                                const SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics,
+                                ReadFirst* first) {
+  const CheckedMaterial* material = &checked;
+  diagnostics.renew_budget();
+  diagnostics.allow_text(sources[source].text.size());
+  const std::size_t said = diagnostics.all().size();
+  for (const Span& each : material->scaled_textures)
+    diagnostics.report({.code = Code::scaled_texture,
+                        .span = each,
+                        .message = "the amplitude is solved from the percept, and then changed by a factor",
+                        .help = "leave the factor out and ask for more or less of the percept"});
+  FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics);
+  if (first) *first = std::move(finished.first);
+  const SolvedMaterial& solved = finished.solved;
+  if (!finished.program || solved.device.shaker) return std::move(finished.program);  // the latter has no force
+  const Bank bank(*finished.program);
+  const Measured measured = measure(bank);
+  if (measured.flat || find_level(*material, solved.device)) {
+    report_flat_height(solved, *material, diagnostics);
+    return std::nullopt;
+  }
+  const GradingHand hand = normal_hand(module.declarations());
+  // Whether a value of this material was reported as hardly meant.
+  const auto doubted = [&] {
+    return !material->doubts.empty() || std::any_of(diagnostics.all().begin() + static_cast<std::ptrdiff_t>(said),
+                                                    diagnostics.all().end(), [](const Diagnostic& each) {
+                                                      return each.code == Code::under_resolution ||
+                                                             each.code == Code::beyond_soft_range;
+                                                    });
+  };
+  // An argument that was hardly meant, and is reported, may be why a force is strange; it is said once.
+  if (material->doubts.empty()) {
+    const auto is_fine = [](const Diagnostic& each) { return each.code == Code::under_resolution; };
+    const bool fine = std::ranges::any_of(diagnostics.all(), is_fine);
+    // A period that was given as one is compared with device and patch already.
+    const bool far = !doubted() && warn_of_cycles(*material, solved.device, diagnostics);
+    const bool partly = !far && warn_of_no_number(*material, solved.device, diagnostics);
+    if (!far && !partly && !first) {
+      if (!fine) warn_of_jumps(solved, *material, diagnostics);
+      warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
+      warn_of_no_force(bank, *material, solved, measured, diagnostics);
+      warn_of_driving_away(*material, solved, diagnostics);
+    }
+    if (!fine && !first) warn_of_fast_rates(bank, solved, diagnostics);
+    if (!partly && !first) warn_of_undeclared_energy(bank, *material, solved, hand, diagnostics);
+  }
+  warn_of_a_device_that_gives_less(solved, diagnostics);
+  if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), doubted(), diagnostics)) {
+    PatchProgram confirmed = finished.program->description();
+    confirmed.fates = *std::move(fates);
+    finished.program = *Program::load(std::move(confirmed));  // it differs in fates from a program that was loaded
+  }
+  return *with_fate_of_force(*finished.program, bank, hand);
+}
+
 }  // namespace
 
 SolvedMaterial solve_as_read(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
@@ -348,56 +409,14 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
 std::optional<Program> compile_material(const CheckedMaterial& checked, const CheckedModule& module,
                                         const std::string& device, const SourceSet& sources, SourceId source,
                                         Resolver& resolver, Diagnostics& diagnostics) {
-  const CheckedMaterial* material = &checked;
-  diagnostics.renew_budget();
-  diagnostics.allow_text(sources[source].text.size());
-  const std::size_t said = diagnostics.all().size();
-  for (const Span& each : material->scaled_textures)
-    diagnostics.report({.code = Code::scaled_texture,
-                        .span = each,
-                        .message = "the amplitude is solved from the percept, and then changed by a factor",
-                        .help = "leave the factor out and ask for more or less of the percept"});
-  FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics);
-  const SolvedMaterial& solved = finished.solved;
-  if (!finished.program || solved.device.shaker) return std::move(finished.program);  // the latter has no force
-  const Bank bank(*finished.program);
-  const Measured measured = measure(bank);
-  if (measured.flat || find_level(*material, solved.device)) {
-    report_flat_height(solved, *material, diagnostics);
-    return std::nullopt;
-  }
-  const GradingHand hand = normal_hand(module.declarations());
-  // Whether a value of this material was reported as hardly meant.
-  const auto doubted = [&] {
-    return !material->doubts.empty() || std::any_of(diagnostics.all().begin() + static_cast<std::ptrdiff_t>(said),
-                                                    diagnostics.all().end(), [](const Diagnostic& each) {
-                                                      return each.code == Code::under_resolution ||
-                                                             each.code == Code::beyond_soft_range;
-                                                    });
-  };
-  // An argument that was hardly meant, and is reported, may be why a force is strange; it is said once.
-  if (material->doubts.empty()) {
-    const auto is_fine = [](const Diagnostic& each) { return each.code == Code::under_resolution; };
-    const bool fine = std::ranges::any_of(diagnostics.all(), is_fine);
-    // A period that was given as one is compared with device and patch already.
-    const bool far = !doubted() && warn_of_cycles(*material, solved.device, diagnostics);
-    const bool partly = !far && warn_of_no_number(*material, solved.device, diagnostics);
-    if (!far && !partly) {
-      if (!fine) warn_of_jumps(solved, *material, diagnostics);
-      warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
-      warn_of_no_force(bank, *material, solved, measured, diagnostics);
-      warn_of_driving_away(*material, solved, diagnostics);
-    }
-    if (!fine) warn_of_fast_rates(bank, solved, diagnostics);
-    if (!partly) warn_of_undeclared_energy(bank, *material, solved, hand, diagnostics);
-  }
-  warn_of_a_device_that_gives_less(solved, diagnostics);
-  if (auto fates = confirm(bank, finished.found, solved, *material, module.declarations(), doubted(), diagnostics)) {
-    PatchProgram confirmed = finished.program->description();
-    confirmed.fates = *std::move(fates);
-    finished.program = *Program::load(std::move(confirmed));  // it differs in fates from a program that was loaded
-  }
-  return *with_fate_of_force(*finished.program, bank, hand);
+  return compiled(checked, module, device, sources, source, resolver, diagnostics, nullptr);
+}
+
+std::optional<Program> compile_to_read(const CheckedModule& module, const std::string& name, const std::string& device,
+                                       const SourceSet& sources, SourceId source, Resolver& resolver,
+                                       Diagnostics& diagnostics, ReadFirst& first) {
+  const CheckedMaterial* material = chosen_material(module, name, sources, source, diagnostics);
+  return material ? compiled(*material, module, device, sources, source, resolver, diagnostics, &first) : std::nullopt;
 }
 
 std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material,

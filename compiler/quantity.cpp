@@ -150,6 +150,8 @@ Result<double> read_parameter_anyway(const Declarations& known, const std::strin
   const auto values = read_list(names, where, text, {*dimension}, 1, expected_of(option, parameter));
   if (values) return values->front();
   Error error = values.error();
+  if (const auto plain = read_number(option, text, {}); plain && !parameter.unit.empty() && error.mend.find(parameter.unit) == std::string::npos)
+    error.mend = typeable("give its unit: {} \"{}={:.6g} {}\"", option, parameter.name, *plain, parameter.unit);
   const bool is_word = std::ranges::all_of(text, [](char c) { return continues_name(c); }) && !text.empty();
   if (is_word && begins_name(text.front()) && known.percept_named(parameter.name).percept)
     error.mend += "; names of levels work in a file only, as in `" + parameter.name + " " + text + "`";

@@ -39,6 +39,24 @@ std::set<unsigned> lines_changed(const Fix& fix, const SourceSet& after, SourceI
   return lines;
 }
 
+/// The lines of the text before a fix that the fix changes.
+std::set<unsigned> lines_edited(const Fix& fix, const SourceSet& sources) {
+  std::set<unsigned> lines;
+  for (const Edit& each : fix.edits) {
+    const unsigned last = sources.place({each.span.source, each.span.end, each.span.end}).line;
+    for (unsigned line = sources.place(each.span).line; line <= last; ++line) lines.insert(line);
+  }
+  return lines;
+}
+
+std::size_t errors_in(const std::set<unsigned>& lines, const Diagnostics& diagnostics, const SourceSet& sources,
+                      SourceId source) {
+  return static_cast<std::size_t>(std::ranges::count_if(diagnostics.all(), [&](const Diagnostic& each) {
+    return severity_of(each.code) == Severity::error && each.span.source == source &&
+           lines.contains(sources.place(each.span).line);
+  }));
+}
+
 /// Whether a has fewer errors than b, or as many where that is enough.
 bool compare(const ErrorCount& a, const ErrorCount& b, bool or_equal) {
   const std::array<std::pair<std::size_t, std::size_t>, 3> stages = {
@@ -57,11 +75,16 @@ bool mends(const Fix& fix, const SourceSet& sources, SourceId source, const Diag
   SourceSet again;
   const SourceId changed = again.add(std::string(sources[source].name), fixed.text);
   const Diagnostics after = check(again, changed);
-  if (fix.safe) return ErrorCount(after).is_no_more_than(ErrorCount(before));
-  if (!ErrorCount(after).is_less_than(ErrorCount(before))) return false;
   Fix here = fix;
   for (Edit& each : here.edits) each.span.source = changed;
   const std::set<unsigned> lines = lines_changed(here, again, changed);
+  if (fix.safe) {
+    // Elsewhere what cannot be read hid other errors, but in its own lines a mend that leaves more was a wrong guess.
+    const std::size_t left = errors_in(lines, after, again, changed);
+    return left <= std::max<std::size_t>(1, errors_in(lines_edited(fix, sources), before, sources, source)) &&
+           ErrorCount(after).is_no_more_than(ErrorCount(before));
+  }
+  if (!ErrorCount(after).is_less_than(ErrorCount(before))) return false;
   const Said said = errors_said(before);
   return std::ranges::none_of(after.all(), [&](const Diagnostic& each) {
     return severity_of(each.code) == Severity::error && each.span.source == changed &&

@@ -12,7 +12,7 @@ using CheckAgain = std::function<Diagnostics(SourceSet& sources, SourceId source
 /// The diagnostics of a text with those fixes alone that mend: each is carried out by itself, and the text after it has
 /// fewer errors than before and no new one in the lines that it changes. What cannot be read hides what has no meaning,
 /// so an error that appears elsewhere was there before. A safe fix may uncover another mistake in its line, but leaves
-/// no more errors. Of many fixes the first 40 are tried, and the others are kept; so are those of warnings and all of a
+/// no more errors there than before. Of many fixes the first 40 are tried, and the others are kept; so are those of warnings and all of a
 /// text of more than 256 KiB.
 Diagnostics with_fixes_that_mend(const SourceSet& sources, SourceId source, const Diagnostics& diagnostics,
                                  const CheckAgain& check);

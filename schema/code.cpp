@@ -14,22 +14,29 @@ constexpr CodeEntry entries[] = {
 #include "wale/codes.def"
 };
 
-const CodeEntry& entry(Code code) {
+/// Null for a number that is none of the enumerators: that of a newer code, or a mistake.
+const CodeEntry* entry(Code code) {
   for (const CodeEntry& each : entries) {
-    if (each.code == code) return each;
+    if (each.code == code) return &each;
   }
-  return entries[0];  // every enumerator is in the table, so this is never reached
+  return nullptr;
 }
 
 }  // namespace
 
 std::string code_name(Code code) {
   std::string digits = std::to_string(static_cast<unsigned>(code));
-  return "W" + std::string(4 - digits.size(), '0') + digits;
+  return "W" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
 }
 
-std::string code_title(Code code) { return entry(code).title; }
+std::string code_title(Code code) {
+  const CodeEntry* known = entry(code);
+  return known == nullptr ? "" : known->title;
+}
 
-Severity severity_of(Code code) { return entry(code).severity; }
+Severity severity_of(Code code) {
+  const CodeEntry* known = entry(code);
+  return known == nullptr ? Severity::error : known->severity;
+}
 
 }  // namespace wale

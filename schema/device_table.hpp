@@ -23,9 +23,12 @@ namespace wale {
 ///       2 f64    gain of both motors, 0.1 .. 10
 ///       text     class, then source
 ///       texts    u32 and that many texts, twice: the settings that are assumed, then those that are unknown
+///
+/// What was calibrated on one device (its responses, offsets and intervals) has no place here, so that no table can
+/// hold the corrections of another device.
 std::vector<std::byte> write_device_table(std::span<const DeclaredDevice> devices);
 
-/// The same devices in the same order. Error: `damaged_file` for bytes that `write_device_table` does not write, and
+/// The same devices in the same order, without what was calibrated. Error: `damaged_file` for bytes that `write_device_table` does not write, and
 /// for figures that no device can have. Never reads beyond the end, and allocates in proportion to the bytes.
 Result<std::vector<DeclaredDevice>> read_device_table(std::span<const std::byte> bytes);
 

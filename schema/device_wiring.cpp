@@ -42,4 +42,22 @@ std::string in_words(const SignedAxis& axis) {
   return std::string(axis.sign < 0 ? "-" : "") + (axis.axis == 0 ? "x" : "y");
 }
 
+AxisResponse DeviceWiring::response_of(std::size_t axis, double peak) const {
+  return {gain[axis], response[2 * axis], response[2 * axis + 1], offset[axis], peak};
+}
+
+DeviceWiring DeviceWiring::with_motors(const std::array<SignedAxis, 2>& turned) const {
+  DeviceWiring other = *this;
+  other.motors = turned;
+  for (std::size_t to = 0; to < 2; ++to) {
+    const std::size_t from = motors[0].axis == turned[to].axis ? 0 : 1;
+    const bool is_reversed = motors[from].sign != turned[to].sign;
+    other.gain[to] = gain[from];
+    other.offset[to] = is_reversed ? -offset[from] : offset[from];
+    other.response[2 * to] = response[2 * from + (is_reversed ? 1 : 0)];
+    other.response[2 * to + 1] = response[2 * from + (is_reversed ? 0 : 1)];
+  }
+  return other;
+}
+
 }  // namespace wale

@@ -68,6 +68,9 @@ void make_visible(PatchProgram& program) {
     for (std::string* text : {&each.name, &each.carrier, &each.map, &each.device, &each.source, &each.unit,
                               &each.weber_source, &each.realisation})
       make_visible(*text);
+  for (PerceptRecord& each : program.percepts)
+    for (MeasuredRange& range : each.basis.ranges)
+      for (std::string* text : {&range.quantity, &range.unit}) make_visible(*text);
   for (FateRecord& each : program.fates)
     for (std::string* text : {&each.name, &each.reason}) make_visible(*text);
   for (LevelClaim& each : program.claims) make_visible(each.percept);

@@ -82,7 +82,7 @@ and feels materials, and the shipped library of materials."
     debian_package(sandpaper wale-sandpaper utils "workspace for materials that are felt"
       "This package has the window in which materials are laid out, felt with a
 force-feedback joystick or seen with the mouse, and changed."
-      DEPENDS "wale ${this}")
+      DEPENDS "wale ${this}" SUGGESTS "speech-dispatcher, cups")
   endif()
   if(EXISTS ${PROJECT_SOURCE_DIR}/library/python/wale)
     debian_package(python python3-wale python "haptics language Wale from Python"

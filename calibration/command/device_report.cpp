@@ -102,6 +102,7 @@ std::string declared_text(const DeclaredDevice& device, std::size_t column) {
   }
   if (!device.unknown.empty()) line(fmt::format("unknown: {}", fmt::join(device.unknown, ", ")));
   if (!device.assumed.empty()) line(fmt::format("assumed, not measured: {}", fmt::join(device.assumed, ", ")));
+  if (device.wiring.is_corrected()) line("its forces are corrected by what was measured on it");
   if (!device.source.empty()) line(device.source);
   return text;
 }
@@ -200,6 +201,7 @@ nlohmann::ordered_json joystick_json(const DeclaredDevice& device) {
           {"axes_lie", {in_words(device.wiring.axes[0]), in_words(device.wiring.axes[1])}},
           {"motors_lie", {in_words(device.wiring.motors[0]), in_words(device.wiring.motors[1])}},
           {"gain", device.wiring.gain},
+          {"corrected", device.wiring.is_corrected()},
           {"unknown", device.unknown},
           {"assumed", device.assumed},
           {"source", device.source}};

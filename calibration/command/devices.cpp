@@ -50,8 +50,7 @@ std::string own_name(const std::string& profile) { return profile.starts_with("m
 // its acceleration depends on mass. Neither gives the force while mass and friction are assumed.
 constexpr std::array how_gain_is_measured{
     "gain is the force at the handle for each commanded newton. Pushing does not show it while mass and",
-    "friction are assumed: hold a force gauge, or a luggage scale, against the handle while `wale feel` runs a",
-    "material with `force = vector(2 N, 0 N)`, and divide its reading by 2; then the same for y."};
+    "friction are assumed: `wale calibrate device` measures it with a force gauge, or a luggage scale."};
 
 /// Adds the reason of a loss, which is known only a moment after the loss.
 Error with_reason(Error error, const HotPluggedDevice& joystick) {

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "calibration/feel/own_force.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/read/tolerances.hpp"
 #include "compiler/read/wall.hpp"
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
@@ -131,11 +133,22 @@ std::string read_text(const std::vector<ReadLevel>& read) {
   return text;
 }
 
+/// Whether the hand went where a texture pushes less or more than over the whole patch, as along the crests of one of
+/// two waves.
+bool shows_other_size(const FeltReport& report, std::size_t index) {
+  const float aimed = report.aimed[index], shown = report.shown[index];
+  return shown > 0 && std::abs(shown - aimed) > reading * aimed && report.let_through[index] >= std::min(aimed, shown);
+}
+
 /// "0.5 of 0.5 N that --max-force lets through (100 %); without it 0.918 N": a size of the carrier against the size
 /// that the program aims at, as far as it may come.
 std::string delivered_text(const FeltReport& report, std::size_t index) {
   const float size = report.levels[index].size, aimed = report.aimed[index], let = report.let_through[index];
   const std::string& unit = report.units[index];
+  const float shown = report.shown[index];
+  if (shows_other_size(report, index))
+    return readable("{:.4g} of {:.4g} {} on the hand's way ({:.0f} %); over the whole patch it is {:.4g} {}", size,
+                    shown, unit, 100 * size / shown, aimed, unit);
   const std::string share = let > 0 ? readable(" ({:.0f} %)", 100 * size / let) : "";
   if (let < aimed)
     return readable("{:.4g} of {:.4g} {} that --max-force lets through{}; it aims at {:.4g} {}", size, let, unit, share,
@@ -170,7 +183,8 @@ std::string levels_text(const FeltReport& report) {
     text += readable("  delivered    {}\n", delivered_text(report, i));
     text += fmt::format("  {:<12} {}{:.2f}, as its map reads that {}{}\n", level.name,
                         report.at_least[i] ? "at least " : "", level.back->level,
-                        felt.vibration           ? "shaking"
+                        felt.vibration              ? "shaking"
+                        : shows_other_size(report, i) ? "force over the whole patch"
                         : report.units[i] == "N" ? "force"
                                                  : "size",
                         report.asked[i] >= 0 ? fmt::format(" (asked: {:.2f})", report.asked[i]) : "");
@@ -180,6 +194,8 @@ std::string levels_text(const FeltReport& report) {
             : report.read.empty()
                 ? "  percepts     none that a map reads\n"
                 : fmt::format("  percepts     none is asked for; `wale describe` reads {}\n", read_text(report.read));
+  if (!report.levels.empty() && !report.read.empty())
+    text += fmt::format("  besides      `wale describe` reads {}\n", read_text(report.read));
   if (!report.needed_seconds) return text;
   if (*report.needed_seconds <= longest_proposed_run)
     return text +
@@ -242,12 +258,15 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
   for (const TickRecord& tick : run.record.ticks)
     if (const double size = glm::length(tick.force); size > report.largest)
       report.largest = size, report.largest_at = tick.time;
-  report.felt = measure(run.record, {.position_step = device.position_step(),
-                                     .predicted_amplitude = std::min(report.predicted_amplitude, let_through),
-                                     .settling = settling,
-                                     .vibrates = device.shaker.has_value()});
+  const MeasureOptions options{.position_step = device.position_step(),
+                               .predicted_amplitude = std::min(report.predicted_amplitude, let_through),
+                               .settling = settling,
+                               .vibrates = device.shaker.has_value()};
+  report.felt = measure(run.record, options);
   report.needed_seconds = needed_seconds(program, report.felt, report.seconds, settling);
   report.levels = levels_back(bank, report.felt, least_crossings);
+  std::vector<LevelBack> own;
+  if (const auto felt = measured_of_program(bank, run.record, options)) own = levels_back(bank, *felt, 0);
   for (auto& level : report.levels) {
     const PerceptRecord& percept = program.percepts[level.percept];
     // The device's limit cuts only carriers in the unit of its output.
@@ -259,6 +278,8 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
     const float share = percept.extractor == Extractor::lateral_force ? percept.basis.share : 1;
     report.let_through.push_back(limited ? std::min(report.aimed.back(), let_through * share) : report.aimed.back());
     report.at_least.push_back(false);
+    const std::size_t index = report.shown.size();
+    report.shown.push_back(index < own.size() && own[index].back ? std::max(own[index].size, 0.0f) : 0);
     if (!level.back && level.back.error().mend.empty() && percept.alone && needs_wall(percept))
       if (const auto wall = wall_face(bank)) level.back.error().mend = "--hand \"" + pressing_into(*wall) + "\" does";
     const auto& parameter = percept.parameter;
@@ -343,7 +364,9 @@ std::string felt_json(const FeltReport& report) {
     json["actuator"] = force_json(felt.force);
     json["actuator_rubbing"] = force_json(felt.force_rubbing);
     json["largest"] = {{"newton", report.largest}, {"at_s", report.largest_at}};
-    json["predicted_amplitude_newton"] = report.predicted_amplitude;
+    // The force of formulas without a level aims at nothing.
+    json["predicted_amplitude_newton"] =
+        report.predicted_amplitude > 0 ? nlohmann::ordered_json(report.predicted_amplitude) : nullptr;
   }
   if (felt.interaction) json["interaction"] = force_json(*felt.interaction);
   if (!felt.vibration) {
@@ -363,6 +386,7 @@ std::string felt_json(const FeltReport& report) {
           {"unit", report.units[i]}};
     else
       entry = {{"refused", in_words_without_place(report.levels[i].back.error())}};
+    if (const float shown = report.shown[i]; shown > 0 && report.levels[i].back) entry["on_the_way"] = shown;
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
   }
   for (const ReadLevel& each : report.read)

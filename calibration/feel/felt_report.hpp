@@ -22,7 +22,7 @@ struct RunManner {
   double most = HUGE_VAL;                ///< N, on a pad m/s^2: what the person lets through
 };
 
-/// A percept of a program that asks for none, as `describe` reads it of the force.
+/// A percept that the program has no record of, as `describe` reads it of the force.
 struct ReadLevel {
   std::string name;
   double level = 0;
@@ -49,7 +49,9 @@ struct FeltReport {
   std::vector<float> let_through;  ///< of that, what the person's limit lets through
   std::vector<bool> at_least;      ///< the carrier is greater than could be read
   std::vector<std::string> units;  ///< the carrier's unit
-  /// Where the program has no percepts of its own: those that `describe` reads of its force, and their levels.
+  /// the carrier's size that the program itself shows on the hand's way, whatever the device gave; 0 if that is unknown
+  std::vector<float> shown;
+  /// Percepts that `describe` reads of the force besides those of `levels`, and their levels.
   std::vector<ReadLevel> read;
   double largest = 0, largest_at = 0;  ///< N: the actuator's largest force of all ticks, and when, s
   double settling = 0;                 ///< s at the beginning that the measured figures leave out
@@ -70,8 +72,9 @@ inline constexpr double longest_proposed_run = 60;
 /// Measures a run, without its first part, in which forces slew in and the hand comes up to speed.
 FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfile& device, RunManner manner);
 
-/// Adds what `describe` reads of the program: its percepts, if the program has none of its own, and why a level of it
-/// is unknown, as of a texture outside of what its map was measured with; and the motion that crosses the texture.
+/// Reads the run as `describe` reads the program. The level of a percept is that of the size which `describe` reads,
+/// times the share of it that came to the handle: of what the program shows on the hand's way, if that is known. What
+/// `describe` does not tell has no level, and what it tells besides is added; and the motion that crosses the texture.
 void tell_read_percepts(FeltReport& report, const Bank& bank, const Declarations& declarations);
 
 std::string felt_text(const FeltReport& report);

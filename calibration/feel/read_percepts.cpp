@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -9,6 +10,7 @@
 #include "calibration/feel/hand_motion.hpp"
 #include "compiler/describe/describe.hpp"
 #include "compiler/evidence/percept_reading.hpp"
+#include "compiler/read/tolerances.hpp"
 
 namespace wale {
 namespace {
@@ -45,31 +47,77 @@ std::string crossing_motion(const RunManner& manner, const Relief& relief, const
   return "lateral " + words;
 }
 
+/// Removes what is told of level number `index`.
+void forget_level(FeltReport& report, std::size_t index) {
+  const auto at = [&](auto& all) { all.erase(all.begin() + static_cast<std::ptrdiff_t>(index)); };
+  at(report.levels), at(report.asked), at(report.aimed), at(report.let_through), at(report.at_least);
+  at(report.units), at(report.shown);
+}
+
+Error without_level(const std::string& percept, std::string sentence) {
+  return {.code = Code::not_measured, .sentence = std::move(sentence), .place = {.name = percept}};
+}
+
+/// Reads level number `index` of a run in the size that `describe` reads.
+void read_as_described(FeltReport& report, std::size_t index, const DescribedPercept& told, const Bank& bank) {
+  LevelBack& level = report.levels[index];
+  const PerceptRecord& record = bank.program().description().percepts[level.percept];
+  const auto described = static_cast<float>(told.amplitude);
+  if (!(described > 0)) {
+    if (level.back) level.back = without_level(level.name, "`wale describe` reads none of it in this program");
+    return;
+  }
+  // What a factor or a limit changed is no longer of the size that was solved.
+  const float whole = told.changed ? described : level.predicted_amplitude;
+  const bool texture = record.extractor == Extractor::lateral_force;
+  if (texture && told.changed) report.predicted_amplitude = described / record.basis.share;
+  float& shown = report.shown[index];
+  if (!told.readable || !(shown > 0) || !(whole > 0)) {
+    shown = 0;
+    return;
+  }
+  if (std::abs(shown - whole) <= reading * whole) shown = whole;
+  if (level.back) level.size *= described / shown;
+  if (level.back) level.back = predict(bank, level.percept, level.size);
+  // The person's limit cuts the whole force, of which the percept may have a share.
+  const float part = (texture ? record.basis.share : 1) * described / whole;
+  report.let_through[index] =
+      record.unit == "N" ? std::min(described, static_cast<float>(report.manner.most) * part) : described;
+  report.aimed[index] = described;
+  shown = texture ? described * shown / whole : described;
+  if (texture && level.back && shown != described) level.size *= shown / described;
+}
+
 }  // namespace
 
 void tell_read_percepts(FeltReport& report, const Bank& bank, const Declarations& declarations) {
   const PatchProgram& program = bank.program().description();
   if (report.felt.vibration) return;
-  if (report.levels.empty()) {
-    const Description description = describe(bank, declarations);
-    for (const DescribedPercept& percept : description.percepts) {
-      const Percept* declared = declarations.percepts.find(percept.name);
-      report.read.push_back(
-          {percept.name, percept.level, declared && is_at_least(declared->extractor, description.motion)});
-    }
-    return;
-  }
-  const ForceReading found = read(bank, declarations, parts_for(program));
-  if (report.needed_seconds && *report.needed_seconds > longest_proposed_run)
-    report.crossing_motion = crossing_motion(report.manner, found.relief(), declarations);
-  for (std::size_t i = 0; i < report.levels.size(); ++i) {
+  const Description description = describe(bank, declarations, Texture::as_set);
+  if (report.needed_seconds && *report.needed_seconds > longest_proposed_run && description.texture)
+    report.crossing_motion = crossing_motion(report.manner, description.texture->force, declarations);
+  for (std::size_t i = report.levels.size(); i-- > 0;) {
     LevelBack& level = report.levels[i];
-    report.at_least[i] = is_at_least(program.percepts[level.percept].extractor, found.opposing);
-    const PerceptReading told = percept_reading(bank, level.percept, found, declarations);
-    if (level.back && told.unknown)
-      level.back = Error{.code = Code::not_measured,
-                         .sentence = outside_in_words(outside_ranges(program.percepts[level.percept], told).front()),
-                         .place = {.name = level.name}};
+    const PerceptRecord& record = program.percepts[level.percept];
+    const auto told = std::ranges::find(description.percepts, level.name, &DescribedPercept::name);
+    if (told == description.percepts.end()) {
+      forget_level(report, i);
+      continue;
+    }
+    report.at_least[i] = is_at_least(record.extractor, description.motion);
+    if (!told->unknown) {
+      read_as_described(report, i, *told, bank);
+    } else if (level.back) {
+      const auto outside = outside_ranges(record, {.outside = told->outside});
+      level.back = without_level(level.name, outside.empty() ? "what resists the hand is told by no one figure"
+                                                             : outside_in_words(outside.front()));
+    }
+  }
+  for (const DescribedPercept& percept : description.percepts) {
+    if (std::ranges::find(report.levels, percept.name, &LevelBack::name) != report.levels.end()) continue;
+    const Percept* declared = declarations.percepts.find(percept.name);
+    report.read.push_back(
+        {percept.name, percept.level, declared && is_at_least(declared->extractor, description.motion)});
   }
 }
 

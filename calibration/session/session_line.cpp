@@ -20,7 +20,7 @@ constexpr double metre_in_mm = 1000;
 
 /// The names of the events, in the order of the variant.
 constexpr std::array<const char*, std::variant_size_v<SessionEvent> - 1> names = {
-    "begin", "program", "order", "shown", "answer", "taken back", "groups", "resumed", "note", "end"};
+    "begin", "program", "order", "placed", "shown", "answer", "taken back", "groups", "resumed", "note", "end"};
 
 bool is_known(std::string_view name) {
   for (const std::string_view each : names)
@@ -44,6 +44,10 @@ double finite(double value) {
   if (!std::isfinite(value)) throw Malformed("a number is not finite");
   return value;
 }
+
+/// Without the digits behind the nanometre, which come from binary fractions: 2 and not 2.0000000000000018.
+double in_mm(double metres) { return finite(std::round(metres * metre_in_mm * 1e6) / 1e6); }
+Json in_mm(glm::dvec2 metres) { return {in_mm(metres.x), in_mm(metres.y)}; }
 
 // ---- writing
 
@@ -74,10 +78,25 @@ struct Write {
     for (const SessionItem& each : order.items) {
       Json item = {{"name", each.name}};
       if (!each.label.empty()) item["label"] = each.label;
-      if (each.at) item["at_mm"] = {finite(each.at->x * metre_in_mm), finite(each.at->y * metre_in_mm)};
+      if (each.at) item["at_mm"] = in_mm(*each.at);
       items.push_back(std::move(item));
     }
     to["items"] = std::move(items);
+  }
+  void operator()(const SessionPlaced& placed) const {
+    to["what"] = placed.what;
+    to["of"] = placed.of;
+    Json items = Json::array();
+    for (const SessionPlace& each : placed.items) {
+      Json item = {{"name", each.name}, {"at_mm", in_mm(each.at)}};
+      if (each.size) item["size_mm"] = in_mm(*each.size);
+      if (!each.shape.empty()) item["shape"] = each.shape;
+      if (each.rim) item["rim_mm"] = in_mm(*each.rim);
+      if (each.layer != 0) item["layer"] = each.layer;
+      items.push_back(std::move(item));
+    }
+    to["items"] = std::move(items);
+    if (!placed.gone.empty()) to["gone"] = placed.gone;
   }
   void operator()(const SessionShown& shown) const {
     to["what"] = shown.what;
@@ -160,6 +179,11 @@ const Json& list_of(const Json& from, const char* key) {
   return list;
 }
 
+glm::dvec2 in_metres(const Json& value, const char* key) {
+  if (!value.is_array() || value.size() != 2) throw Malformed(std::string("`") + key + "` has not two numbers");
+  return glm::dvec2(number(value[0], key), number(value[1], key)) / metre_in_mm;
+}
+
 const Json& object(const Json& value, const char* key) {
   if (!value.is_object()) throw Malformed(std::string("`") + key + "` has something that is no object");
   return value;
@@ -192,19 +216,33 @@ void read(const Json& from, SessionOrder& order) {
   for (const Json& each : list_of(from, "items")) {
     object(each, "items");
     SessionItem item{text_of(each, "name"), text_if_any(each, "label"), {}};
-    if (const auto at = each.find("at_mm"); at != each.end()) {
-      if (!at->is_array() || at->size() != 2) throw Malformed("`at_mm` has not two numbers");
-      item.at = glm::dvec2(number((*at)[0], "at_mm"), number((*at)[1], "at_mm")) / metre_in_mm;
-    }
+    if (const auto at = each.find("at_mm"); at != each.end()) item.at = in_metres(*at, "at_mm");
     order.items.push_back(std::move(item));
   }
+}
+
+void read(const Json& from, SessionPlaced& placed) {
+  placed.what = text_of(from, "what");
+  placed.of = text_of(from, "of");
+  for (const Json& each : list_of(from, "items")) {
+    object(each, "items");
+    SessionPlace item{.name = text_of(each, "name"), .at = in_metres(field(each, "at_mm"), "at_mm")};
+    if (const auto size = each.find("size_mm"); size != each.end()) item.size = in_metres(*size, "size_mm");
+    item.shape = text_if_any(each, "shape");
+    if (const auto rim = each.find("rim_mm"); rim != each.end()) item.rim = number(*rim, "rim_mm") / metre_in_mm;
+    if (const auto layer = each.find("layer"); layer != each.end()) item.layer = whole<std::uint32_t>(*layer, "layer");
+    placed.items.push_back(std::move(item));
+  }
+  if (from.contains("gone"))
+    for (const Json& each : list_of(from, "gone")) placed.gone.push_back(text(each, "gone"));
 }
 
 void read(const Json& from, SessionShown& shown) {
   shown.what = text_of(from, "what");
   shown.name = text_of(from, "name");
   shown.label = text_if_any(from, "label");
-  if (const auto place = from.find("number"); place != from.end()) shown.number = whole<std::uint32_t>(*place, "number");
+  if (const auto place = from.find("number"); place != from.end())
+    shown.number = whole<std::uint32_t>(*place, "number");
   if (const auto interval = from.find("interval"); interval != from.end())
     shown.interval = whole<std::uint32_t>(*interval, "interval");
   shown.recording = text_if_any(from, "recording");
@@ -276,7 +314,8 @@ Result<SessionEntry> read_session_line(std::string_view line) try {
   const std::string name = text_of(from, event_key);
   if (name.empty()) throw Malformed("`event` is empty");
   if (name == names.front())
-    if (const auto format = from.find("format"); format != from.end() && format->is_number_unsigned() && *format != session_log_version)
+    if (const auto format = from.find("format");
+        format != from.end() && format->is_number_unsigned() && *format != session_log_version)
       return Error{.code = Code::newer_file,
                    .sentence = "this log has format " + format->dump() + ", and this Wale reads format " +
                                std::to_string(session_log_version),

@@ -129,6 +129,11 @@ class MaterialChecker {
       const auto& key = setting.key.text;
       if (key == "like") continue;  // `assemble` reads it
       if (!is_representative_setting(key)) {
+        if (surroundings_.declarations.percepts.find(key)) {
+          report(Code::unknown_setting, setting.key.span, fmt::format("a representative block has no setting `{}`", key),
+                 fmt::format("{} is a percept: put it into `perceptual {{ … }}`", key));
+          continue;
+        }
         report(Code::unknown_setting, setting.key.span, fmt::format("a representative block has no setting `{}`", key),
                did_you_mean(setting.key.span, key, representative_settings(),
                             fmt::format("it has: {}", fmt::join(representative_settings(), ", "))));

@@ -9,7 +9,14 @@
 
 namespace wale::command {
 
-DeepThread::DeepThread(std::function<void()> work) : work_(std::move(work)) {
+namespace {
+
+constexpr std::size_t handlers_bytes = 64 * 1024;
+
+}  // namespace
+
+DeepThread::DeepThread(std::function<void()> work)
+    : work_(std::move(work)), handlers_stack_(std::make_unique<char[]>(handlers_bytes)) {
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, deep_stack);
@@ -19,10 +26,8 @@ DeepThread::DeepThread(std::function<void()> work) : work_(std::move(work)) {
 }
 
 void* DeepThread::run(void* self) {
-  constexpr std::size_t handlers_bytes = 64 * 1024;
-  const auto memory = std::make_unique<char[]>(handlers_bytes);
   stack_t stack{};
-  stack.ss_sp = memory.get();
+  stack.ss_sp = static_cast<DeepThread*>(self)->handlers_stack_.get();
   stack.ss_size = handlers_bytes;
   sigaltstack(&stack, nullptr);
   static_cast<DeepThread*>(self)->work_();

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 namespace wale::command {
 
@@ -28,6 +29,7 @@ class DeepThread {
   static void* run(void* self);
 
   std::function<void()> work_;
+  std::unique_ptr<char[]> handlers_stack_;  // of the thread, which might have no memory for it
   pthread_t thread_{};
   bool is_joined_ = false;
 };

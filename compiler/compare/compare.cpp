@@ -36,7 +36,9 @@ bool is_direction(CueKind kind) {
 /// when such sizes are surely told apart. It does not say that those which differ by less feel alike.
 bool is_of_unread(CueKind kind) {
   return kind == CueKind::other_force || kind == CueKind::small_feature || kind == CueKind::uneven_drag ||
-         kind == CueKind::changing_drag || kind == CueKind::uneven_vibration;
+         kind == CueKind::changing_drag || kind == CueKind::drag_lost_by_use || kind == CueKind::uneven_vibration || kind == CueKind::uneven_mass ||
+         kind == CueKind::changing_vibration || kind == CueKind::changing_sway || kind == CueKind::other_vibration ||
+         kind == CueKind::other_sway;
 }
 
 /// Up to where two values that are read are the same, and nobody has measured what people notice: as well as the
@@ -46,6 +48,8 @@ double same_of(CueKind kind) {
     case CueKind::travel: return 0.015;
     case CueKind::noise_rate: return 0.35;
     case CueKind::coming: return 0.05;
+    case CueKind::vibration_half:
+    case CueKind::sway_half: return 0.05;
     default: return is_of_unread(kind) ? 0.02 : same;
   }
 }

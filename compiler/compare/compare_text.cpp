@@ -115,7 +115,9 @@ void write_alike(std::string& text, const ComparisonMatrix& matrix) {
                        matrix.materials()[pair.b].material);
   if (alike > most_listed) text += readable("  and {} more; --json has all distances\n", alike - most_listed);
   if (unknown > 0)
-    text += readable("{} pairs are unknown: they differ in a cue that has no known threshold\n", unknown);
+    text += readable("{} unknown: {} in a cue that has no known threshold\n",
+                     unknown == 1 ? "1 pair is" : readable("{} pairs are", unknown),
+                     unknown == 1 ? "it differs" : "they differ");
 }
 
 /// One pair cue by cue, as JSON.

@@ -182,7 +182,7 @@ void settle_stiffness(Description& description) {
 void describe_force(Description& description, const Bank& bank, const Declarations& declarations, Texture texture) {
   const PatchProgram& program = bank.program().description();
   ForceReading found;
-  const ReadParts needed = texture == Texture::extracted ? ReadParts{} : parts_for(program);
+  const ReadParts needed = texture != Texture::left_out ? ReadParts{} : parts_for(program);
   // The tasks are independent; the longest come first.
   const std::array<std::function<void()>, 4> tasks = {
       [&] { found = read(bank, declarations, needed); },
@@ -204,9 +204,11 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
   description.percepts = recorded_percepts(bank, found, declarations);
   description.fates = fates_at(bank, found, declarations);
   if (texture == Texture::left_out) return;
-  tell_settings(description.percepts, bank, found, declarations);
-  tell_ends(description.percepts, bank, found, declarations);
-  if (description.limit_matters) {
+  if (texture == Texture::extracted) {
+    tell_settings(description.percepts, bank, found, declarations);
+    tell_ends(description.percepts, bank, found, declarations);
+  }
+  if (texture == Texture::extracted && description.limit_matters) {
     const auto speed = static_cast<float>(normal_hand(declarations).speed());
     const std::size_t searched = parameters_searched(program);
     std::size_t done = 0;

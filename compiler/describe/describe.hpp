@@ -39,7 +39,7 @@ struct DescribedPercept {
   std::string unit;                 ///< of the carrier's size, SI: "N", "N s/m"
   bool readable = true;             ///< otherwise it is the size aimed at, as far as the device gives it
   bool effective = false;           ///< of a texture that the author gave no such size: the force has it as a whole
-  bool changed = false;             ///< a factor changes its force after it was solved
+  bool changed = false;             ///< a limit, a factor or a condition changes its force after it was solved
   bool unknown = false;             ///< `outside` says why no map tells the level of what it pushes
   double level = 0, magnitude = 0;  ///< of that size, by the map
   LawUncertainty uncertainty;       ///< of the map
@@ -114,12 +114,15 @@ struct Description {
   };
   std::vector<Directed> directed;
   Swing sway;                        ///< slower than 10 Hz, which no percept tells; of amplitude 0 if there is none
+  std::vector<SwingPart> vibration_parts;       ///< of a vibration that is the sum of several
+  Mass mass;                                    ///< what of it differs with the way, and from place to place
   std::optional<SwingCourse> vibration_course;  ///< of a vibration that dies away or grows
   Swing noise;                       ///< what changes with time without a rate; of amplitude 0 if nothing does
   OpposingForce motion;              ///< what resists a moving hand
   double spring_force = 0;           ///< N: at which a spring's force grows no more; 0 if nothing limits it
   double small_feature = 0;          ///< N: the largest force of what fills less than a hundredth of the patch
-  glm::dvec2 constant_push{0};       ///< N: everywhere alike
+  glm::dvec2 constant_push{0};       ///< N: everywhere alike; beside a spring, in the patch's middle
+  std::optional<glm::dvec2> rest;    ///< m: where a spring pulls to, if that is beside the patch's middle and on it
   std::vector<HeldFigure> held;      ///< what holding the button changes
   Swing uneven;                      ///< what swings and differs from place to place, with its least size there
   OtherForce other;                  ///< what no cue explains
@@ -156,8 +159,9 @@ struct Description {
   std::size_t coarseness = 1;  ///< of how many places one was sampled
 };
 
-/// Whether percepts and a texture that the author did not ask for are read from the force, which takes longer.
-enum class Texture { extracted, left_out };
+/// Whether percepts and a texture that the author did not ask for are read from the force, which takes longer; as the
+/// parameters are, or also what other settings of them would change, which takes longest.
+enum class Texture { extracted, as_set, left_out };
 
 /// Describes a program at a bank's parameters. Runs it to measure its force, with the declared hands `normal` and
 /// `showing`.

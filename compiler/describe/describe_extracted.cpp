@@ -133,6 +133,23 @@ DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double 
   return texture;
 }
 
+/// Where a spring pulls to, from what it pushes with in the middle; nothing if that is outside of the patch, or if the
+/// push has another cause, as beside a spring along one axis only.
+std::optional<glm::dvec2> rest_of(const ForceReading& found, const PatchSize& patch) {
+  const glm::dvec2 axis = found.stiffness_axis == glm::dvec2(0) ? glm::dvec2(1, 0) : found.stiffness_axis;
+  const glm::dvec2 across(-axis.y, axis.x);
+  const auto along_one = [](double push, double stiffness) -> std::optional<double> {
+    if (stiffness >= least_stiffness) return push / stiffness;
+    return std::abs(push) < least_force ? std::optional(0.0) : std::nullopt;
+  };
+  const auto one = along_one(glm::dot(found.constant, axis), found.stiffness);
+  const auto other = along_one(glm::dot(found.constant, across), found.stiffness_across);
+  if (!(found.stiffness >= least_stiffness) || !one || !other) return std::nullopt;
+  const glm::dvec2 rest = axis * *one + across * *other;
+  const bool inside = std::abs(rest.x) <= patch.width / 2 && std::abs(rest.y) <= patch.height / 2;
+  return inside ? std::optional(rest) : std::nullopt;
+}
+
 /// What of a reading no percept tells.
 void tell_forces(Description& description, const ForceReading& found, const Cues& cues) {
   const Description::Directed all[] = {{"stiffness", "N/m", found.stiffnesses()},
@@ -151,12 +168,17 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
   if (found.sway.amplitude >= least_force) description.sway = found.sway;
   if (found.vibration.noise && found.vibration.amplitude >= least_force) description.noise = found.vibration;
   if (found.vibration.amplitude >= least_force) description.vibration_course = found.vibration.course;
+  if (found.vibration.amplitude >= least_force) description.vibration_parts = found.vibration.parts;
+  description.mass = found.inertia;
   description.motion = found.opposing;
   description.held = held_figures(found);
   description.uneven = found.sway.least ? found.sway : found.vibration;
   description.spring_force = cues[CueKind::spring_force].value_or(0);
   description.small_feature = cues[CueKind::small_feature].value_or(0);
-  if (glm::length(found.constant) >= least_force) description.constant_push = found.constant;
+  if (glm::length(found.constant) >= least_force) {
+    description.constant_push = found.constant;
+    description.rest = rest_of(found, description.patch);
+  }
   const auto counting = [](double force) { return force >= least_force ? force : 0; };
   description.other = {.button = counting(found.other.button),
                        .slowly = counting(found.other.slowly),

@@ -221,16 +221,20 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
                                    {"unit", each.unit}};
   if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
     json["constant_push_newton"] = {figure(push.x), figure(push.y)};
+  if (description.rest) json["spring_rest_m"] = {figure(description.rest->x), figure(description.rest->y)};
   if (description.sway.amplitude > 0)
     json["sway"] = {{"amplitude_newton", figure(description.sway.amplitude)},
                     {"frequency_hz", figure(description.sway.frequency)}};
   if (description.sway.course) json["sway"].update(course_json(*description.sway.course));
+  if (!description.sway.parts.empty()) json["sway"]["parts"] = parts_json(description.sway.parts);
+  if (!description.vibration_parts.empty()) json["vibration_parts"] = parts_json(description.vibration_parts);
   if (description.vibration_course) json["vibration_course"] = course_json(*description.vibration_course);
   if (description.noise.amplitude > 0) json["noise_in_time_newton"] = figure(description.noise.amplitude);
   if (description.uneven.least)
     json["swing_by_place"] = {{"least_newton", figure(*description.uneven.least)},
                               {"most_newton", figure(description.uneven.amplitude)}};
   add_motion(json, description.motion);
+  add_mass(json, description.mass);
   add_held(json, description.held);
   const auto other = [&](const char* name, double force) {
     if (force > 0) json["other_force_newton"][name] = figure(force);
@@ -245,6 +249,9 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   if (description.travel) json["travel_rad"] = direction_figure(*description.travel);
   if (const ComingForce& coming = description.coming; coming.after > 0) {
     json["coming"] = {{"after_s", figure(coming.after)}, {"goes", coming.goes}};
+    if (coming.later_swing > 0)
+      json["coming"]["later_swing"] = {{"amplitude_newton", figure(coming.later_swing)},
+                                       {"frequency_hz", figure(coming.later_rate)}};
     if (coming.later_push != glm::dvec2(0))
       json["coming"]["later_push_newton"] = {figure(coming.later_push.x), figure(coming.later_push.y)};
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "compiler/describe/describe_figure.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
@@ -30,11 +31,17 @@ std::string power_words(double exponent) {
 
 bool goes_one_way(const OpposingForce& motion) { return motion.one_way() != glm::dvec2(0); }
 
-/// "1 N to the right, none to the left".
-std::string ways_words(const OpposingForce& motion) {
+std::string mass_words(double mass) {
+  if (std::abs(mass) < least_mass) return "none";
+  return readable("{:.3g} kg", mass);
+}
+
+/// "1 N to the right, none to the left", of a drag or of a mass.
+template <typename Resistance>
+std::string ways_words(const Resistance& motion, std::string (*words)(double)) {
   std::string text;
-  const auto add = [&](double newton, const char* way) {
-    text += readable("{}{} {}", text.empty() ? "" : ", ", size_words(newton), way);
+  const auto add = [&](double size, const char* way) {
+    text += readable("{}{} {}", text.empty() ? "" : ", ", words(size), way);
   };
   if (motion.forward.x != motion.backward.x)
     add(motion.forward.x, "to the right"), add(motion.backward.x, "to the left");
@@ -61,8 +68,11 @@ std::string motion_lines(const OpposingForce& motion) {
     text += readable("  the drag changes with time: at 200 mm/s from {} to {}, {}\n", size_words(motion.least_in_time),
                      size_words(motion.most_in_time),
                      motion.explained ? "and what is told is its mean" : "and no mean tells it");
+  if (motion.changes_by_use)
+    text += readable("  the drag changes where the hand has been: at 200 mm/s {} at first, {} after {:.3g} mm of strokes\n",
+                     size_words(motion.at_first_use), size_words(motion.after_use), 1e3 * motion.way_of_use);
   if (goes_one_way(motion))
-    text += readable("  the drag differs with the way that a hand goes: at 200 mm/s {}{}\n", ways_words(motion),
+    text += readable("  the drag differs with the way that a hand goes: at 200 mm/s {}{}\n", ways_words(motion, size_words),
                      motion.uneven() > 0 ? ", on the mean over the patch" : "");
   if (motion.uneven() > 0) {
     const bool part = std::min(std::abs(motion.least_by_place), std::abs(motion.most_by_place)) < least_force;
@@ -83,12 +93,41 @@ std::string motion_lines(const OpposingForce& motion) {
                          power_words(motion.exponent), sizes);
 }
 
+std::string mass_lines(const Mass& mass) {
+  std::string text;
+  if (mass.one_way() != glm::dvec2(0))
+    text += readable("  the mass differs with the way that a hand speeds up: {}{}\n", ways_words(mass, mass_words),
+                     mass.uneven() > 0 ? ", on the mean over the patch" : "");
+  if (mass.uneven() > 0) {
+    const bool part = std::min(std::abs(mass.least_by_place), std::abs(mass.most_by_place)) < least_mass;
+    text += part ? readable("  a mass in part of the patch only: up to {}\n",
+                            mass_words(std::abs(mass.most_by_place) >= std::abs(mass.least_by_place)
+                                           ? mass.most_by_place
+                                           : mass.least_by_place))
+                 : readable("  the mass differs from place to place: from {} to {}\n", mass_words(mass.least_by_place),
+                            mass_words(mass.most_by_place));
+  }
+  return text;
+}
+
+void add_mass(nlohmann::ordered_json& json, const Mass& mass) {
+  if (mass.one_way() != glm::dvec2(0))
+    json["mass_by_way"] = {{"forward_kg", {figure(mass.forward.x), figure(mass.forward.y)}},
+                           {"backward_kg", {figure(mass.backward.x), figure(mass.backward.y)}}};
+  if (mass.uneven() > 0)
+    json["mass_by_place"] = {{"least_kg", figure(mass.least_by_place)}, {"most_kg", figure(mass.most_by_place)}};
+}
+
 void add_motion(nlohmann::ordered_json& json, const OpposingForce& motion) {
   if (motion.friction_grows || motion.friction_cut) json["friction_at_least_newton"] = figure(motion.friction);
   if (motion.changes_in_time)
     json["drag_by_time"] = {{"least_newton", figure(motion.least_in_time)},
                             {"most_newton", figure(motion.most_in_time)},
                             {"has_mean", motion.explained}};
+  if (motion.changes_by_use)
+    json["drag_by_use"] = {{"first_newton", figure(motion.at_first_use)},
+                           {"last_newton", figure(motion.after_use)},
+                           {"way", figure(motion.way_of_use)}};
   if (motion.limit > 0)
     json["viscosity_limit"] = {{"newton", figure(motion.limit)},
                                {"speed", figure(motion.limit / std::abs(motion.damping))}};

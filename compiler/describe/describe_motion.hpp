@@ -13,4 +13,8 @@ std::string motion_lines(const OpposingForce& motion);
 /// Adds the same to the JSON; only what there is.
 void add_motion(nlohmann::ordered_json& json, const OpposingForce& motion);
 
+/// What of a mass differs with the way, and from place to place, likewise.
+std::string mass_lines(const Mass& mass);
+void add_mass(nlohmann::ordered_json& json, const Mass& mass);
+
 }  // namespace wale

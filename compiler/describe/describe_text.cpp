@@ -85,7 +85,7 @@ std::vector<std::string> reading_lines(const DescribedPercept& percept, const De
     lines.push_back(readable("{}`{}` renders it as {}", description.shaking ? "" : "the author wrote no physics: ",
                              description.device.name, percept.realisation));
   if (!percept.alone && !percept.extracted)
-    lines.push_back(readable("{}, so a run cannot read it back", percept.changed       ? "a factor changes its force"
+    lines.push_back(readable("{}, so a run cannot read it back", percept.changed       ? "a limit, a factor or a condition changes its force"
                                                                  : description.shaking ? "other percepts shake it too"
                                                                                        : "other forces push too"));
   return lines;
@@ -297,9 +297,13 @@ std::string coming_words(const ComingForce& coming) {
                           : readable("{} with time", does);
 }
 
-/// "; a push of 2 N towards 0 degrees comes after 12 s": of what was looked for after the first seconds.
+/// "; a push of 2 N towards 0 degrees comes after 12 s", or a swing: of what was looked for after the first seconds.
 std::string found_later_words(const Description& description) {
-  const glm::dvec2 push = description.coming.later_push;
+  const ComingForce& coming = description.coming;
+  if (coming.later_swing > 0 && description.other.slowly == 0)
+    return readable("; a swing of {:.3g} N{} comes after {:.3g} s", coming.later_swing,
+                    coming.later_rate > 0 ? readable(" at {:.3g} Hz", coming.later_rate) : "", coming.after);
+  const glm::dvec2 push = coming.later_push;
   if (push == glm::dvec2(0) || description.other.slowly > 0) return {};
   const double angle = std::fmod(std::atan2(push.y, push.x) + 2 * std::numbers::pi, 2 * std::numbers::pi);
   return readable(
@@ -331,13 +335,18 @@ std::string other_forces(const Description& description) {
   if (description.swirl != 0)
     text += readable("  a swirl of {:.3g} N/m, which turns a resting hand {}\n", std::abs(description.swirl),
                      description.swirl > 0 ? "counterclockwise" : "clockwise");
+  if (description.rest)
+    text += readable("  its spring pulls to {:.3g} mm, {:.3g} mm from the middle\n", 1e3 * description.rest->x,
+                     1e3 * description.rest->y);
   if (const glm::dvec2 push = description.constant_push; push != glm::dvec2(0))
     text +=
-        readable("  a constant push of {:.3g} N towards {}\n", std::hypot(push.x, push.y),
+        readable("  a {} of {:.3g} N towards {}\n",
+                 description.rest ? "push in the middle" : "constant push", std::hypot(push.x, push.y),
                  in_degrees(readable("{:.0f}", std::round(std::atan2(push.y, push.x) * 180 / std::numbers::pi) + 0.0)));
   if (description.sway.amplitude > 0)
     text += readable("  a sway of {:.3g} N at {:.3g} Hz, which no percept tells\n", description.sway.amplitude,
                      description.sway.frequency);
+  text += parts_line("sway", description.sway.parts) + parts_line("vibration", description.vibration_parts);
   if (description.sway.course) text += course_line("sway", *description.sway.course);
   if (description.vibration_course) text += course_line("vibration", *description.vibration_course);
   if (description.noise.amplitude > 0)
@@ -346,7 +355,8 @@ std::string other_forces(const Description& description) {
   if (description.travel)
     text += readable("  a pattern that travels towards {}\n",
                      in_degrees(readable("{}", whole_degrees(*description.travel))));
-  text += uneven_line(description.uneven) + motion_lines(description.motion) + held_lines(description.held);
+  text += uneven_line(description.uneven) + motion_lines(description.motion) + mass_lines(description.mass) +
+          held_lines(description.held);
   if (description.small_feature > 0)
     text += readable("  up to {:.3g} N in less than a hundredth of the patch, which no percept tells\n",
                      description.small_feature);

@@ -82,6 +82,22 @@ std::string course_line(const char* name, const SwingCourse& course) {
                   course.tenth_after > 0 ? readable(", a tenth after {:.2g} s", course.tenth_after) : "");
 }
 
+std::string parts_line(const char* name, const std::vector<SwingPart>& parts) {
+  if (parts.empty()) return {};
+  std::string text = readable("  the {} is the sum of ", name);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += readable("{}{:.3g} N at {:.3g} Hz", i == 0 ? "" : i + 1 < parts.size() ? ", " : " and ", parts[i].amplitude,
+                     parts[i].frequency);
+  return text + "\n";
+}
+
+nlohmann::ordered_json parts_json(const std::vector<SwingPart>& parts) {
+  auto json = nlohmann::ordered_json::array();
+  for (const SwingPart& each : parts)
+    json.push_back({{"amplitude_newton", figure(each.amplitude)}, {"frequency_hz", figure(each.frequency)}});
+  return json;
+}
+
 nlohmann::ordered_json course_json(const SwingCourse& course) {
   nlohmann::ordered_json json = {{"course", course.grows ? "grows" : "dies away"},
                                  {"greatest_newton", figure(course.greatest)},

@@ -29,6 +29,10 @@ void add_held(nlohmann::ordered_json& json, const std::vector<HeldFigure>& figur
 std::string course_line(const char* name, const SwingCourse& course);
 nlohmann::ordered_json course_json(const SwingCourse& course);
 
+/// "the vibration is the sum of 0.5 N at 80 Hz and 0.3 N at 200 Hz", as a line; empty without parts; and in JSON.
+std::string parts_line(const char* name, const std::vector<SwingPart>& parts);
+nlohmann::ordered_json parts_json(const std::vector<SwingPart>& parts);
+
 /// "the vibration differs from place to place: from none to 1 N", as a line; empty if `swing` has no least size.
 std::string uneven_line(const Swing& swing);
 

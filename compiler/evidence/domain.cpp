@@ -53,8 +53,10 @@ bool of_drag(CueKind kind) {
 
 /// Whether a cue tells of another one how it differs, or what pressing the button adds.
 bool of_another(CueKind kind) {
-  constexpr CueKind all[] = {CueKind::uneven_vibration, CueKind::held_slow_drag, CueKind::held_drag, CueKind::held_mass,
-                             CueKind::held_vibration};
+  constexpr CueKind all[] = {CueKind::uneven_vibration, CueKind::drag_lost_by_use, CueKind::held_slow_drag, CueKind::held_drag, CueKind::held_mass,
+                             CueKind::held_vibration, CueKind::other_vibration, CueKind::other_sway,
+                             CueKind::changing_vibration, CueKind::changing_sway, CueKind::one_way_mass_x,
+                             CueKind::one_way_mass_y, CueKind::uneven_mass};
   return whole_of(kind) || std::ranges::find(all, kind) != std::end(all);
 }
 

@@ -155,6 +155,8 @@ PerceptReading percept_reading(const Bank& bank, std::size_t index, const ForceR
   // Nor has a drag a level that no one friction or viscosity tells.
   const bool drags = record.extractor == Extractor::damping || record.extractor == Extractor::opposing_force;
   told.unknown |= told.readable && told.size == 0 && told.aimed > 0 && drags && found.opposing.by_no_figure();
+  told.unknown |= told.readable && told.size == 0 && told.aimed > 0 && record.extractor == Extractor::inertia &&
+                  !found.inertia.is_one();
   if (told.unknown) told.level = told.magnitude = std::numeric_limits<double>::quiet_NaN();
   return told;
 }
@@ -190,8 +192,8 @@ std::string cause_of_difference(const PerceptRecord& record, const PerceptReadin
   if (record.extractor == Extractor::vibration && found.sway.amplitude >= least_force &&
       found.vibration.amplitude < least_force)
     return readable("it goes slower than {:.0f} Hz, which is a sway and no vibration", slowest_vibration);
-  if (record.alone) return "the device or the shape of the force changes it";
   if (!record.basis.summand) return "its force is changed after it was solved";
+  if (record.alone) return "the device or the shape of the force changes it";
   return reading.size < reading.aimed ? "another force takes from it" : "another force adds to it";
 }
 

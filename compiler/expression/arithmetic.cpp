@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "compiler/expression/check_expression.hpp"
@@ -71,6 +72,18 @@ Value compared(ExpressionReading& reading, const OperatorUse& use) {
   return result;
 }
 
+/// "vector(10 mm, 0 mm)" for the number beside a vector, in the unit in which it is written.
+std::string as_vector(const ExpressionReading& reading, const OperatorUse& use) {
+  const bool left = use.left.type == Value::Type::number;
+  const ExprId number = left ? use.node.left : use.node.right;
+  const std::string unit = reading.dimension_names().unit((left ? use.left : use.right).dimension);
+  if (!std::holds_alternative<NumberLiteral>(use.tree.expr(number)))
+    return fmt::format("vector(…, 0{}{})", unit.empty() ? "" : " ", unit);
+  const std::string written(reading.surroundings.sources.text(use.tree.span(number)));
+  const std::size_t behind = std::min(written.find_first_of(' '), written.size());
+  return fmt::format("vector({}, 0{})", written, written.substr(behind));
+}
+
 Value added_or_compared(ExpressionReading& reading, const OperatorUse& use) {
   const auto& [tree, node, left, right, scope, span] = use;
   if (left.type != right.type)
@@ -78,7 +91,8 @@ Value added_or_compared(ExpressionReading& reading, const OperatorUse& use) {
         Code::wrong_type, span,
         fmt::format("expected two numbers or two vectors around `{}`, found {} and {}", sign(node.op),
                     type_words(left.type), type_words(right.type)),
-        "", "make the number a vector, as in `vector(1 N, 0 N)`, or take `length(…)` of the vector");
+        "", fmt::format("make the number a vector, as in `{}`, or take `length(…)` of the vector",
+                        as_vector(reading, use)));
   if (left.dimension != right.dimension) {
     report_mismatch(reading, use);
     return failed_value(span);

@@ -202,8 +202,19 @@ std::optional<Advice> weight_mend(const ExpressionReading& reading, const Syntax
       .fix(replace(tree.span(expr), meant, {}, false));
 }
 
-/// `Ns` and `Nmm`: two units without the space between them.
+/// `Ns` and `Nmm`: two units without the space between them; and `N.s`, with points for it.
 std::optional<std::string> parted_units(std::string_view word, const Declarations& declarations) {
+  if (word.find('.') != std::string_view::npos) {
+    std::string units;
+    for (std::size_t begin = 0; begin <= word.size();) {
+      const std::size_t end = std::min(word.find('.', begin), word.size());
+      const std::string_view unit = word.substr(begin, end - begin);
+      if (!declarations.units.contains(unit)) return std::nullopt;
+      units += fmt::format("{}{}", units.empty() ? "" : " ", unit);
+      begin = end + 1;
+    }
+    return units;
+  }
   for (std::size_t cut = 1; cut < word.size(); ++cut)
     if (declarations.units.contains(word.substr(0, cut)) && declarations.units.contains(word.substr(cut)))
       return fmt::format("{} {}", word.substr(0, cut), word.substr(cut));

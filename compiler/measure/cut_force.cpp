@@ -173,6 +173,8 @@ FateRecord fate_of_force(FateRecord force, const Bank& bank, float speed) {
     force.reason = readable("by the material's formulas, which ask for {} along x or y, and `{}` gives {:.3g} N",
                             !std::isfinite(cut.asked)  ? "more than any number"
                             : cut.asked > told_newtons ? readable("more than {:g} N", told_newtons)
+                            : readable("{:.3g}", cut.asked) == readable("{:.3g}", cut.given)
+                                ? readable("a little more than {:.3g} N", cut.given)
                                                        : readable("up to {:.3g} N", cut.asked),
                             bank.program().description().device.name, cut.given);
   return force;

@@ -102,7 +102,8 @@ Shaker read_vibration(RecordReader& reader) {
 }
 
 /// Reads the moving mass, its damping and its friction. Missing figures and those marked `unknown` are unknown.
-void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::string>& unknown) {
+void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::string>& unknown,
+                 std::vector<FigureInterval>& intervals) {
   const auto known = [&](const char* key) {
     const auto* found = reader.setting(key);
     if (found != nullptr && !is_unknown(*found)) return found;
@@ -110,7 +111,12 @@ void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::
     return static_cast<const Setting*>(nullptr);
   };
   const auto optional = [&](const char* key, const char* dimension, double& figure) {
-    if (const auto* found = known(key)) figure = reader.quantity(*found, 0, dimension).value_or(0);
+    const auto* found = known(key);
+    if (found == nullptr) return;
+    figure = reader.quantity(*found, 0, dimension).value_or(0);
+    if (found->items.size() > 1 && has_word(found->items[1], "within"))
+      if (const auto interval = read_within(reader, found->items[1], dimension))
+        intervals.push_back({key, interval->first, interval->second});
   };
   optional("mass", "mass", profile.mass);
   optional("damping", "viscosity", profile.damping);
@@ -120,7 +126,16 @@ void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::
     const auto* found = known(key);
     if (found == nullptr) return;
     x = reader.quantity(*found, 0, dimension).value_or(0);
-    y = found->items.size() > 1 ? reader.quantity(*found, 1, dimension).value_or(0) : x;
+    y = x;
+    const char* axis = "x";
+    for (std::size_t i = 1; i < found->items.size(); ++i) {
+      if (!has_word(found->items[i], "within")) {
+        y = reader.quantity(*found, i, dimension).value_or(0);
+        axis = "y";
+      } else if (const auto interval = read_within(reader, found->items[i], dimension)) {
+        intervals.push_back({fmt::format("{} {}", key, axis), interval->first, interval->second});
+      }
+    }
     if (x < 0 || y < 0)
       reader.report(Code::value_out_of_range, found->span, fmt::format("`{}` must not be negative", key),
                     fmt::format("leave out the `-`, or write `{} unknown`", key));
@@ -205,7 +220,7 @@ void read_figures(RecordReader& reader, const Declarations& declarations, Device
     profile.patch_rim = reader.quantity(*patch, 2, "length").value_or(0);
   }
   if (!vibrates) {
-    read_handle(reader, profile, device.unknown);
+    read_handle(reader, profile, device.unknown, device.intervals);
     read_motors(reader, profile);
   }
 }
@@ -249,6 +264,20 @@ void read_all_realisations(RecordReader& reader, const Declarations& declaration
                    : "give a force without a `rate`, or use another class of devices");
 }
 
+/// `grade simulated`: what was measured on a simulation is about no plugged device.
+void read_grade(RecordReader& reader, const DeviceWiring& wiring) {
+  const auto* grade = reader.setting("grade");
+  if (!grade) return;
+  const std::string word = grade->items.size() == 1 && !grade->items[0].value ? words_of(grade->items[0]) : "";
+  if (word != "measured" && word != "simulated")
+    reader.report(Code::wrong_type, grade->span, "the grade of a device's figures is measured or simulated",
+                  "write `grade simulated` if a simulation gave them");
+  else if (word == "simulated" && (!wiring.usb.empty() || wiring.is_generic))
+    reader.report(Code::value_out_of_range, grade->span,
+                  "figures that were measured on a simulation cannot scale a plugged device",
+                  "remove `usb`, or measure the device itself: `wale calibrate device`");
+}
+
 }  // namespace
 
 void declare_device(RecordReader& reader, Declarations& declarations) {
@@ -268,9 +297,11 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
     read_source_of_position(reader, profile);
   }
   read_figures(reader, declarations, device, vibrates);
-  read_wiring(reader, profile, device.wiring);
-  if (const auto* gain = vibrates ? nullptr : reader.setting("gain"); gain && is_unknown(*gain))
+  read_wiring(reader, profile, device.wiring, device.intervals);
+  if (const auto gains = vibrates ? std::vector<const Setting*>{} : reader.settings("gain");
+      !gains.empty() && is_unknown(*gains.front()))
     device.unknown.emplace_back("gain");
+  if (!vibrates) read_grade(reader, device.wiring);
   read_assumptions(reader, device, vibrates);
   read_all_realisations(reader, declarations, device, vibrates);
   device.source = reader.text("source");

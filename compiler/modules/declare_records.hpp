@@ -1,8 +1,10 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/expression/check_expression.hpp"
@@ -68,9 +70,19 @@ Advice another_name(Span declared);
 void read_realisations(RecordReader& reader, const Declarations& declarations, const std::string& owner,
                        std::map<std::string, Realisation>& realise);
 
-/// Reads `usb`, `axes`, `motors` and `gain` of a device: which USB devices it describes, and the directions of its axes
-/// and motors.
-void read_wiring(RecordReader& reader, const DeviceProfile& profile, DeviceWiring& wiring);
+/// Reads `usb`, `axes` and `motors` of a device, and what `read_response` reads: which USB devices it describes, and the
+/// directions and forces of its axes and motors.
+void read_wiring(RecordReader& reader, const DeviceProfile& profile, DeviceWiring& wiring,
+                 std::vector<FigureInterval>& intervals);
+
+/// Reads `gain`, `dead_band`, `nonlinearity`, `saturation` and `offset` of a device, with the 95 % intervals of those
+/// that were calibrated. Reports figures that no device has (W0305), and then reads none of the last four.
+void read_response(RecordReader& reader, const DeviceProfile& profile, DeviceWiring& wiring,
+                   std::vector<FigureInterval>& intervals);
+
+/// Reads `within 0.94 .. 0.96`: the 95 % interval of the figure before it. An empty one is reported.
+std::optional<std::pair<double, double>> read_within(RecordReader& reader, const SettingItem& item,
+                                                     const std::string& dimension);
 
 /// Each enters one record of its kind.
 void declare_percept(RecordReader& reader, Declarations& declarations);

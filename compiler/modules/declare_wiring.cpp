@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "compiler/modules/declare_records.hpp"
 
@@ -66,25 +67,13 @@ void read_usb(RecordReader& reader, DeviceWiring& wiring) {
 
 }  // namespace
 
-void read_wiring(RecordReader& reader, const DeviceProfile& profile, DeviceWiring& wiring) {
+void read_wiring(RecordReader& reader, const DeviceProfile& profile, DeviceWiring& wiring,
+                 std::vector<FigureInterval>& intervals) {
   read_usb(reader, wiring);
   if (profile.has_position()) read_axes(reader, "axes", wiring.axes);
   if (profile.shaker) return;
   read_axes(reader, "motors", wiring.motors);
-  const auto* gain = reader.setting("gain");
-  if (!gain || is_unknown(*gain)) return;
-  wiring.gain[0] = reader.quantity(*gain, 0, "number").value_or(1);
-  wiring.gain[1] = gain->items.size() > 1 ? reader.quantity(*gain, 1, "number").value_or(1) : wiring.gain[0];
-  for (double& each : wiring.gain)
-    if (!(each >= DeviceWiring::least_gain && each <= DeviceWiring::most_gain)) {
-      each = 1;
-      reader.report(
-          Code::value_out_of_range, gain->span,
-          fmt::format("a gain must be from {} to {}: the force at the handle, in newtons, for a command of 1 N",
-                      DeviceWiring::least_gain, DeviceWiring::most_gain),
-          "write, for example, `gain 0.95, 1.05`; if a motor pulls the wrong way, reverse it: `motors -x, y`");
-      return;
-    }
+  read_response(reader, profile, wiring, intervals);
 }
 
 }  // namespace wale

@@ -43,7 +43,7 @@ Setting Parser::setting() {
   if (at(TokenKind::equals) || at(TokenKind::colon)) {
     const Token& next = token(at_ + 1);
     complain(fmt::format("a setting has no {} after its name", shown(here())), "a value",
-             fmt::format("write `{} {}`", setting.key.text, spelling(next)),
+             fmt::format("write `{} {}`", setting.key.text, value_at(at_ + 1)),
              // Before a parenthesis it may be a formula whose setting has lost its name.
              next.kind == TokenKind::left_parenthesis ? std::vector<Fix>{} : drop_here());
     advance();
@@ -200,7 +200,16 @@ void Parser::stray_statement(MaterialDecl& material, bool& misplaced) {
 }
 
 /// `roughness 0.5, stickiness 0.3` and `roughness 0.5 stickiness 0.3`. The second is read as a number with a unit.
-void Parser::second_percept() {
+void Parser::second_percept(std::size_t level) {
+  // `roughness fine 0.3`: two levels of one percept.
+  if (at_ == level + 1 && kind(level) == TokenKind::name && at(TokenKind::number)) {
+    const Span both = {tree_.source, token(level).begin, here().end};
+    complain_at(Code::unexpected_token, both, "a level is a name or a number, and here are both", "one level",
+                fmt::format("`{}`", sources_.text(both)),
+                fmt::format("write `{0} {1}` or `{0} {2}`", spelling(token(level - 1)), spelling(token(level)),
+                            spelling(here())));
+    throw Abandon{};
+  }
   const bool comma = at(TokenKind::comma);
   const bool is_unit = at(TokenKind::number) && at_ > 0 && kind(at_ - 1) == TokenKind::name;
   const std::size_t name = comma ? at_ + 1 : is_unit ? at_ - 1 : at_;
@@ -218,6 +227,55 @@ void Parser::second_percept() {
   throw Abandon{};
 }
 
+/// Reports `force = firm()` and other statements of physics among percepts.
+void Parser::no_physics_here() {
+  if (!physical_keyword_named(spelling(here()))) return;
+  const bool named = followed_by(TokenKind::name) && !ends_statement(at_ + 1);
+  const TokenKind behind = kind(at_ + (named ? 2 : 1));
+  if (behind != TokenKind::equals && !(named && behind == TokenKind::colon)) return;
+  complain_at(Code::unexpected_token, span_of(here()), fmt::format("a `{}` is no percept", spelling(here())),
+              "a percept, as in `roughness 0.6`", shown(here()),
+              fmt::format("a `{}` belongs in `physical {{ … }}`", spelling(here())));
+  throw Abandon{};
+}
+
+/// Reports slips in a level that its parts alone do not show: quotes around it, `+/-`, and words of evidence that are
+/// misspelt, which would be taken for units.
+void Parser::mistyped_level() {
+  if (ends_statement(at_)) return;
+  if (at(TokenKind::text)) {
+    const std::string quoted(input_.texts[here().value]);
+    const bool is_number = !quoted.empty() && quoted.find_first_not_of("0123456789.") == std::string::npos;
+    std::vector<Fix> fixes = is_number ? std::vector{replace(span_of(here()), quoted)} : unquote(false);
+    if (!fixes.empty())
+      fail("a level has no quotes", "a level from 0 to 1, or its name", fmt::format("write `{}`", quoted), std::move(fixes));
+  }
+  for (std::size_t index = at_ + 1; !ends_statement(index); ++index) {
+    const bool signs = (kind(index) == TokenKind::plus && kind(index + 2) == TokenKind::minus) ||
+                       (kind(index) == TokenKind::minus && kind(index + 2) == TokenKind::plus);
+    if (signs && kind(index + 1) == TokenKind::slash && !ends_statement(index + 2)) {
+      const Span sign = {tree_.source, token(index).begin, token(index + 2).end};
+      complain_at(Code::unexpected_token, sign, "a tolerance is written with `±`", "`±` or `+-`",
+                  fmt::format("`{}`", sources_.text(sign)), "write `±` or `+-`", {replace(sign, "+-")});
+      throw Abandon{};
+    }
+    const bool behind_value = kind(index - 1) == TokenKind::number || kind(index - 1) == TokenKind::percent ||
+                              (index == at_ + 1 && kind(at_) == TokenKind::name);
+    if (kind(index) != TokenKind::name || !behind_value || is_evidence(index)) continue;
+    const bool ends = ends_statement(index + 1) || kind(index + 1) == TokenKind::plus_minus ||
+                      kind(index + 1) == TokenKind::comma;
+    const std::string_view word = spelling(token(index));
+    const std::vector<std::string> words = words_of_evidence();
+    constexpr std::size_t telling = 5;  // letters
+    const auto meant = ends && word.size() >= telling ? nearest_spelling(std::string(word), words) : std::nullopt;
+    if (!meant) continue;
+    complain_at(Code::unexpected_token, span_of(token(index)), fmt::format("no evidence is called `{}`", word),
+                fmt::format("`{}`", *meant), fmt::format("`{}`", word), fmt::format("did you mean `{}`?", *meant),
+                respell(span_of(token(index)), word, words), {}, {{"meant", *meant}});
+    throw Abandon{};
+  }
+}
+
 PerceptStatement Parser::percept_statement() {
   const std::size_t begin = at_;
   PerceptStatement percept;
@@ -233,14 +291,16 @@ PerceptStatement Parser::percept_statement() {
         quoted ? std::vector{replace(span_of(here()), std::string(input_.texts[here().value]))} : std::vector<Fix>{});
     throw Abandon{};
   }
+  no_physics_here();
   percept.name = take_word();
   if (at(TokenKind::equals) || at(TokenKind::colon)) {
-    const Token& next = token(at_ + 1);
     complain(fmt::format("a percept's level has no {} before it", shown(here())), "a level",
-             fmt::format("write `{} {}`", percept.name.text, spelling(next)), drop_here());
+             fmt::format("write `{} {}`", percept.name.text, value_at(at_ + 1)), drop_here());
     advance();
   }
   in_setting_ = true;
+  mistyped_level();
+  const std::size_t level = at_;
   const bool alone = ends_statement(at_ + 1) || kind(at_ + 1) == TokenKind::plus_minus ||
                      kind(at_ + 1) == TokenKind::comma || is_evidence(at_ + 1);
   const bool ends_behind = ends_statement(at_ + 2) || kind(at_ + 2) == TokenKind::plus_minus;
@@ -282,7 +342,7 @@ PerceptStatement Parser::percept_statement() {
     while (at(TokenKind::comma) && is_word(at_ + 1, "by") && kind(at_ + 2) == TokenKind::name)
       once("the map of a percept", [&] { advance(), advance(), advance(); });
   }
-  if (!ends_statement(at_)) second_percept();
+  if (!ends_statement(at_)) second_percept(level);
   percept.span = since(begin);
   if (at(TokenKind::range)) {
     complain("a level must be one number, with or without a tolerance", "`±`, or the end of the line",

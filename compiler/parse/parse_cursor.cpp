@@ -73,6 +73,9 @@ Word Parser::declared_name(std::string_view declares) {
     std::string help;
     if (at(TokenKind::number)) help = "names must begin with a letter";
     if (at(TokenKind::text)) help = "write names without quotes";
+    // `height = grating(…)`: `height` was meant as the name, or the name was left out.
+    if (at(TokenKind::equals) && at_ > 0)
+      help = fmt::format("give it a name: `{} NAME = …`", spelling(token(at_ - 1)));
     fail(fmt::format("expected the name of the {}{}", declares, after_previous()), "a name", std::move(help),
          unquote(false));
   }
@@ -241,6 +244,9 @@ std::string Parser::mend_here() const {
   const bool touching = previous.end == next.begin;
   if (is_doubled()) return fmt::format("`{}` is written twice; leave one out", spelling(next));
   if (const std::string argument = mend_argument(); !argument.empty()) return argument;
+  if (is_where_clause())
+    return fmt::format("names are declared in lines of their own: write `{} {} = …` above",
+                       in_force_ ? "height` or `let" : "let", spelling(after));
   if (const std::string origin = mend_origin(); !origin.empty()) return origin;
   if (const std::string other = mend_other_order(); !other.empty()) return other;
   switch (next.kind) {
@@ -265,6 +271,8 @@ std::string Parser::mend_here() const {
                   ? fmt::format("; to call a function, `{}({}(…))`", spelling(previous), spelling(next))
                   : "");
     case TokenKind::comma:
+      if (in_force_ && open_parentheses_.empty() && is_word(at_ + 1, "limit"))
+        return "`limit` follows the force without a comma: drop it";
       if (previous.kind == TokenKind::number && touching && after.kind == TokenKind::number &&
           after.begin == next.end) {
         return fmt::format("write decimals with a point: `{}.{}`", spelling(previous), spelling(after));

@@ -221,6 +221,10 @@ bool Parser::is_suffix_name(std::size_t index) const {
   return !in_setting_ || !is_evidence(index);
 }
 
+std::vector<std::string> Parser::words_of_evidence() {
+  return {std::begin(evidence_words), std::end(evidence_words)};
+}
+
 bool Parser::is_evidence(std::size_t index) const {
   return !ends_statement(index) &&
          std::ranges::any_of(evidence_words, [&](std::string_view word) { return is_word(index, word); });

@@ -77,6 +77,12 @@ bool Parser::is_call_without_parentheses() const {
   return is_height;
 }
 
+/// `force = lateral(h) where h = …`, and `with`, as other languages name a part of a formula behind it.
+bool Parser::is_where_clause() const {
+  if (!open_parentheses_.empty() || !(is_word(at_, "where") || is_word(at_, "with") || is_word(at_, "let"))) return false;
+  return !here().starts_line && kind(at_ + 1) == TokenKind::name && kind(at_ + 2) == TokenKind::equals;
+}
+
 /// `like brick`, where a material is expected.
 bool Parser::is_like(std::size_t index) const {
   if (!in_origin_ || !is_word(index, "like") || ends_statement(index + 1)) return false;
@@ -89,6 +95,13 @@ std::string_view Parser::value_at(std::size_t index) const {
   const bool has_unit = kind(index) == TokenKind::number && (next == TokenKind::name || next == TokenKind::percent) &&
                         !ends_statement(index + 1);
   return text_.substr(token(index).begin, token(index + (has_unit ? 1 : 0)).end - token(index).begin);
+}
+
+/// The text from the token to the end of its statement.
+std::string_view Parser::rest_of_statement(std::size_t index) const {
+  std::size_t last = index;
+  while (!ends_statement(last + 1)) ++last;
+  return text_.substr(token(index).begin, token(last).end - token(index).begin);
 }
 
 /// The text of the value that ends before the token, or of its last part: a number with its unit.
@@ -197,6 +210,9 @@ std::vector<Fix> Parser::fixes_here() const {
   if (!mend_limit().empty())
     return is_word(at_, "limit") ? std::vector<Fix>{} : std::vector{replace(span_of(here()), "limit", {}, false)};
   if (!mend_origin().empty()) return fix_origin();
+  if (is_where_clause()) return {};
+  if (at(TokenKind::comma) && in_force_ && open_parentheses_.empty() && is_word(at_ + 1, "limit"))
+    return {replace(span_of(here()), "", "drop the comma")};
   const Token& previous = token(at_ - 1);
   const Token& next = here();
   const Token& after = token(at_ + 1);

@@ -124,6 +124,11 @@ ForceStatement Parser::force() {
   force.value = expression();
   if (at(TokenKind::name) && is_word(at_, "limit")) {
     advance();
+    if (at(TokenKind::colon) || at(TokenKind::equals)) {
+      complain(fmt::format("`limit` has no {} after it", shown(here())), "a force",
+               fmt::format("write `limit {}`", value_at(at_ + 1)), drop_here());
+      advance();
+    }
     force.limit = expression();
     while (at(TokenKind::name) && is_word(at_, "limit")) once("the limit of a force", [&] { advance(), expression(); });
   }
@@ -158,6 +163,7 @@ ParamStatement Parser::param() {
     advance();
     param.soft_range = range();
   }
+  if (at(TokenKind::comma) && followed_by(TokenKind::text)) no_comma("the description of a parameter");
   if (at(TokenKind::text)) {
     param.description = input_.texts[here().value];
     advance();
@@ -227,7 +233,9 @@ UpdateStatement Parser::update() {
 void Parser::no_equals(const char* keyword, const char* what, const char* expected) {
   if (!at(TokenKind::equals)) return;
   complain(fmt::format("{} has no `=` before it", what), expected,
-           fmt::format("write `{} {}`", keyword, spelling(token(at_ + 1))), drop_here());
+           fmt::format("write `{} {}`", keyword,
+                       kind(at_ + 1) == TokenKind::number ? rest_of_statement(at_ + 1) : spelling(token(at_ + 1))),
+           drop_here());
   advance();
 }
 
@@ -262,7 +270,15 @@ ActiveStatement Parser::active() {
   return {expression()};
 }
 
+/// Reports and leaves out the comma here, before what stands without one.
+void Parser::no_comma(const char* what) {
+  complain(fmt::format("{} has no comma before it", what), "no comma", "drop the comma",
+           {replace(span_of(here()), "", "drop the comma")});
+  advance();
+}
+
 std::optional<Range> Parser::optional_range() {
+  if (at(TokenKind::comma) && followed_by(TokenKind::word_in)) no_comma("a range");
   if (!at(TokenKind::word_in)) return std::nullopt;
   advance();
   const Range first = range();

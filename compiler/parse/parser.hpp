@@ -86,7 +86,9 @@ class Parser {
   bool has_sections_below() const;
   [[gnu::cold]] void stray_statement(MaterialDecl& material, bool& misplaced);
   PerceptStatement percept_statement();
-  [[gnu::cold]] void second_percept();
+  [[gnu::cold]] void second_percept(std::size_t level);
+  void no_physics_here();
+  void mistyped_level();
   // parse_physical.cpp: statements of a physical block
   PhysicalStatement physical_statement();
   PhysicalKeyword physical_keyword();
@@ -98,6 +100,7 @@ class Parser {
   std::optional<Word> optional_dimension();
   UpdateStatement update();
   void no_equals(const char* keyword, const char* what, const char* expected);
+  void no_comma(const char* what);
   PatchStatement patch();
   ActiveStatement active();
   std::optional<Range> optional_range();
@@ -156,8 +159,11 @@ class Parser {
   bool is_doubled() const;
   bool is_inch_here() const;
   bool is_like(std::size_t index) const;
+  bool is_where_clause() const;
   bool closes_in_line(std::size_t open) const;
   std::string_view value_at(std::size_t index) const;
+  std::string_view rest_of_statement(std::size_t index) const;
+  static std::vector<std::string> words_of_evidence();
   std::string_view value_before(std::size_t index) const;
   std::string mend_limit() const;
   std::string mend_argument() const;

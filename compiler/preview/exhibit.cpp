@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/measure/measure.hpp"
@@ -64,9 +65,9 @@ double along_section(const Bank& bank, const Exhibit& exhibit, Force force) {
   return force.x * exhibit.way.x + force.y * exhibit.way.y;
 }
 
-/// The place on the section at a distance from its middle, m.
-glm::vec2 on_section(const Exhibit& exhibit, double distance) {
-  return glm::vec2(exhibit.through + exhibit.way * distance);
+/// The distance along the section at point `i` of `count`, the ends among them.
+double distance_at(const SectionRange& range, int i, int count) {
+  return range.from + (i / (count - 1.0)) * (range.to - range.from);
 }
 
 /// Whether the patch outside a square around its centre has more to feel or to see than the square: a wall at the side,
@@ -93,9 +94,27 @@ bool is_more_outside(const Bank& bank, const Memory* memory, double side) {
 
 }  // namespace
 
-Exhibit exhibit_of(const Bank& bank, const Memory* memory, const SectionChoice& section) {
+SectionRange section_range(const Exhibit& exhibit) {
+  const double middle = glm::dot(exhibit.centre, exhibit.way), foot = glm::dot(exhibit.through, exhibit.way);
+  SectionRange range{middle - exhibit.side / 2, middle + exhibit.side / 2};
+  constexpr double across = 1e-9;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double way = exhibit.way[axis], half = exhibit.patch_half[axis];
+    if (std::abs(way) < across) continue;
+    const double one = (half - exhibit.through[axis]) / way + foot, other = (-half - exhibit.through[axis]) / way + foot;
+    range.from = std::max(range.from, std::min(one, other)), range.to = std::min(range.to, std::max(one, other));
+  }
+  return range;
+}
+
+glm::dvec2 on_section(const Exhibit& exhibit, double distance) {
+  return exhibit.through + exhibit.way * (distance - glm::dot(exhibit.through, exhibit.way));
+}
+
+static Exhibit chosen_exhibit(const Bank& bank, const Memory* memory, const SectionChoice& section) {
   const PatchSize size = bank.size();
   Exhibit exhibit;
+  exhibit.patch_half = {size.width / 2, size.height / 2};
   exhibit.side = exhibit.patch_side = std::min(size.width, size.height);
   const double limit = bank.program().description().device.speed_limit;
   exhibit.speed = limit > 0 ? std::min(limit, brisk) : brisk;
@@ -154,7 +173,9 @@ Exhibit exhibit_of(const Bank& bank, const Memory* memory, const SectionChoice& 
   constexpr int points = 997;
   const auto varies = [&](const Exhibit& tried) {
     std::vector<glm::vec2> line;
-    for (int i = 0; i < points; ++i) line.push_back(on_section(tried, ((i + 0.5) / points - 0.5) * tried.side));
+    const SectionRange range = section_range(tried);
+    for (int i = 0; i < points; ++i)
+      line.emplace_back(on_section(tried, range.from + (i + 0.5) / points * (range.to - range.from)));
     const Look look = look_at(bank, memory, line);
     return (tried.has_relief ? look.relief : look.force) > 0.1 * (tried.has_relief ? whole.relief : whole.force);
   };
@@ -171,12 +192,54 @@ Exhibit exhibit_of(const Bank& bank, const Memory* memory, const SectionChoice& 
   return exhibit;
 }
 
+/// The place on the section where the force depends most on the velocity along it, if it is there at least half as
+/// strong as anywhere, otherwise the strongest place of the patch; the section's own place where nothing is much
+/// stronger. So a wall that damps is shown inside of it.
+static glm::dvec2 moving_place(const Bank& bank, const Exhibit& exhibit, bool chosen) {
+  if (chosen || !exhibit.resists_motion || bank.program().description().vibrates()) return exhibit.through;
+  std::vector<glm::dvec2> places{exhibit.through};
+  const SectionRange range = section_range(exhibit);
+  constexpr int along = 41, lattice = 21;
+  for (int i = 0; i < along; ++i) places.push_back(on_section(exhibit, distance_at(range, i, along)));
+  for (int row = 1; row < lattice - 1; ++row)
+    for (int column = 1; column < lattice - 1; ++column)
+      places.emplace_back((2.0 * column / (lattice - 1) - 1) * exhibit.patch_half.x,
+                          (2.0 * row / (lattice - 1) - 1) * exhibit.patch_half.y);
+  std::vector<Hand> hands;
+  for (const double speed : {0.0, exhibit.speed, -exhibit.speed})
+    for (const glm::dvec2 place : places)
+      hands.push_back({.position = glm::vec2(place), .velocity = glm::vec2(exhibit.way * speed)});
+  const std::vector<Force> forces = forces_on(bank, hands);
+  const auto changes = [&](std::size_t i) {
+    const Force rest = forces[i], there = forces[places.size() + i] - rest, back = forces[2 * places.size() + i] - rest;
+    return std::max(std::hypot(there.x, there.y), std::hypot(back.x, back.y));
+  };
+  const auto strongest_of = [&](std::size_t begin, std::size_t end) {
+    std::size_t found = begin;
+    constexpr float plainly = 1.05f;  // of places that are alike, the first
+    for (std::size_t i = begin; i < end; ++i)
+      if (changes(i) > plainly * changes(found)) found = i;
+    return found;
+  };
+  const std::size_t anywhere = strongest_of(0, places.size()), here = strongest_of(0, 1 + along);
+  constexpr float enough = 0.5f;
+  if (changes(0) >= enough * changes(anywhere)) return places[0];
+  return places[changes(here) >= enough * changes(anywhere) ? here : anywhere];
+}
+
+Exhibit exhibit_of(const Bank& bank, const Memory* memory, const SectionChoice& section) {
+  Exhibit exhibit = chosen_exhibit(bank, memory, section);
+  exhibit.moving_at = moving_place(bank, exhibit, section.at.has_value());
+  return exhibit;
+}
+
 Profile height_along(const Bank& bank, const Memory* memory, const Exhibit& exhibit, int count) {
   std::vector<glm::vec2> line;
   Profile profile;
+  const SectionRange range = section_range(exhibit);
   for (int i = 0; i < count; ++i) {
-    profile.at.push_back((i / (count - 1.0) - 0.5) * exhibit.side);
-    line.push_back(on_section(exhibit, profile.at.back()));
+    profile.at.push_back(distance_at(range, i, count));
+    line.emplace_back(on_section(exhibit, profile.at.back()));
   }
   const auto heights = reliefs(bank, memory, line);
   profile.values.assign(heights.begin(), heights.end());
@@ -186,10 +249,11 @@ Profile height_along(const Bank& bank, const Memory* memory, const Exhibit& exhi
 Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int count, bool across) {
   std::vector<Hand> hands(static_cast<std::size_t>(count));
   Profile profile;
+  const SectionRange range = section_range(exhibit);
   for (int i = 0; i < count; ++i) {
-    profile.at.push_back((i / (count - 1.0) - 0.5) * exhibit.side);
+    profile.at.push_back(distance_at(range, i, count));
     Hand& hand = hands[static_cast<std::size_t>(i)];
-    hand.position = on_section(exhibit, profile.at.back());
+    hand.position = glm::vec2(on_section(exhibit, profile.at.back()));
     hand.velocity = glm::vec2(exhibit.way * speed);
   }
   for (Force force : forces_on(bank, hands))
@@ -204,7 +268,7 @@ Profile force_against_speed(const Bank& bank, const Exhibit& exhibit, int count)
   for (int i = 0; i < count; ++i) {
     profile.at.push_back((i / (count - 1.0) - 0.5) * 2 * exhibit.speed);
     hands[static_cast<std::size_t>(i)].velocity = glm::vec2(exhibit.way * profile.at.back());
-    hands[static_cast<std::size_t>(i)].position = glm::vec2(exhibit.through);
+    hands[static_cast<std::size_t>(i)].position = glm::vec2(exhibit.moving_at);
   }
   for (Force force : forces_on(bank, hands)) profile.values.push_back(along_section(bank, exhibit, force));
   return profile;

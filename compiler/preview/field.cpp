@@ -17,7 +17,8 @@ std::vector<Force> forces_over(const Bank& bank, const Exhibit& exhibit, bool of
     for (int column = 0; column < count; ++column) {
       const glm::vec2 at = pixel_position(exhibit, column, row, count);
       const auto to_speed = static_cast<float>(2 * exhibit.speed / exhibit.side);
-      hands.push_back(of_velocity ? Hand{{}, (at - glm::vec2(exhibit.centre)) * to_speed} : Hand{at, {}});
+      hands.push_back(of_velocity ? Hand{glm::vec2(exhibit.moving_at), (at - glm::vec2(exhibit.centre)) * to_speed}
+                                  : Hand{at, {}});
     }
   }
   std::vector<Force> forces(hands.size());

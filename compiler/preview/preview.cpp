@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
 
@@ -78,8 +79,13 @@ void mark_section(Canvas& canvas, const PageBox& picture, const Exhibit& exhibit
   const glm::dvec2 from_centre = exhibit.through - exhibit.centre;
   const PagePoint through = middle + PagePoint(from_centre.x, -from_centre.y) * per_metre;
   const PagePoint half = way * (exhibit.side / 2 * per_metre);
+  const SectionRange range = section_range(exhibit);
+  const auto at = [&](double distance) {
+    const glm::dvec2 place = on_section(exhibit, distance) - exhibit.centre;
+    return middle + PagePoint(place.x, -place.y) * per_metre;
+  };
   canvas.clip(picture);
-  canvas.line(through - half, through + half, {1.3, style::ink, 0.55f, 6});
+  canvas.line(at(range.from), at(range.to), {1.3, style::ink, 0.55f, 6});
   canvas.unclip();
   if (std::abs(way.x * way.y) > 1e-9) return;
   const double aside = glm::dot(from_centre, exhibit.way) * per_metre;
@@ -128,10 +134,16 @@ Plot force_plot(const Bank& bank, const Exhibit& exhibit) {
   return plot;
 }
 
+/// "at the centre", "at 31 mm, -4 mm": where the hand is whose force is shown against velocity.
+std::string moving_place_name(const Exhibit& exhibit) {
+  if (exhibit.moving_at == glm::dvec2(0)) return "at the centre";
+  return fmt::format("at {} mm, {} mm", shown_number(1e3 * exhibit.moving_at.x), shown_number(1e3 * exhibit.moving_at.y));
+}
+
 Plot speed_plot(const Bank& bank, const Exhibit& exhibit) {
   Plot plot;
   plot.title = fmt::format("Force along {} against velocity, {}", axis_name(exhibit),
-                           exhibit.through == glm::dvec2(0) ? "at the centre" : "in the section's middle");
+                           moving_place_name(exhibit));
   plot.x_name = fmt::format("velocity along {}", axis_name(exhibit));
   plot.x_notation = speed_notation(exhibit.speed);
   plot.curves = {{force_against_speed(bank, exhibit, curve_points), style::moving, ""}};
@@ -237,7 +249,9 @@ void draw_field_and_scale(Canvas& canvas, const PageBox& picture, const Bank& ba
     write_caption(canvas, picture, fmt::format("force over {}, means; a full arrow is {}", of_velocity ? "velocity" : "position",
                                       shown_quantity(strongest, force_notation(strongest))));
   } else {
-    write_caption(canvas, picture, "no force anywhere");
+    // One that speeds up, stays or is elsewhere may feel one all the same.
+    write_caption(canvas, picture,
+                  of_velocity ? "no force " + moving_place_name(exhibit) : std::string("no force on a hand at rest"));
   }
 }
 
@@ -249,6 +263,14 @@ void draw_force_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, 
   std::erase_if(at_rest.curves, [](const Curve& curve) { return curve.name.starts_with("moving"); });
   draw_plot(canvas, upper_of_two, at_rest);
   draw_plot(canvas, lower_of_two, speed_plot(bank, exhibit));
+}
+
+/// Writes a text whole, in smaller letters where it is too wide.
+void write_fitting(Canvas& canvas, PagePoint at, double width, const std::string& text, Type type) {
+  constexpr double least = 15;
+  if (const double needed = canvas.width_of(text, type); needed > width)
+    type.size = std::max(least, type.size * width / needed);
+  canvas.write_within(at, width, text, type);
 }
 
 void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text, const Exhibit& exhibit) {
@@ -274,7 +296,7 @@ void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text, cons
   for (std::size_t i = 0; i < count; ++i) {
     const double left = margin + static_cast<double>(i) * column;
     canvas.write_within({left, top + 30}, column - 24, text.figures[i].word, style::word);
-    canvas.write_within({left, top + 70}, column - 24, text.figures[i].value, style::value);
+    write_fitting(canvas, {left, top + 70}, column - 24, text.figures[i].value, style::value);
   }
   canvas.write_within({margin, 957}, width, text.evidence, style::label);
 }

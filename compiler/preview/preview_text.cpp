@@ -76,7 +76,7 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
   }
   text.names = joined(said(program.layers, "called"), " · ");
 
-  const Description description = describe(bank, declarations, Texture::left_out);
+  const Description description = describe(bank, declarations, Texture::as_set);
   std::vector<std::string> evidence;
   std::vector<PreviewText::Figure> others;
   for (const DescribedPercept& percept : description.percepts) {
@@ -97,10 +97,9 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
   else
     text.figures.push_back(
         {"maximum force", shown_quantity(description.force.max_newton, force_notation(description.force.max_newton))});
-  if (const auto wall = description.shaking ? std::nullopt : read(bank, declarations).wall) {
-    const WallDepth depth = deepest(bank, *wall);
-    text.figures.push_back({"wall " + wall_place(*wall), fmt::format("to {}", shown_quantity(depth.newton, {"N", 1}))});
-  }
+  if (description.wall)
+    text.figures.push_back({"wall " + wall_place(description.wall->face),
+                            fmt::format("to {}", shown_quantity(description.wall->depth.newton, {"N", 1}))});
   text.figures.insert(text.figures.end(), others.begin(), others.end());
 
   std::vector<bool> is_level(program.parameters.size(), false);

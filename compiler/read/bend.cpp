@@ -79,4 +79,48 @@ Bend best_bend_of_sorted(std::vector<PlaceOnLine> line, BendKind kind, std::size
   return best;
 }
 
+std::optional<std::array<Bend, 2>> best_two_bends(const std::vector<PlaceOnLine>& line) {
+  constexpr std::size_t parts = 48;
+  if (line.size() < 4 * parts) return std::nullopt;
+  const auto ends = std::ranges::minmax(line, {}, &PlaceOnLine::at);
+  const double low = ends.min.at, length = ends.max.at - low;
+  if (!(length > 0)) return std::nullopt;
+  struct Part {
+    double count = 0, at = 0, value = 0;
+  };
+  std::array<Part, parts> means{};
+  for (const PlaceOnLine& each : line) {
+    Part& part = means[std::min(static_cast<std::size_t>((each.at - low) / length * parts), parts - 1)];
+    part.count += 1, part.at += (each.at - low) / length, part.value += each.value;
+  }
+  for (Part& each : means)
+    if (each.count > 0) each.at /= each.count, each.value /= each.count;
+  std::optional<std::array<Bend, 2>> best;
+  double least = HUGE_VAL;
+  for (std::size_t i = 1; i + 3 < parts; ++i)
+    for (std::size_t k = i + 2; k + 1 < parts; ++k) {
+      const double first = static_cast<double>(i) / parts, second = static_cast<double>(k) / parts;
+      std::array<std::array<double, 5>, 4> rows{};
+      double squares = 0;
+      for (const Part& each : means) {
+        const std::array<double, 5> columns = {1, each.at, std::max(0.0, each.at - first),
+                                               std::max(0.0, each.at - second), each.value};
+        for (std::size_t row = 0; row < 4; ++row)
+          for (std::size_t column = 0; column < 5; ++column)
+            rows[row][column] += each.count * columns[row] * columns[column];
+        squares += each.count * each.value * each.value;
+      }
+      std::array<double, 4> right{};
+      for (std::size_t row = 0; row < 4; ++row) right[row] = rows[row][4];
+      if (!solve<4>(rows)) continue;
+      double left = squares;
+      for (std::size_t row = 0; row < 4; ++row) left -= rows[row][4] * right[row];
+      if (!(left < least)) continue;
+      least = left;
+      best = {{{low + length * first, rows[2][4] / length, 0, left},
+               {low + length * second, rows[3][4] / length, 0, left}}};
+    }
+  return best;
+}
+
 }  // namespace wale

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace wale {
@@ -38,5 +39,8 @@ enum class BendKind { bends, jumps, bends_and_jumps };
 Bend best_bend(const std::vector<PlaceOnLine>& line, BendKind kind, std::size_t every = 1);
 /// Of places that are sorted along the line.
 Bend best_bend_of_sorted(std::vector<PlaceOnLine> line, BendKind kind, std::size_t every = 1);
+
+/// Where a line bends twice, by means over parts of it; the nearer bend first. Nothing if it is too short.
+std::optional<std::array<Bend, 2>> best_two_bends(const std::vector<PlaceOnLine>& line);
 
 }  // namespace wale

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "compiler/read/dependence.hpp"
 #include "compiler/read/room.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "wale/memory.hpp"
@@ -57,9 +58,14 @@ double breakaway_of(const Bank& bank, double sliding) {
   // There are too few hands to fill the lanes of a block: each runs alone.
   Bank own = bank;
   std::vector<Memory> memories(creeps.size(), Memory(own.program()));
+  // What time makes of a memory is in none that has just begun: resting hands feel it, where the others began.
+  const bool timed = goes_by_time(bank.program().description());
+  std::vector<Memory> resting = memories;
   // Hands that have just entered at the same places and moments feel what is no friction.
   std::vector<Hand> fresh(ticks_at_once * creeps.size());
-  std::vector<Force> felt(fresh.size()), unheld(fresh.size());
+  std::vector<Force> felt(fresh.size()), unheld(fresh.size()), by_time(fresh.size(), Force(0));
+  std::vector<Hand> begun(timed ? fresh.size() : 0);
+  std::vector<Force> at_first(begun.size());
   const auto count = creeps.size();
   for (std::size_t tick = 0; tick < ticks; tick += ticks_at_once) {
     for (std::size_t i = 0; i < ticks_at_once; ++i) {
@@ -74,9 +80,17 @@ double breakaway_of(const Bank& bank, double sliding) {
       for (std::size_t k = 0; k < count; ++k) {
         if (tick + i == 0) memories[k].enter(own, hands[k]);
         felt[i * count + k] = wale::tick(own, memories[k], hands[k]);
+        if (!timed) continue;
+        Hand& still = begun[i * count + k];
+        still = {};
+        still.position = still.workspace = glm::vec2(creeps[k].from), still.time = seconds;
+        if (tick + i == 0) resting[k].enter(own, still);
+        by_time[i * count + k] = wale::tick(own, resting[k], still);
       }
     }
     tick_all(bank, fresh, unheld);
+    if (timed) tick_all(bank, begun, at_first);
+    for (std::size_t i = 0; i < begun.size(); ++i) unheld[i] += by_time[i] - at_first[i];
     for (std::size_t i = 0; i < fresh.size(); ++i) {
       Creep& each = creeps[i % count];
       each.feel(-glm::dot(glm::dvec2(felt[i] - unheld[i]), each.way),

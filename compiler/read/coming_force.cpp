@@ -87,6 +87,41 @@ std::vector<ChangeAt> changes_of_waiting(const Bank& bank) {
   return changes;
 }
 
+/// Whether what comes goes about as far the other way as it goes farthest.
+bool goes_both_ways(const std::vector<ChangeAt>& changes, const ChangeAt& largest) {
+  constexpr double about_as_far = 0.5;
+  const glm::dvec2 way = largest.mean / glm::dot(largest.mean, largest.mean);
+  return std::ranges::any_of(changes, [&](const ChangeAt& each) { return glm::dot(each.mean, way) < -about_as_far; });
+}
+
+/// What hands feel for some seconds from a moment on.
+std::vector<ChangeAt> changes_from(const Bank& bank, double begin) {
+  constexpr double looked_on = 2;  // s
+  std::vector<Hand> hands = hands_at_rest(hands_waiting, glm::vec2(half_of(bank)));
+  std::vector<Force> first(hands.size()), now(hands.size());
+  tick_all(bank, hands, first);
+  std::vector<ChangeAt> changes;
+  const double rate = bank.program().description().device.rate;
+  for (double seconds = begin; seconds < begin + looked_on; seconds += 1 / rate) {
+    for (Hand& hand : hands) hand.time = seconds;
+    tick_all(bank, hands, now);
+    changes.push_back(change_at(seconds, first, now));
+  }
+  return changes;
+}
+
+/// Hz: how often a force turns about, by the first and the last time that it does; 0 if it hardly does.
+double rate_of_turning(const std::vector<ChangeAt>& changes, glm::dvec2 way) {
+  double first = 0, last = 0, before = 0;
+  long count = 0;
+  for (const ChangeAt& each : changes) {
+    const double now = glm::dot(each.mean, way);
+    if (before < 0 && now >= 0) last = each.seconds, first = count++ == 0 ? last : first;
+    if (now != 0) before = now;
+  }
+  return count > 1 ? static_cast<double>(count - 1) / (last - first) : 0;
+}
+
 /// Sizes (N) at the places of hands.
 using SizesOf = std::function<std::vector<double>(const std::vector<Hand>& hands)>;
 
@@ -150,9 +185,16 @@ ComingForce coming_force(const Bank& bank, const std::vector<std::vector<Force>>
   const std::vector<ChangeAt> changes = changes_of_waiting(bank);
   if (found.after == 0) found.after = half_there_at(changes), found.goes = takes_away(changes);
   const auto largest = std::ranges::max_element(changes, {}, &ChangeAt::size);
-  if (largest != changes.end() && largest->size >= least_force &&
-      glm::length(largest->mean) >= everywhere_alike * largest->size)
+  if (largest == changes.end() || largest->size < least_force ||
+      glm::length(largest->mean) < everywhere_alike * largest->size)
+    return found;
+  if (!goes_both_ways(changes, *largest)) {
     found.later_push = largest->mean;
+    return found;
+  }
+  const bool each_tick = remembers_anything(bank.program().description());
+  found.later_rate = rate_of_turning(each_tick ? changes : changes_from(bank, largest->seconds), largest->mean);
+  found.later_swing = glm::length(largest->mean);
   return found;
 }
 

@@ -14,6 +14,8 @@ struct ComingForce {
   bool goes = false;  ///< it ends: it is there at first, and later no more
   /// N: what comes after the seconds that were looked at, if it is much the same everywhere.
   glm::dvec2 later_push{0};
+  /// N and Hz: what of it swings, which is no push.
+  double later_swing = 0, later_rate = 0;
 };
 
 /// Of the forces on hands that hold still (`felt_at_rest`) and, if `other.later` says that more may come, on hands that

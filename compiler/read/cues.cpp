@@ -71,7 +71,7 @@ double unread_force(const ForceReading& found) {
                       found.wall || !found.steps.empty() || std::abs(found.opposing.friction) >= least_force ||
                       glm::length(found.constant) >= least_force;
   const bool resisted = pushed || std::abs(found.opposing.damping) >= least_damping || !found.opposing.explained ||
-                        std::abs(found.inertia.greatest) >= least_mass || found.vibration.amplitude >= least_force ||
+                        std::abs(found.inertia.greatest) >= least_mass || !found.inertia.is_one() || found.vibration.amplitude >= least_force ||
                         found.sway.amplitude >= least_force;
   const double noise = found.vibration.noise ? found.vibration.amplitude : 0;
   const double alone = std::max(0.0, found.still.largest - std::max(found.at_first, noise));
@@ -179,7 +179,10 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::mass_across:
     case CueKind::mass_axis: return CueKind::mass;
     case CueKind::vibration_frequency:
+    case CueKind::vibration_half:
     case CueKind::vibration_axis: return CueKind::vibration;
+    case CueKind::other_vibration_rate: return CueKind::other_vibration;
+    case CueKind::other_sway_rate: return CueKind::other_sway;
     case CueKind::steps_x:
     case CueKind::steps_y:
     case CueKind::step_push_x:
@@ -189,9 +192,11 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::drag_axis: return CueKind::drag;
     case CueKind::noise_rate:
     case CueKind::noise_axis: return CueKind::noise_in_time;
+    case CueKind::later_rate:
     case CueKind::later_x:
     case CueKind::later_y: return CueKind::later_force;
     case CueKind::sway_frequency:
+    case CueKind::sway_half:
     case CueKind::sway_axis: return CueKind::sway;
     case CueKind::outward_push: return CueKind::amplitude;
     case CueKind::other_push_x:

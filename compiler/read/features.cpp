@@ -284,6 +284,7 @@ void add_feature(const Feature& feature, double times, std::span<const glm::dvec
 }
 
 bool Feature::jumps_at(glm::dvec2 place) const {
+  if (smooth) return false;
   if (jump && std::abs(coordinate(place) - *jump) < step) return true;
   const double at = std::round((coordinate(place) - low) / step);
   const auto last = static_cast<double>(profile.size() - 1);

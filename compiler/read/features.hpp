@@ -21,6 +21,7 @@ struct Feature {
   std::optional<double> jump;  ///< m: the coordinate at which it is known to jump, however little
   /// It pushes ever more one way and never comes back: a wall, an edge or a spring. Otherwise it is a hill.
   bool monotone = false;
+  bool smooth = false;  ///< it is known to jump nowhere
 
   glm::dvec2 at(glm::dvec2 place) const;
   double coordinate(glm::dvec2 place) const {

@@ -12,7 +12,7 @@ namespace wale {
 /// What resists and swings while the button is held from the entry on.
 struct HeldButton {
   OpposingForce opposing;
-  Principal inertia;  ///< kg
+  Mass inertia;   ///< kg
   Swing sway;         ///< slower than 10 Hz
   Swing vibration;
   SlowChange slow;

@@ -7,21 +7,21 @@
 #include <numbers>
 #include <vector>
 
-#include "compiler/measure/hands.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/drag_by_place.hpp"
 #include "compiler/read/drag_by_time.hpp"
+#include "compiler/read/drag_by_use.hpp"
 #include "compiler/read/long_way.hpp"
 #include "compiler/read/motion_law.hpp"
 #include "compiler/read/room.hpp"
 #include "compiler/read/strokes.hpp"
 #include "compiler/read/tolerances.hpp"
+#include "compiler/read/two_axes.hpp"
 #include "compiler/read/unlimited.hpp"
 
 namespace wale {
 namespace {
 
-constexpr double push = 1;                    // m/s^2
 constexpr double unlike = 0.1;                // relative: two principal values that differ by more have an axis
 constexpr double surely = 3;                  // standard errors of a mean over lines
 constexpr double speed_aside = 0.2;           // m/s at which a push aside is told
@@ -207,16 +207,17 @@ void tell_differences(OpposingForce& found, const DragByPlace& drag) {
 
 }  // namespace
 
-OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
+namespace {
+
+/// What resists, but for what use makes of it; `strokes` become those that told it.
+OpposingForce opposing_law(const Bank& bank, const Outside& outside, std::vector<Stroke>& strokes, double& settling) {
   const PatchProgram& program = bank.program().description();
-  if (!depends_on_motion(program)) return {};
-  const Outside outside{wall};
   const Room space(bank);
-  std::vector<Stroke> strokes = strokes_over(bank, {1, 0}, outside, space, 0);
+  strokes = strokes_over(bank, {1, 0}, outside, space, 0);
   const DragByTime in_time = drag_by_time(bank, strokes);
   std::array<LongWay, 2> ways;
   if (!in_time.changes) ways = long_ways(bank, space);
-  const double settling = settling_of(ways);
+  settling = settling_of(ways);
   if (settling > 0) strokes = strokes_over(bank, {1, 0}, outside, space, settling);
   const auto opposed_by = [&] {
     return in_time.changes ? opposed_over_time(bank, strokes, outside) : opposed_on(bank, strokes, outside);
@@ -236,6 +237,15 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
     by_axis[axis] = mean_drags(part(strokes), part(along_strokes(strokes, opposed)));
   }
   const double chance = chance_of(strokes, along_strokes(strokes, opposed));
+  const bool no_differences = differences.forward == differences.backward && differences.least == differences.most;
+  const auto two = !in_time.changes && settling == 0 && no_differences ? two_axes(strokes, opposed) : std::nullopt;
+  if (two) {
+    OpposingForce found{.friction = two->friction.greatest, .damping = two->damping.greatest};
+    found.friction_across = two->friction.across, found.friction_axis = two->friction.axis;
+    found.damping_across = two->damping.across, found.damping_axis = two->damping.axis;
+    found.by_speed = by_axis[0], found.aside = mean.aside, found.along = std::move(by_axis);
+    return found;
+  }
   const Principal whole = principal_of(mean.along, mean.across, std::max(least_force, chance));
   if (!whole.directed()) {
     OpposingForce found = law_of(strokes, along_strokes(strokes, opposed), program.device.most());
@@ -292,6 +302,22 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   return found;
 }
 
+}  // namespace
+
+OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
+  if (!depends_on_motion(bank.program().description())) return {};
+  const Outside outside{wall};
+  std::vector<Stroke> strokes;
+  double settling = 0;
+  OpposingForce found = opposing_law(bank, outside, strokes, settling);
+  // A long bristle needs more than a stroke to turn about.
+  if (settling > 0) return found;
+  const DragByUse use = drag_by_use(bank, strokes, outside);
+  found.changes_by_use = use.changes;
+  if (use.changes) found.at_first_use = use.first, found.after_use = use.last, found.way_of_use = use.way;
+  return found;
+}
+
 double OpposingForce::rise() const {
   return saturation_speed >= too_slow_to_matter ? std::abs(friction) / saturation_speed : 0;
 }
@@ -320,39 +346,6 @@ std::pair<double, double> drags_where_they_differ(const OpposingForce& one, cons
 double OpposingForce::creeping() const {
   constexpr double slowly = 0.01;  // m/s
   return by_speed.empty() || by_speed.front().speed > slowly ? 0 : unexplained_at(slowly);
-}
-
-Principal inertia(const Bank& bank) {
-  if (!reads(bank.program().description(),
-             {Input::acceleration_x, Input::acceleration_y, Input::raw_acceleration_x, Input::raw_acceleration_y}))
-    return {};
-  const glm::dvec2 half = half_of(bank);
-  constexpr int side = 8;
-  // One place is sure to have room, if there is any.
-  std::vector<glm::dvec2> at = {Room(bank).nearest({})};
-  for (int row = 0; row < side; ++row)
-    for (int column = 0; column < side; ++column)
-      at.push_back(half * ((glm::dvec2(column, row) + 0.5) / (0.5 * side) - 1.0));
-  std::vector<Hand> hands;
-  for (const glm::dvec2 place : at)
-    for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
-      Hand& hand = hands.emplace_back();
-      hand.position = hand.workspace = glm::vec2(place);
-      hand.acceleration = hand.raw_acceleration = glm::vec2(push * direction);
-    }
-  std::vector<Force> forces(hands.size());
-  tick_all(bank, hands, forces);
-  const double most = bank.program().description().device.most();
-  glm::dvec2 by_x{0}, by_y{0};
-  double places = 0;
-  for (std::size_t i = 0; i < hands.size(); i += 4) {
-    const auto cut = [&](const Force& force) { return at_limit(force, most); };
-    if (std::any_of(&forces[i], &forces[i] + 4, cut)) continue;
-    by_x -= glm::dvec2(forces[i]) - glm::dvec2(forces[i + 1]);
-    by_y -= glm::dvec2(forces[i + 2]) - glm::dvec2(forces[i + 3]);
-    places += 1;
-  }
-  return places > 0 ? principal_of(by_x / (2 * push * places), by_y / (2 * push * places), least_mass) : Principal{};
 }
 
 }  // namespace wale

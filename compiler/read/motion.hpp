@@ -65,6 +65,11 @@ struct OpposingForce {
   bool changes_in_time = false;
   double least_in_time = 0, most_in_time = 0;
 
+  /// Whether the resistance changes as a hand goes to and fro over one place; then N at 0.2 m/s, the first time and after
+  /// `way_of_use`, m. The law is that of the mean over some strokes.
+  bool changes_by_use = false;
+  double at_first_use = 0, after_use = 0, way_of_use = 0;
+
   Principal frictions() const { return {friction, friction_across, friction_axis}; }
   Principal dampings() const { return {damping, damping_across, damping_axis}; }
   /// N s/m: with which a friction grows from rest, if exploring hands are often too slow to feel it whole; 0 otherwise.
@@ -81,6 +86,8 @@ struct OpposingForce {
   glm::dvec2 one_way() const { return 0.5 * (backward - forward); }
   /// N at 0.2 m/s: by how much the resistance differs from place to place.
   double uneven() const { return most_by_place - least_by_place; }
+  /// N at 0.2 m/s: by how much the resistance is less after some use; negative if it is more.
+  double lost_by_use() const { return at_first_use - after_use; }
 };
 
 /// N: two drags at a speed (m/s) as means over the same ways, along x or along y: where they differ most.
@@ -91,8 +98,23 @@ std::pair<double, double> drags_where_they_differ(const OpposingForce& one, cons
 /// under a hand. Only what is felt outside of `wall` counts, if there is one.
 OpposingForce opposing_force(const Bank& bank, const WallFace* wall = nullptr);
 
-/// The mass that opposes the acceleration of a hand at rest, kg: the program's own use of acceleration, with states as
-/// on entry.
-Principal inertia(const Bank& bank);
+/// What opposes the acceleration of a hand at rest, kg. One that is mostly on one way or in a part of the patch is no
+/// mass: then the principal values are 0.
+struct Mass : Principal {
+  /// On a hand that speeds up towards +x and +y, and towards -x and -y, if they differ.
+  glm::dvec2 forward{0}, backward{0};
+  /// At the places where it is least and greatest, if it is not alike everywhere.
+  double least_by_place = 0, most_by_place = 0;
+
+  /// kg: by how much it is more along each axis on the way back than on the way forth.
+  glm::dvec2 one_way() const { return backward - forward; }
+  /// kg: by how much it differs from place to place.
+  double uneven() const { return most_by_place - least_by_place; }
+  /// Whether one figure tells it.
+  bool is_one() const { return one_way() == glm::dvec2(0) && uneven() == 0; }
+};
+
+/// The program's own use of acceleration, with states as on entry.
+Mass inertia(const Bank& bank);
 
 }  // namespace wale

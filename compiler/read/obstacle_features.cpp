@@ -52,12 +52,24 @@ Feature feature_of(const StaticStep& step, std::span<const glm::dvec2> places) {
   return feature;
 }
 
+Feature feature_of(const Hill& hill, std::span<const glm::dvec2> places) {
+  Feature feature{.radial = true, .origin = hill.top, .smooth = true};
+  double farthest = hill.reach;
+  for (const glm::dvec2& place : places) farthest = std::max(farthest, feature.coordinate(place));
+  feature.step = hill.spacing();
+  for (const double push : hill.push) feature.profile.emplace_back(push, 0);
+  while (feature.step * static_cast<double>(feature.profile.size()) <= farthest) feature.profile.emplace_back(0);
+  for (const glm::dvec2& force : feature.profile) feature.range = std::max(feature.range, glm::length(force));
+  return feature;
+}
+
 }  // namespace
 
 std::vector<Feature> features_of(const Obstacles& found, std::span<const glm::dvec2> places) {
   std::vector<Feature> features;
   for (const Wall& each : found.walls) features.push_back(feature_of(each, places));
   for (const StaticStep& each : found.steps) features.push_back(feature_of(each, places));
+  if (found.hill) features.push_back(feature_of(*found.hill, places));
   return features;
 }
 

@@ -74,6 +74,15 @@ glm::dvec2 Wall::at(glm::dvec2 place) const {
   return deep > 0 ? -(preload + stiffness * deep) * into(place) : glm::dvec2(0);
 }
 
+glm::dvec2 Hill::at(glm::dvec2 place) const {
+  const glm::dvec2 off = place - top;
+  const double far = glm::length(off), along = far / spacing();
+  if (!(far > 0) || !(far < reach)) return glm::dvec2(0);
+  const auto first = std::min(static_cast<std::size_t>(along), push.size() - 1);
+  const double part = along - static_cast<double>(first), next = first + 1 < push.size() ? push[first + 1] : 0;
+  return ((1 - part) * push[first] + part * next) / far * off;
+}
+
 Wall wall_of(const HalfPlane& face) {
   return {.inward = face.inward, .offset = face.offset, .stiffness = face.stiffness, .preload = face.preload};
 }
@@ -84,6 +93,7 @@ glm::dvec2 ObstacleFit::at(glm::dvec2 place) const {
   glm::dvec2 force = even.at(place);
   for (const Wall& each : found.walls) force += each.at(place);
   for (const StaticStep& each : found.steps) force += each.at(place);
+  if (found.hill) force += found.hill->at(place);
   for (const Wave& wave : waves) {
     const double turn = 2 * std::numbers::pi * glm::dot(wave.waves, place);
     for (std::size_t i = 0; i < wave.parts.size(); ++i) {
@@ -121,11 +131,12 @@ bool ObstacleFit::fills_its_circles(std::span<const glm::dvec2> places, std::spa
   });
 }
 
-// The order of the unknowns: the even force, walls, steps, waves.
+// The order of the unknowns: the even force, walls, steps, a hill, waves.
 std::size_t ObstacleFit::columns() const {
   std::size_t count = 6;
   for (const Wall& each : found.walls) count += each.round() ? 4 : 3;
   for (const StaticStep& each : found.steps) count += each.width > 0 ? 5 : 2;
+  if (found.hill) count += 2 + found.hill->push.size();
   for (const Wave& each : waves) count += 2 + 4 * each.parts.size();
   return count;
 }
@@ -171,6 +182,29 @@ void ObstacleFit::fill(glm::dvec2 place, std::span<glm::dvec2> by) const {
     }
     next += each.width > 0 ? 5 : 2;
   }
+  if (found.hill) {
+    const Hill& hill = *found.hill;
+    const glm::dvec2 off = place - hill.top;
+    const double far = glm::length(off), along = far / hill.spacing();
+    if (far > 0 && far < hill.reach) {
+      const glm::dvec2 out = off / far;
+      const auto first = std::min(static_cast<std::size_t>(along), hill.push.size() - 1);
+      const double part = along - static_cast<double>(first);
+      const bool last = first + 1 == hill.push.size();
+      const double beyond = last ? 0 : hill.push[first + 1];
+      const double here = (1 - part) * hill.push[first] + part * beyond;
+      const double slope = (beyond - hill.push[first]) / hill.spacing();
+      // A top that moves changes the distance, and the way out.
+      for (const int axis : {0, 1}) {
+        const glm::dvec2 moved = axis == 0 ? x : y;
+        const double towards = glm::dot(moved, out);
+        by[next + static_cast<std::size_t>(axis)] = -slope * towards * out - here / far * (moved - towards * out);
+      }
+      by[next + 2 + first] = (1 - part) * out;
+      if (!last) by[next + 3 + first] = part * out;
+    }
+    next += 2 + hill.push.size();
+  }
   for (const Wave& wave : waves) {
     const double turn = 2 * std::numbers::pi * glm::dot(wave.waves, place);
     const std::size_t first = next;
@@ -208,6 +242,11 @@ void ObstacleFit::move(std::span<const double> by) {
     each.way = turned(each.way, by[next + 1]);
     each.width *= std::exp(std::clamp(by[next + 2], -most_widening, most_widening));
     next += 3;
+  }
+  if (found.hill) {
+    found.hill->top += glm::dvec2(shift(by[next]), shift(by[next + 1]));
+    next += 2;
+    for (double& each : found.hill->push) each += by[next++];
   }
   for (Wave& wave : waves) {
     wave.waves += glm::dvec2(by[next], by[next + 1]);
@@ -250,6 +289,28 @@ void ObstacleFit::move_jumps(std::span<const glm::dvec2> places, std::span<const
 }
 
 void ObstacleFit::seat_jumps(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+  for (Wall& each : found.walls) {
+    if (each.round() || !(each.preload > 0)) continue;
+    // On which side of the face a place lies tells half of the push that is behind it.
+    std::vector<std::pair<double, bool>> line;
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double deep = each.depth(places[i]), push = each.preload + each.stiffness * deep;
+      if (std::abs(deep) > about_a_jump || !(push > 0.2 * each.preload)) continue;
+      const glm::dvec2 without = forces[i] - at(places[i]) + each.at(places[i]);
+      line.emplace_back(deep, -glm::dot(without, each.inward) > 0.5 * push);
+      wrong += !line.back().second;
+    }
+    if (line.size() < fewest_about_a_jump) continue;
+    std::ranges::sort(line);
+    std::size_t least = wrong;
+    double by = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      wrong = line[i].second ? wrong + 1 : wrong - 1;
+      if (wrong < least) least = wrong, by = 0.5 * (line[i].first + line[i + 1].first);
+    }
+    each.offset += by, each.preload += each.stiffness * by;
+  }
   for (StaticStep& each : found.steps) {
     if (each.width > 0 || each.change == glm::dvec2(0)) continue;
     std::vector<glm::dvec2> near, there;
@@ -294,6 +355,21 @@ void ObstacleFit::seat_jumps(std::span<const glm::dvec2> places, std::span<const
 }
 
 double ObstacleFit::improve(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, int steps) {
+  double left = improve_once(places, forces, steps);
+  // A wall that jumps turns with its push, and then jumps elsewhere.
+  const auto jumps = [](const Wall& each) { return each.preload != 0; };
+  for (int turn = 0; turn < 2 && std::ranges::any_of(found.walls, jumps); ++turn) {
+    ObstacleFit other = *this;
+    const double here = other.improve_once(places, forces, steps);
+    if (!(here < left)) break;
+    const bool hardly = here > (1 - 1e-3) * left;
+    left = here, *this = std::move(other);
+    if (hardly) break;
+  }
+  return left;
+}
+
+double ObstacleFit::improve_once(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, int steps) {
   double damping = 1e-6;
   move_jumps(places, forces);
   std::vector<glm::dvec2> left = rest(places, forces);

@@ -26,13 +26,14 @@ class ObstacleFit {
   /// Moves everything to where it fits best nearby, by so many steps of Levenberg and Marquardt at most. What jumps is
   /// moved to where the jump fits best. Returns the mean square of what is left, N^2.
   double improve(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, int steps);
-  /// Moves each step that jumps to where all places about it say that it does. Fitted at some of them, it lies off by as
-  /// much as these are apart, and the places between would have the whole jump left.
+  /// Moves each step that jumps to where all places about it say that it does. Fitted at some of them, it lies off by
+  /// as much as these are apart, and the places between would have the whole jump left.
   void seat_jumps(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces);
   /// Whether each wall that fills its circle pushes most about its middle. On top of a hill nothing pushes.
   bool fills_its_circles(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) const;
 
  private:
+  double improve_once(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, int steps);
   std::size_t columns() const;
   void fill(glm::dvec2 place, std::span<glm::dvec2> by) const;
   void move(std::span<const double> by);

@@ -9,14 +9,16 @@
 #include <utility>
 
 #include "compiler/read/bend.hpp"
+#include "compiler/read/hill.hpp"
+#include "compiler/read/next_obstacle.hpp"
 #include "compiler/read/obstacle_fit.hpp"
+#include "compiler/read/sound_obstacles.hpp"
 #include "compiler/read/tolerances.hpp"
 
 namespace wale {
 namespace {
 
 constexpr std::size_t most_obstacles = 5;
-constexpr int ways_tried = 12;              // in half a turn
 constexpr double worth_an_obstacle = 0.07;  // of what is left, at least, explained by one more
 constexpr double all_explained = 3e-4;      // of what a line leaves: nothing more is looked for
 constexpr double left_unexplained = 4e-3;   // of what a line leaves, by obstacles that explain it, beside noise ...
@@ -26,26 +28,24 @@ constexpr double places_a_mean = 16;
 constexpr double far_from_all = 0.3;                     // of what a line leaves, in means over cells that steps cross
 constexpr int steps_at_means = 8, steps_at_places = 12;  // of a fit, at most
 constexpr double most_noise = 0.2;                       // of what a line leaves
-constexpr double least_beside = 0.012;                   // of the places, on either side of an obstacle
-constexpr double least_push_of_wall = 0.02;              // N, at its deepest
-constexpr double more_than_all = 1.3;                    // times: a change of a fit and that of all forces
-constexpr double mended = 0.2;                           // of a wall's stiffness
 constexpr double alike_ways = 0.94;                      // cosine: two walls that stand so may be a curve ...
 constexpr double left_by_a_curve = 1e-5;                 // ... which leaves more than this of what a line leaves ...
 constexpr double hidden_curve = 1e-4;                    // ... unless there is so much noise
 constexpr double alone = 0.12, nearly_alone = 0.1;       // of what is left: explained by one more, and left by it then
 constexpr double less_than_others = 0.9;                 // of what other kinds leave
-constexpr double widest_step = 5e-3;                     // m
-constexpr double apart_at_least = 4e-3;                  // m between two steps
-constexpr double opposed_ways = -0.9;                    // cosine
 constexpr std::size_t places_fitted_at = 3000, places_fitted_roughly = 1500;
-constexpr double times_too_much = 3;         // times what may be left, where obstacles are fitted at few places
-constexpr std::size_t every_bend = 6;        // that is tried, before it is fitted
-constexpr double first_width = 1.5e-3;       // m: of a step, before it is fitted
-constexpr double first_period_share = 0.25;  // of half the patch: between the centres that are tried for round walls
-constexpr int centres_aside = 2;
-constexpr std::size_t blocks = 8;  // along each side, in which a force without a bend is a plane
-constexpr double times_left = 3;   // what obstacles may leave, in a block: about a round wall no force is a plane
+constexpr double times_too_much = 3;           // times what may be left, where obstacles are fitted at few places
+constexpr std::size_t blocks = 8;              // along each side, in which a force without a bend is a plane
+constexpr double hardly_left = 0.01;           // of the square of the least force: nothing is hidden in it
+constexpr double gained_beside_noise = 0.015;  // of what is left, by a jump: beside a texture that is found later ...
+constexpr double gained_by_a_jump = 0.3;       // ... and where it is taken off
+constexpr std::size_t every_jump = 3;          // place that is tried, before it is fitted
+constexpr double shape_of_a_step = 4;          // widths of a soft step: a small one nearer to it is its shape ...
+constexpr double small_beside_a_step = 0.3;    // ... if it is less than so much of it
+constexpr std::size_t most_beside_a_hill = 2;
+constexpr double left_by_a_hill = 0.03;  // of its mean square
+constexpr double beside_a_hill = 0.02;   // of its largest push: a smaller even force is none
+constexpr double times_left = 3;         // what obstacles may leave, in a block: about a round wall no force is a plane
 constexpr double blocks_with_bends = 0.6;  // at most
 
 /// N^2: the part of a mean square that changes from one of these means to the next, as a texture's.
@@ -58,149 +58,14 @@ double noise_of(std::span<const glm::dvec2> even) {
   return even.size() > 2 ? sum / static_cast<double>(even.size() - 2) : 0;
 }
 
-/// What is looked for.
-struct Kinds {
-  bool straight = false, round = false, steps = false;
-};
 // A box looks a little like a round room, and a step like two walls: what one kind explains is of that kind.
-constexpr std::array<Kinds, 4> all_kinds = {
-    {{true, false, false}, {false, true, false}, {false, false, true}, {true, false, true}}};
-
-/// One more obstacle, and what it explains of a mean square, N^2.
-struct Candidate {
-  Obstacles one;
-  double explained = 0;
-};
-
-/// Places in their order along each way that is tried: they are sorted once for all obstacles.
-class SortedWays {
- public:
-  explicit SortedWays(std::span<const glm::dvec2> places) {
-    for (std::size_t i = 0; i < ways_.size(); ++i) {
-      const double angle = static_cast<double>(i) * std::numbers::pi / ways_tried;
-      ways_[i] = Way(places, {std::cos(angle), std::sin(angle)});
-    }
-  }
-
-  struct Way {
-    Way() = default;
-    Way(std::span<const glm::dvec2> places, glm::dvec2 way) : along(way) {
-      for (std::size_t k = 0; k < places.size(); ++k) order.emplace_back(glm::dot(places[k], along), k);
-      std::ranges::sort(order);
-    }
-    glm::dvec2 along{0};
-    std::vector<std::pair<double, std::size_t>> order;  // m along it, and which place
-  };
-  std::span<const Way> all() const { return ways_; }
-
- private:
-  std::array<Way, ways_tried> ways_;
-};
-
-/// The best obstacle for what a model leaves.
-class NextObstacle {
- public:
-  NextObstacle(const SortedWays& ways, std::span<const glm::dvec2> places, std::span<const glm::dvec2> rest)
-      : ways_(ways), places_(places), rest_(rest) {
-    for (const glm::dvec2& place : places) half_ = glm::max(half_, glm::abs(place));
-  }
-
-  /// A wall often faces as another one does, between the ways that are tried.
-  Candidate found(const Kinds& kinds, const std::vector<Wall>& beside = {}) {
-    for (const Wall& each : beside)
-      if (kinds.straight && !each.round()) try_straight({places_, each.inward});
-    if (kinds.round) {
-      try_round();
-      return std::move(best_);
-    }
-    const glm::dvec2 push = axis_of_rest();
-    for (const SortedWays::Way& way : ways_.all()) {
-      if (kinds.straight) try_straight(way);
-      if (!kinds.steps) continue;
-      try_step(way, push);
-      try_step(way, glm::dvec2(-push.y, push.x));
-    }
-    return std::move(best_);
-  }
-
- private:
-  /// The axis along which the rest pushes most.
-  glm::dvec2 axis_of_rest() const {
-    double xx = 0, xy = 0, yy = 0;
-    for (const glm::dvec2& each : rest_) xx += each.x * each.x, xy += each.x * each.y, yy += each.y * each.y;
-    const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-    return {std::cos(angle), std::sin(angle)};
-  }
-
-  /// What a bend explains of the parts of the rest along `push`, over the places along a way.
-  std::pair<Bend, double> bend_along(const SortedWays::Way& way, glm::dvec2 push, BendKind kind) const {
-    std::vector<PlaceOnLine> line;
-    line.reserve(places_.size());
-    double squares = 0;
-    for (const auto& [at, place] : way.order) {
-      line.push_back({at, glm::dot(rest_[place], push)});
-      squares += line.back().value * line.back().value;
-    }
-    const Bend best = best_bend_of_sorted(std::move(line), kind, every_bend);
-    return {best, squares / static_cast<double>(places_.size()) - best.left};
-  }
-
-  void try_straight(const SortedWays::Way& way) {
-    const auto [best, explained] = bend_along(way, way.along, BendKind::bends);
-    if (!(explained > best_.explained)) return;
-    // Where it is less steep beyond the bend, the wall is on the other side.
-    const double side = best.slope > 0 ? -1 : 1;
-    best_ = {{{{.inward = side * way.along, .offset = side * best.at, .stiffness = std::abs(best.slope)}}, {}},
-             explained};
-  }
-
-  void try_step(const SortedWays::Way& way, glm::dvec2 push) {
-    const auto [best, explained] = bend_along(way, push, BendKind::jumps);
-    if (explained > best_.explained) best_ = {{{}, {{way.along, best.at, first_width, best.jump * push}}}, explained};
-  }
-
-  /// A round wall about a point; returns what it explains.
-  double try_round(glm::dvec2 centre) {
-    std::vector<PlaceOnLine> line(places_.size());
-    double squares = 0;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      const glm::dvec2 off = places_[i] - centre;
-      const double far = glm::length(off);
-      line[i] = {far, far > 0 ? glm::dot(rest_[i], off / far) : 0};
-      squares += line[i].value * line[i].value;
-    }
-    const Bend best = best_bend(line, BendKind::bends, every_bend);
-    const double explained = squares / static_cast<double>(places_.size()) - best.left;
-    // Outwards ever less: a wall around. Inwards ever more: within it, and the even force is that outside.
-    if (explained > best_.explained && best.at > 0)
-      best_ = {
-          {{{.centre = centre, .offset = best.at, .fills = best.slope > 0, .stiffness = std::abs(best.slope)}}, {}},
-          explained};
-    return explained;
-  }
-
-  void try_round() {
-    glm::dvec2 best{0};
-    double most = -1;
-    const auto look = [&](glm::dvec2 centre) {
-      const double here = try_round(centre);
-      if (here > most) most = here, best = centre;
-    };
-    for (int row = -centres_aside; row <= centres_aside; ++row)
-      for (int column = -centres_aside; column <= centres_aside; ++column)
-        look(first_period_share * half_ * glm::dvec2(column, row));
-    for (double step = 0.5 * first_period_share; step > 0.05; step *= 0.5) {
-      const glm::dvec2 middle = best;
-      for (const glm::dvec2 aside : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)})
-        look(middle + step * aside * half_);
-    }
-  }
-
-  const SortedWays& ways_;
-  std::span<const glm::dvec2> places_, rest_;
-  glm::dvec2 half_{0};
-  Candidate best_;
-};
+constexpr std::array<Kinds, 5> all_kinds = {{{.straight = true},
+                                             {.round = true},
+                                             {.steps = true},
+                                             {.straight = true, .steps = true},
+                                             {.straight = true, .jumps = true}}};
+constexpr std::array<Kinds, 3> kinds_beside_a_hill = {
+    {{.straight = true}, {.steps = true}, {.straight = true, .jumps = true}}};
 
 /// Joins a step along a wall's face to the wall: with so much it begins to push.
 void join_preloads(Obstacles& found) {
@@ -225,68 +90,46 @@ bool bends_twice(const Obstacles& found) {
   return false;
 }
 
-/// N: between the least and the greatest of some forces along an axis of length 1.
-double range_along(std::span<const glm::dvec2> forces, glm::dvec2 axis) {
-  double least = HUGE_VAL, most = -HUGE_VAL;
-  for (const glm::dvec2& force : forces) {
-    const double along = glm::dot(force, axis);
-    least = std::min(least, along), most = std::max(most, along);
-  }
-  return most - least;
+/// Whether one of the steps is what the shape of another one, which is soft, differs by from a hyperbolic tangent.
+bool is_shape_of_a_step(const ObstacleFit& fit) {
+  const std::vector<StaticStep>& steps = fit.found.steps;
+  return std::ranges::any_of(steps, [&](const StaticStep& small) {
+    return std::ranges::any_of(steps, [&](const StaticStep& soft) {
+      const double cosine = glm::dot(soft.way, small.way);
+      return soft.width > 0 && std::abs(cosine) > alike_ways &&
+             glm::length(small.change) < small_beside_a_step * glm::length(soft.change) &&
+             std::abs(std::copysign(1.0, cosine) * small.offset - soft.offset) < shape_of_a_step * soft.width;
+    });
+  });
 }
 
-/// Whether some change of a force along an axis is more than the forces ever differ by. Parts of a model that cancel
-/// each other are none of the force.
-bool is_more_than_all(glm::dvec2 change, std::span<const glm::dvec2> forces) {
-  const double size = glm::length(change);
-  return size > 0 && size > least_force + more_than_all * range_along(forces, change / size);
-}
-
-/// Whether walls and steps are such as stand in a patch: none that is hardly there, no two in the same place, none that
-/// changes the force by more than the force changes.
-bool is_sound(const ObstacleFit& fit, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
-  const auto count = static_cast<double>(places.size());
-  const auto share = [&](const auto& beyond) {
-    return static_cast<double>(std::ranges::count_if(places, beyond)) / count;
-  };
-  const auto& [walls, steps] = fit.found;
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    const Wall& wall = walls[i];
-    double deepest = 0;
-    for (const glm::dvec2& place : places) deepest = std::max(deepest, wall.depth(place));
-    const double inside = share([&](glm::dvec2 place) { return wall.depth(place) > 0; });
-    const double rise = wall.stiffness * deepest;
-    if (inside < least_beside || inside > 1 - least_beside || wall.stiffness < least_stiffness ||
-        rise < least_push_of_wall || wall.preload < -least_force || wall.preload > rise)
-      return false;
-    if (!wall.round() && is_more_than_all((wall.preload + rise) * wall.inward, forces)) return false;
-    // A wall that mends what the even force pushes away is no wall.
-    const glm::dvec2 in = wall.round() ? glm::dvec2(1, 0) : wall.inward;
-    if (glm::dot(in, in.x * fit.even.by_x + in.y * fit.even.by_y) > mended * wall.stiffness) return false;
-    for (std::size_t k = 0; k < i; ++k) {
-      const Wall& other = walls[k];
-      if (wall.round() || other.round()) return false;
-      const double cosine = glm::dot(wall.inward, other.inward);
-      // One wall that bends a little, and a spring that ends.
-      if ((cosine > alike_ways && std::abs(wall.offset - other.offset) < apart_at_least) ||
-          (cosine < opposed_ways && wall.offset + other.offset < 0))
-        return false;
-    }
+/// Lets walls that begin evenly begin with a jump, where that leaves less by a share of `gained`: a jump looks like a
+/// face a little further out.
+void try_jumps(ObstacleFit& fit, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+               double gained) {
+  std::vector<glm::dvec2> left = fit.rest(places, forces);
+  double least = mean_square(left);
+  if (least < hardly_left * least_force * least_force) return;
+  // What one leaves out may be little beside what another does: twice.
+  const std::size_t walls = fit.found.walls.size();
+  for (std::size_t turn = 0; turn < 2 * walls; ++turn) {
+    const std::size_t i = turn % walls;
+    const Wall wall = fit.found.walls[i];
+    if (wall.round() || wall.preload != 0) continue;
+    std::vector<PlaceOnLine> line;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      line.push_back({glm::dot(places[k], wall.inward), glm::dot(left[k] + wall.at(places[k]), wall.inward)});
+    const Bend bend = best_bend(line, BendKind::bends_and_jumps, every_jump);
+    const double without = best_bend(line, BendKind::bends, every_jump).left;
+    // Of the forces along the wall, which a texture may not push.
+    if (!(without - bend.left > 0.5 * gained * least) || !(-bend.jump > least_force) || !(bend.slope < 0)) continue;
+    ObstacleFit other = fit;
+    other.found.walls[i].preload = -bend.jump, other.found.walls[i].offset = bend.at;
+    other.found.walls[i].stiffness = -bend.slope;
+    const double here = other.improve(places, forces, steps_at_places);
+    if (!(here < (1 - gained) * least) || !(other.found.walls[i].preload > least_force)) continue;
+    least = here, fit = std::move(other), left = fit.rest(places, forces);
   }
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const StaticStep& step = steps[i];
-    // Two in one place are no two.
-    for (std::size_t k = 0; k < i; ++k) {
-      const double cosine = glm::dot(step.way, steps[k].way);
-      if (std::abs(cosine) > alike_ways &&
-          std::abs(step.offset - std::copysign(1.0, cosine) * steps[k].offset) < apart_at_least)
-        return false;
-    }
-    if (step.width > widest_step || is_more_than_all(step.change, forces)) return false;
-    const double beyond = share([&](glm::dvec2 place) { return glm::dot(place, step.way) > step.offset; });
-    if (beyond < least_beside || beyond > 1 - least_beside || glm::length(step.change) < 2 * least_force) return false;
-  }
-  return true;
 }
 
 /// Finds obstacles of some kinds, one after another.
@@ -322,6 +165,9 @@ class ObstacleSearch {
     return static_cast<double>(uneven) <= blocks_with_bends * blocks * blocks;
   }
 
+  /// N^2: what a model leaves, beyond a texture's noise.
+  double left_by(const ObstacleFit& fit) const { return unexplained(fit); }
+
   bool is_bent() const { return by_line_ >= least_force * least_force; }
   double by_line() const { return by_line_; }
 
@@ -333,6 +179,7 @@ class ObstacleSearch {
     ObstacleFit fit;
     fit.found.walls.push_back(wall);
     fit.even = linear_force(whole_.places, fit.rest(whole_.places, forces_));
+    fit.seat_jumps(whole_.places, forces_);
     return fit;
   }
 
@@ -351,7 +198,7 @@ class ObstacleSearch {
         ObstacleFit more = fit;
         add(more, kinds, left);
         auto all = accepted(std::move(more));
-        const double here = all ? unexplained(*all) : HUGE_VAL;
+        const double here = all && !is_shape_of_a_step(*all) ? unexplained(*all) : HUGE_VAL;
         if (here < least) least = std::max(here, 0.0), best = std::move(all);
       }
       if (!best) break;
@@ -384,7 +231,88 @@ class ObstacleSearch {
     return all;
   }
 
+  /// Two walls, one behind the other, in place of one: where a line along the way into it bends twice. Nothing if they
+  /// leave more.
+  std::optional<ObstacleFit> nested(const ObstacleFit& single) const {
+    const double left = unexplained(single);
+    if (left < least_force * least_force || single.found.walls.size() != 1) return std::nullopt;
+    const Wall wall = single.found.walls.front();
+    std::vector<PlaceOnLine> line;
+    const std::vector<glm::dvec2> rest = single.rest(places_, even_);
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      line.push_back({glm::dot(places_[i], wall.inward), glm::dot(rest[i] + wall.at(places_[i]), wall.inward)});
+    const auto bends = best_two_bends(line);
+    if (!bends || !((*bends)[0].slope < 0) || !((*bends)[1].slope < 0)) return std::nullopt;
+    ObstacleFit fit = single;
+    fit.found.walls.clear(), fit.found.steps.clear();
+    for (const Bend& each : *bends)
+      fit.found.walls.push_back({.inward = wall.inward, .offset = each.at, .stiffness = -each.slope});
+    fit.improve(places_, even_, steps_at_means);
+    auto both = accepted(std::move(fit));
+    if (!both || !(unexplained(*both) < nearly_alone * left)) return std::nullopt;
+    return both;
+  }
+
+  /// A round hill, with what is beside it: found where the hill does not push, then fitted together with it. Nothing if
+  /// nothing is beside it.
+  std::optional<ObstacleFit> beside_hill() const {
+    const auto hill = likely_hill(places_, even_);
+    if (!hill) return std::nullopt;
+    std::vector<glm::dvec2> places, forces;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      if (glm::distance(places_[i], hill->top) > hill->reach) places.push_back(places_[i]), forces.push_back(even_[i]);
+    ObstacleFit alone;
+    alone.even = linear_force(places, forces);
+    const std::vector<glm::dvec2> outside = alone.rest(places, forces);
+    const double by_line = mean_square(outside);
+    std::vector<ObstacleFit> tried = {alone};
+    if (by_line > least_force * least_force) {
+      const SortedWays ways(places);
+      for (const Kinds& kinds : kinds_beside_a_hill) {
+        ObstacleFit fit = alone;
+        double left = by_line;
+        for (std::size_t number = 0; number < most_beside_a_hill && left > all_explained * by_line; ++number) {
+          ObstacleFit more = fit;
+          const Candidate next = NextObstacle(ways, places, more.rest(places, forces)).found(kinds, more.found.walls);
+          if (!(next.explained > 0)) break;
+          for (const Wall& each : next.one.walls) more.found.walls.push_back(each);
+          for (const StaticStep& each : next.one.steps) more.found.steps.push_back(each);
+          const double here = more.improve(places, forces, steps_at_means);
+          if (!(here < (1 - worth_an_obstacle) * left)) break;
+          fit = std::move(more), left = here;
+        }
+        if (!fit.found.empty()) tried.push_back(std::move(fit));
+      }
+    }
+    std::optional<ObstacleFit> best;
+    double least = HUGE_VAL;
+    for (ObstacleFit& each : tried) {
+      each.found.hill = hill;
+      each.improve(places_, even_, steps_at_means);
+      auto all = accepted(std::move(each));
+      if (!all || !is_beside_hill(*all)) continue;
+      const double left = mean_square(all->rest(whole_.places, forces_));
+      if (left < less_than_others * least) least = left, best = std::move(all);
+    }
+    return best;
+  }
+
  private:
+  /// Whether a hill explains nearly all of what it is fitted to, and something else is there.
+  bool is_beside_hill(const ObstacleFit& fit) const {
+    double squares = 0, most = 0;
+    for (const glm::dvec2& place : places_) {
+      const glm::dvec2 force = fit.found.hill->at(place);
+      squares += glm::dot(force, force), most = std::max(most, glm::length(force));
+    }
+    squares /= static_cast<double>(places_.size());
+    if (most < 2 * least_force || unexplained(fit) > left_by_a_hill * squares) return false;
+    const glm::dvec2 half = 0.5 * whole_.size;
+    const double even =
+        glm::length(fit.even.mean) + glm::length(fit.even.by_x) * half.x + glm::length(fit.even.by_y) * half.y;
+    return !fit.found.walls.empty() || !fit.found.steps.empty() || even > beside_a_hill * most;
+  }
+
   std::vector<glm::dvec2> rest_of(const LinearForce& line) const {
     std::vector<glm::dvec2> rest = even_;
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= line.at(places_[i]);
@@ -427,13 +355,15 @@ class ObstacleSearch {
     join_preloads(fit.found);
     // What leaves far too much at few places does so at more.
     fit_exactly(fit, places_fitted_roughly);
-    if (unexplained(fit) > times_too_much * left_unexplained * by_line_ ||
-        !is_sound(fit, whole_.places, forces_))
+    if (unexplained(fit) > times_too_much * left_unexplained * by_line_ || !is_sound(fit, whole_.places, forces_))
       return {};
     if (all_jump && !std::ranges::all_of(fit.found.steps, jumps)) return {};
+    join_preloads(fit.found);
     fit_exactly(fit, places_fitted_at);
+    try_jumps(fit, some_of(whole_.places, places_fitted_at), some_of(forces_, places_fitted_at), gained_beside_noise);
     fit.seat_jumps(whole_.places, forces_);
-    if (!explains(fit) || !is_sound(fit, whole_.places, forces_) || !fit.fills_its_circles(whole_.places, forces_)) return {};
+    if (!explains(fit) || !is_sound(fit, whole_.places, forces_) || !fit.fills_its_circles(whole_.places, forces_))
+      return {};
     if (bends_twice(fit.found) && unexplained(fit, hidden_curve) > left_by_a_curve * by_line_) return {};
     return fit;
   }
@@ -473,27 +403,45 @@ class ObstacleSearch {
 
 }  // namespace
 
-std::optional<Obstacles> find_obstacles(const StillForces& whole, std::span<const glm::dvec2> forces) {
-  ObstacleSearch search(whole, forces);
-  if (!search.is_bent() || !search.is_even_between_bends()) return std::nullopt;
+namespace {
+
+/// Walls and steps where there is no hill.
+std::optional<ObstacleFit> find_without_hill(ObstacleSearch& search, const StillForces& whole,
+                                             std::span<const glm::dvec2> forces) {
   const auto face =
       find_half_plane(cell_means(whole.side, whole.places), cell_means(whole.side, forces), whole.places, forces);
   // What explains all but rounding is it; a texture leaves more, and then what leaves least.
   std::optional<ObstacleFit> best;
   double least = HUGE_VAL;
   if (face) {
-    ObstacleFit fit = search.with_more(search.beside(wall_of(*face)));
-    if (search.explains(fit)) return std::move(fit.found);
+    const ObstacleFit single = search.beside(wall_of(*face));
+    if (auto both = search.nested(single)) return search.with_more(*std::move(both));
+    ObstacleFit fit = search.with_more(single);
+    if (search.explains(fit)) return fit;
   }
   for (const Kinds& kinds : all_kinds) {
     auto fit = search.found(kinds);
     if (!fit) continue;
     const double left = mean_square(fit->rest(whole.places, forces));
-    if (left < all_explained * search.by_line()) return search.with_more(*std::move(fit)).found;
+    if (left < all_explained * search.by_line()) return search.with_more(*std::move(fit));
     if (left < less_than_others * least) least = left, best = std::move(fit);
   }
-  if (best) return search.with_more(*std::move(best)).found;
-  return face ? std::optional(Obstacles{{wall_of(*face)}, {}}) : std::nullopt;
+  if (best) return search.with_more(*std::move(best));
+  return face ? std::optional(search.beside(wall_of(*face))) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Obstacles> find_obstacles(const StillForces& whole, std::span<const glm::dvec2> forces) {
+  ObstacleSearch search(whole, forces);
+  if (!search.is_bent()) return std::nullopt;
+  auto found = search.is_even_between_bends() ? find_without_hill(search, whole, forces) : std::nullopt;
+  // What they leave may be a hill.
+  if (found && search.left_by(*found) < 2 * least_force * least_force) return std::move(found->found);
+  auto with_hill = search.beside_hill();
+  if (with_hill && (!found || search.left_by(*with_hill) < nearly_alone * search.left_by(*found)))
+    found = std::move(with_hill);
+  return found ? std::optional(std::move(found->found)) : std::nullopt;
 }
 
 Obstacles fitted_beside(const Obstacles& found, std::span<const SlowWave> waves, std::span<const glm::dvec2> places,
@@ -507,6 +455,7 @@ Obstacles fitted_beside(const Obstacles& found, std::span<const SlowWave> waves,
                                 some = some_of(forces, places_fitted_at);
   fit.even = linear_force(some_places, fit.rest(some_places, some));
   fit.improve(some_places, some, 10);
+  try_jumps(fit, some_places, some, gained_by_a_jump);
   fit.seat_jumps(places, forces);
   return is_sound(fit, places, forces) ? fit.found : found;
 }

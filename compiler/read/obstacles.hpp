@@ -37,12 +37,24 @@ struct StaticStep {
   glm::dvec2 at(glm::dvec2 place) const;
 };
 
+/// A round hill or hole: it pushes away from its top, or towards it, and not at all from some distance on. So an even
+/// force or a wall beside it can be told from it.
+struct Hill {
+  glm::dvec2 top{0};         ///< m
+  double reach = 0;          ///< m: from there on it pushes no more
+  std::vector<double> push;  ///< N: away from its top, at even distances from 0 on, before the reach
+
+  double spacing() const { return reach / static_cast<double>(push.size()); }  ///< m
+  glm::dvec2 at(glm::dvec2 place) const;                                       ///< N
+};
+
 /// What stands in a patch beside an even force and textures.
 struct Obstacles {
   std::vector<Wall> walls;
   std::vector<StaticStep> steps;
+  std::optional<Hill> hill;  ///< is a relief
 
-  bool empty() const { return walls.empty() && steps.empty(); }
+  bool empty() const { return walls.empty() && steps.empty() && !hill; }
 };
 
 /// The walls and steps that explain forces at the places of `whole`, beside a force that changes evenly over the patch;

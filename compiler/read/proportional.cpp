@@ -65,18 +65,28 @@ namespace {
 
 void scale(Principal& principal, double times) { principal.greatest *= times, principal.across *= times; }
 
+void scale(Mass& mass, double times) {
+  scale(static_cast<Principal&>(mass), times);
+  mass.forward *= times, mass.backward *= times, mass.least_by_place *= times, mass.most_by_place *= times;
+}
+
 void scale(Swing& swing, double times) {
   swing.amplitude *= times;
   if (swing.least) *swing.least *= times;
+  if (swing.course) swing.course->greatest *= times;
+  for (SwingPart& each : swing.parts) each.amplitude *= times;
 }
 
 void scale(OpposingForce& opposing, double times) {
   for (double* each : {&opposing.friction, &opposing.friction_across, &opposing.damping, &opposing.damping_across,
                        &opposing.limit, &opposing.scatter, &opposing.aside, &opposing.forward.x, &opposing.forward.y,
                        &opposing.backward.x, &opposing.backward.y, &opposing.least_in_time, &opposing.most_in_time,
-                       &opposing.least_by_place, &opposing.most_by_place})
+                       &opposing.least_by_place, &opposing.most_by_place, &opposing.at_first_use,
+                       &opposing.after_use})
     *each *= times;
   for (DragAt& each : opposing.by_speed) each.newton *= times;
+  for (std::vector<DragAt>& drags : opposing.along)
+    for (DragAt& each : drags) each.newton *= times;
 }
 
 void scale(SlowChange& slow, double times) {
@@ -95,6 +105,8 @@ ForceReading times_as_strong(ForceReading found, double times) {
     each.range *= times;
   }
   for (Wall& each : still.obstacles.walls) each.stiffness *= times, each.preload *= times;
+  if (still.obstacles.hill)
+    for (double& each : still.obstacles.hill->push) each *= times;
   for (std::vector<StaticStep>* steps : {&still.obstacles.steps, &found.steps})
     for (StaticStep& each : *steps) each.change *= times;
   Relief& relief = still.relief;
@@ -115,6 +127,7 @@ ForceReading times_as_strong(ForceReading found, double times) {
                        &found.at_first,
                        &found.outward,
                        &found.other.later,
+                       &found.coming.later_swing,
                        &found.directions.aside,
                        &found.directions.swirl,
                        &found.directions.drag.greatest,

@@ -1,4 +1,4 @@
-#include "compiler/read/read.hpp"
+#include "compiler/read/read_again.hpp"
 
 #include <algorithm>
 #include <array>
@@ -125,12 +125,7 @@ double chance_of_line(const Relief& relief, glm::dvec2 half) {
   return 2 * relief.amplitude * std::sqrt(1 - relief.regularity) * std::min(1.0, relief.period / side);
 }
 
-/// How much more the force pushes a hand at first, N.
-struct AtFirst {
-  glm::dvec2 force{0};
-  double uncertain = 0;  ///< so much at most: as it differs from place to place
-  SlowChange slow;       ///< what comes or goes later
-};
+using AtFirst = ReadFirst::AtFirst;
 
 /// What of a push is the same on all sides of the steps: none along an axis along which it turns about.
 glm::dvec2 alike_beside(const std::vector<StaticStep>& steps, glm::dvec2 push, glm::dvec2 half) {
@@ -165,6 +160,28 @@ std::pair<glm::dvec2, glm::dvec2> felt_slopes(const StaticForce& still, glm::dve
   return slopes;
 }
 
+/// N: what pushes everywhere in the mean over time, beside a swing that differs from place to place and nothing else
+/// but a linear force; nothing if the means are not so. Where a wave travels, no moment has this.
+std::optional<glm::dvec2> even_mean(const Bank& bank, const std::vector<glm::dvec2>& means, const LinearForce& trend,
+                                    double swing) {
+  constexpr double alike_means = 0.02;  // of the swing
+  if (means.empty()) return std::nullopt;
+  const std::vector<glm::dvec2> places = places_of_rest(bank);
+  for (const double share : {0.0, 1.0}) {
+    glm::dvec2 mean{0};
+    std::vector<glm::dvec2> left;
+    for (std::size_t i = 0; i < means.size(); ++i) {
+      left.push_back(means[i] - share * (places[i].x * trend.by_x + places[i].y * trend.by_y));
+      mean += left.back() / static_cast<double>(means.size());
+    }
+    if (std::ranges::all_of(left, [&](glm::dvec2 each) {
+          return glm::length(each - mean) < std::max(least_force, alike_means * swing);
+        }))
+      return mean;
+  }
+  return std::nullopt;
+}
+
 /// The linear part: a spring, and a constant push.
 void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) {
   const StaticForce& still = found.still;
@@ -183,9 +200,13 @@ void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) 
          misfit_of_swing * std::max(found.sway.amplitude, found.vibration.amplitude),
          found.vibration.noise ? misfit_of_noise * found.vibration.amplitude : 0, at_first.uncertain});
     // Where it is cut, the middle is pushed less than the law asks for.
-    const glm::dvec2 push = limit.cut(
-        alike_beside(still.obstacles.steps, at_first.slow.remaining(still.trend.mean - at_first.force), half));
-    if (glm::length(push) >= std::max(least_force, certain)) found.constant = push;
+    const std::optional<glm::dvec2> even = even_mean(bank, at_first.means, still.trend,
+                                                     std::max(found.sway.amplitude, found.vibration.amplitude));
+    const glm::dvec2 push = limit.cut(alike_beside(
+        still.obstacles.steps, even ? *even : at_first.slow.remaining(still.trend.mean - at_first.force), half));
+    // Means over time at places need no certainty about the first moment's.
+    const double sure = even ? misfit_of_swing * std::max(found.sway.amplitude, found.vibration.amplitude) : certain;
+    if (glm::length(push) >= std::max(least_force, sure)) found.constant = push;
   } else {
     found.stiffness = found.stiffness_across = even_stiffness(still, patch);
   }
@@ -212,6 +233,8 @@ double outward_push(const Bank& bank, const ForceReading& found) {
   double power = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     forces[i] -= found.still.trend.at(places[i]);
+    for (const Feature& each : found.still.features)
+      if (each.monotone) forces[i] -= each.at(places[i]);
     middle += glm::dot(forces[i], forces[i]) * places[i], power += glm::dot(forces[i], forces[i]);
   }
   if (!(power > 0)) return 0;
@@ -247,7 +270,7 @@ AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& f
   off.slow = slow;
   if (std::max(found.sway.amplitude, found.vibration.amplitude) >= least_force) {
     const auto places = static_cast<double>(felt.size());
-    std::vector<glm::dvec2> all;
+    std::vector<glm::dvec2> all, means;
     // Without a sway of few periods the mean is that of what is left.
     const bool parted = parts.sway && parts.sway->alone;
     for (std::size_t place = 0; place < felt.size(); ++place) {
@@ -258,7 +281,7 @@ AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& f
       for (std::size_t i = 0; i < forces.size(); ++i)
         mean += (1 - std::cos(2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / count)) / count *
                 glm::dvec2(forces[i]);
-      all.push_back(glm::dvec2(felt[place].front()) - mean);
+      all.push_back(glm::dvec2(felt[place].front()) - mean), means.push_back(mean);
       off.force += all.back() / places;
     }
     // A wave that travels is elsewhere in its period at each place, and its mean over places is none's.
@@ -270,6 +293,8 @@ AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& f
     if (slow.lower != slow.higher) {
       off.force = -slow.at_first;
       for (const std::vector<Force>& forces : felt) off.force += glm::dvec2(forces.front()) / places;
+    } else if (off.uncertain >= least_force) {
+      off.means = std::move(means);
     }
   }
   if (remembers_anything(program)) return off;
@@ -365,11 +390,19 @@ void tell_held_button(const Bank& bank, ForceReading& found) {
 
 }  // namespace
 
-ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
+ForceReading read(const Bank& bank, const Declarations& declarations, ReadParts wanted) {
+  ReadFirst none;
+  return read_again(bank, declarations, wanted, none);
+}
+
+ForceReading read_again(const Bank& bank, const Declarations&, ReadParts wanted, ReadFirst& first) {
   if (bank.program().description().vibrates()) return {};  // such a program has no force
   ForceReading found;
   const bool remembers = remembers_anything(bank.program().description());
   AtFirst at_first;
+  if (first.moving && wanted.moving) found = *first.moving, at_first = first.at_first;
+  if (first.still && wanted.still) found.still = *first.still;
+  const bool reads_still = wanted.still && !first.still, reads_moving = wanted.moving && !first.moving;
   const auto read_still = [&] { found.still = static_force(bank); };
   const auto read_moving = [&] {
     found.opposing = opposing_force(bank);
@@ -393,16 +426,21 @@ ForceReading read(const Bank& bank, const Declarations&, ReadParts wanted) {
   };
   const auto part = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (i == 0 && wanted.still) read_still();
-      if (i == 1 && wanted.moving) read_moving();
+      if (i == 0 && reads_still) read_still();
+      if (i == 1 && reads_moving) read_moving();
     }
   };
   // Strokes that run tick by tick take as long as all static measurements together.
   const std::size_t parts = leaves_out_motion(bank.program().description()) ? 1 : 2;
-  if (remembers && wanted.still && wanted.moving)
+  if (remembers && reads_still && reads_moving)
     in_parallel(parts, part);
   else
     part(0, parts);
+  if (reads_still) first.still = found.still;
+  if (reads_moving && parts == 2) {
+    first.moving = found, first.at_first = at_first;
+    first.moving->still = {};
+  }
   if (!wanted.still) {
     tell_held_button(bank, found);
     return found;

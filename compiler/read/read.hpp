@@ -33,7 +33,7 @@ struct ForceReading {
   std::vector<StaticStep> steps;     ///< lines where the force jumps, the largest first
   OpposingForce opposing;
   double breakaway = 0;  ///< N: what makes a resting hand slide, if it is more than the friction of a sliding one
-  Principal inertia;     ///< kg
+  Mass inertia;          ///< kg
   Swing sway;            ///< slower than 10 Hz
   Swing vibration;
   OtherForce other;

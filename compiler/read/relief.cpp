@@ -104,7 +104,7 @@ class ReliefReader {
     take_trend_off();
     tell_cut();
     found_.relief = figures_of({field_, whole_, waves_, found_.features, found_.trend, relief_}, all_felt(),
-                               misfit * found_.largest);
+                               found_.obstacles.hill ? 0 : misfit * found_.largest);
     return found_;
   }
 
@@ -360,13 +360,25 @@ StillField field_of(const Unlimited& law) {
   };
 }
 
+/// Whether forces change evenly with the place.
+bool changes_evenly(const std::vector<glm::dvec2>& places, std::vector<glm::dvec2> forces) {
+  constexpr std::size_t fewest = 12;
+  constexpr double unevenly = 0.03;  // of their mean square
+  if (places.size() < fewest) return false;
+  const double all = mean_square(forces);
+  const LinearForce line = linear_force(places, forces);
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= line.at(places[i]);
+  return mean_square(forces) < unevenly * all;
+}
+
 /// The force with the laws of its parts that the author limits: each is told as it is where it is not cut, and what is
 /// beside it as it is felt. Nothing if no law is cut. `felt` is the force itself, `asked` the same without the device's
 /// limit.
 std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillForces& felt,
                                                 const std::vector<glm::dvec2>& asked) {
-  constexpr std::size_t every = 23;         // of the places
-  constexpr double least_cut_part = 0.025;  // of those: the 99th percentile of a texture cuts a hundredth
+  constexpr std::size_t every = 7;          // of the places
+  constexpr double least_cut_part = 0.025;  // of those: the 99th percentile of a texture cuts a hundredth ...
+  constexpr double least_even_part = 1e-3;  // ... and the end of a wall or a spring is cut evenly
   std::vector<PartLimit> cut;
   double cut_at = 0;
   for (const PartLimit& part : part_limits(bank)) {
@@ -375,10 +387,12 @@ std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillFor
     std::vector<glm::dvec2> places;
     for (std::size_t i = 0; i < felt.places.size(); i += every) places.push_back(felt.places[i]);
     const std::vector<glm::dvec2> forces = field_of(*law)(places);
-    std::size_t differ = 0;
+    std::vector<glm::dvec2> there, off;
     for (std::size_t i = 0; i < places.size(); ++i)
-      differ += glm::length(forces[i] - asked[i * every]) > 0.5 * least_force ? 1 : 0;
-    if (static_cast<double>(differ) <= least_cut_part * static_cast<double>(places.size())) continue;
+      if (glm::length(forces[i] - asked[i * every]) > 0.5 * least_force)
+        there.push_back(places[i]), off.push_back(forces[i] - asked[i * every]);
+    const double share = static_cast<double>(there.size()) / static_cast<double>(places.size());
+    if (share <= least_even_part || (share <= least_cut_part && !changes_evenly(there, off))) continue;
     cut.push_back(part), cut_at = std::max(cut_at, part.newton);
   }
   if (cut.empty()) return std::nullopt;

@@ -49,7 +49,9 @@ std::vector<glm::dvec2> course_of(const std::vector<Force>& forces, std::size_t 
 /// How many ticks a window of some swings has, in which they have no mean.
 std::size_t window_for(double swings, const Swing& sway, const Swing& vibration, double rate, std::size_t ticks) {
   if (std::max(sway.amplitude, vibration.amplitude) < least_force) return 1;
-  const double slowest = sway.amplitude >= least_force ? sway.frequency : vibration.frequency;
+  const Swing& slower = sway.amplitude >= least_force ? sway : vibration;
+  double slowest = slower.frequency;
+  for (const SwingPart& each : slower.parts) slowest = std::min(slowest, each.frequency);
   const double seconds = slowest > 0 ? std::min(longest_window, swings / slowest) : longest_window;
   return std::min(ticks, std::max(fewest_ticks, static_cast<std::size_t>(seconds * rate)));
 }

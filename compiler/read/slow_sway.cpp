@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "compiler/read/fading_swing.hpp"
 #include "compiler/read/relief_figures.hpp"
 #include "compiler/read/tolerances.hpp"
 
@@ -130,7 +131,7 @@ double way_of(const std::vector<Force>& forces, double rate) {
 
 std::optional<PartedSway> parted_from_sway(const Bank& bank, const std::vector<std::vector<Force>>& felt,
                                            const Swing& sway) {
-  if (felt.empty() || sway.frequency > fastest_sway || sway.course) return std::nullopt;
+  if (felt.empty() || sway.frequency > fastest_sway || sway.course || !sway.parts.empty()) return std::nullopt;
   const double rate = bank.program().description().device.rate;
   const auto busiest = std::ranges::max_element(felt, {}, range_of);
   // Two or three periods may look like a drift in a spectrum.
@@ -199,6 +200,16 @@ std::optional<double> repeats_at(const std::vector<Force>& forces, double freque
 SlowParts slow_parts(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway,
                      const Swing& vibration) {
   SlowParts parts;
+  if (const Swing& fading = sway.rate_of_change != 0 ? sway : vibration; fading.rate_of_change != 0) {
+    const double rate = bank.program().description().device.rate;
+    PartedSway parted{.amplitude = fading.amplitude, .frequency = fading.frequency};
+    parted.left = without_fading(felt, rate, fading.frequency, fading.rate_of_change);
+    const double most = range_of(*std::ranges::max_element(parted.left, {}, range_of));
+    parted.alone = most < std::max(least_force, left_by_sway * fading.course->greatest);
+    if (!parted.alone) parts.change = slow_change(bank, parted.left, {}, {});
+    parts.sway = std::move(parted);
+    return parts;
+  }
   if (vibration.amplitude < least_force) parts.sway = parted_from_sway(bank, felt, sway);
   if (!parts.sway) {
     // What repeats goes nowhere, whatever its waveform is and whatever the means over a few periods are.

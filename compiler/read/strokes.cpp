@@ -136,7 +136,7 @@ std::vector<glm::dvec2> opposed_anywhere(const Bank& bank, const std::vector<Str
 }
 
 /// For each stroke, the force on a hand that rests in its middle, tick by tick: what changes with time is felt there
-/// too. One tick alone where nothing changes.
+/// too. One tick alone where nothing changes; what goes by time may begin to later.
 std::vector<std::vector<Force>> felt_in_the_middles(const Bank& bank, const std::vector<Stroke>& strokes,
                                                     long at_least = 0) {
   constexpr std::size_t some = 64;
@@ -145,6 +145,7 @@ std::vector<std::vector<Force>> felt_in_the_middles(const Bank& bank, const std:
       static_cast<std::size_t>(std::max(at_least, std::ranges::max(strokes, {}, &Stroke::ticks).ticks()));
   Bank own = bank;
   Memory memory(own.program());
+  const bool timed = goes_by_time(bank.program().description());
   std::vector<std::vector<Force>> felt(strokes.size());
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     if (i > 0 && strokes[i].middle == strokes[i - 1].middle) {
@@ -157,7 +158,7 @@ std::vector<std::vector<Force>> felt_in_the_middles(const Bank& bank, const std:
     for (std::size_t now = 0; now < longest; ++now) {
       still.time = static_cast<double>(now) / rate;
       felt[i].push_back(tick(own, memory, still));
-      if (now + 1 != some || std::ranges::any_of(felt[i], [&](Force each) { return each != felt[i].back(); })) continue;
+      if (timed || now + 1 != some || std::ranges::any_of(felt[i], [&](Force each) { return each != felt[i].back(); })) continue;
       felt[i].resize(1);
       break;
     }

@@ -9,9 +9,12 @@
 #include <numbers>
 
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/fading_swing.hpp"
 #include "compiler/read/fourier.hpp"
+#include "compiler/read/relief_figures.hpp"
 #include "compiler/read/slow_change.hpp"
 #include "compiler/read/swing_course.hpp"
+#include "compiler/read/tones.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
 #include "wale/batch.hpp"
@@ -59,13 +62,14 @@ std::vector<std::complex<float>> without_drift(const std::vector<Force>& forces)
 /// N: the 99th percentile of the size of a changing force within some lines of its spectrum, as the amplitude of a
 /// relief is defined. `fade` is the window under which it was transformed; near its ends, which are so much of the time
 /// on either side, it may leave too little.
-double size_within(const Spectrum& spectrum, const std::vector<float>& fade, std::size_t first, std::size_t end,
-                   double ends = 0.25) {
+template <typename Chosen>
+double size_of_lines(const Spectrum& spectrum, const std::vector<float>& fade, std::size_t first, std::size_t end,
+                     Chosen chosen, double ends = 0.25) {
   const std::size_t count = spectrum.size();
   Spectrum within(count);
   // The transform back is that of the conjugate.
   for (std::size_t i = first; i < end; ++i)
-    within[i] = std::conj(spectrum[i]), within[count - i] = std::conj(spectrum[count - i]);
+    if (chosen(i)) within[i] = std::conj(spectrum[i]), within[count - i] = std::conj(spectrum[count - i]);
   const Spectrum back = fourier_of_line(within);
   const auto left_out = static_cast<std::size_t>(ends * static_cast<double>(count));
   std::vector<float> sizes;
@@ -74,6 +78,10 @@ double size_within(const Spectrum& spectrum, const std::vector<float>& fade, std
   const auto rank = sizes.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size()));
   std::nth_element(sizes.begin(), rank, sizes.end());
   return *rank;
+}
+
+double size_within(const Spectrum& spectrum, const std::vector<float>& fade, std::size_t first, std::size_t end) {
+  return size_of_lines(spectrum, fade, first, end, [](std::size_t) { return true; });
 }
 
 /// rad in [0, pi): the axis of the part of a force that some lines of its spectrum hold, if it has one.
@@ -90,7 +98,7 @@ std::optional<double> axis_within(const Spectrum& spectrum, std::size_t first, s
   return std::numbers::pi - angle < nearly_whole ? 0 : angle;
 }
 
-/// N: the farthest that some forces go from the middle between the extremes along each axis. No swing is larger.
+/// N: the farthest that some forces go from the middle between the extremes along each axis. No even swing is larger.
 double farthest_from_middle(const std::vector<Force>& forces) {
   glm::dvec2 least(HUGE_VAL), most(-HUGE_VAL);
   for (const Force& force : forces)
@@ -99,6 +107,28 @@ double farthest_from_middle(const std::vector<Force>& forces) {
   for (const Force& force : forces)
     farthest = std::max(farthest, glm::length(glm::dvec2(force) - 0.5 * (least + most)));
   return farthest;
+}
+
+/// N: the 99th percentile of the size of a force that repeats with a period (s), about its mean over whole periods;
+/// nothing if it does not repeat.
+std::optional<double> size_of_repeating(const std::vector<Force>& forces, double period, double rate) {
+  const auto apart = static_cast<std::size_t>(std::lround(period * rate));
+  // Of the mean size: what jumps falls on another tick in some periods.
+  const double beside = 0.03 + 8 / static_cast<double>(std::max<std::size_t>(apart, 1));
+  const auto whole = static_cast<std::size_t>(
+      std::lround(std::floor(static_cast<double>(forces.size()) / rate / period + 1e-3) * period * rate));
+  if (apart == 0 || whole < 2 * apart) return std::nullopt;
+  const std::size_t counted = std::min(whole, forces.size());
+  glm::dvec2 mean{0};
+  for (std::size_t i = 0; i < counted; ++i) mean += glm::dvec2(forces[i]) / static_cast<double>(counted);
+  std::vector<double> sizes;
+  double sum = 0, differs = 0;
+  for (std::size_t i = 0; i < counted; ++i) {
+    sizes.push_back(glm::length(glm::dvec2(forces[i]) - mean)), sum += sizes.back();
+    if (i >= apart) differs += glm::length(forces[i] - forces[i - apart]);
+  }
+  if (differs > beside * sum) return std::nullopt;
+  return percentile(sizes, percentile_of_amplitude);
 }
 
 /// Whether a changing force has no rate: it takes many lines of its spectrum to hold most of its power, and they are no
@@ -182,6 +212,25 @@ Swing swing_in(const std::vector<double>& powers, std::size_t first, std::size_t
 
 }  // namespace
 
+double Swing::beside_strongest() const {
+  double squares = 0;
+  for (std::size_t i = 1; i < parts.size(); ++i) squares += parts[i].amplitude * parts[i].amplitude;
+  return std::sqrt(squares);
+}
+
+std::vector<glm::dvec2> places_of_rest(const Bank& bank) {
+  const PatchSize patch = bank.size();
+  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
+  std::vector<glm::dvec2> places;
+  for (std::size_t i = 0; i < still_places; ++i) {
+    // On a spiral, so that no two positions have the same distance or angle.
+    const auto number = static_cast<double>(i);
+    const double radius = 0.8 * number / still_places, angle = number * std::numbers::pi * (3 - std::sqrt(5.0));
+    places.push_back(half * radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+  return places;
+}
+
 std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
   const bool timed = reads(program, {Input::time});
@@ -189,15 +238,9 @@ std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
   if (!timed && program.states.empty()) return felt;
   const double rate = program.device.rate;
   const auto ticks = static_cast<std::size_t>(std::lround(still_seconds * rate));
-  const PatchSize patch = bank.size();
-  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
   std::vector<Hand> hands(still_places);
-  for (std::size_t i = 0; i < still_places; ++i) {
-    // On a spiral, so that no two positions have the same distance or angle.
-    const auto number = static_cast<double>(i);
-    const double radius = 0.8 * number / still_places, angle = number * std::numbers::pi * (3 - std::sqrt(5.0));
-    hands[i].position = hands[i].workspace = glm::vec2(half * radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-  }
+  const std::vector<glm::dvec2> places = places_of_rest(bank);
+  for (std::size_t i = 0; i < still_places; ++i) hands[i].position = hands[i].workspace = glm::vec2(places[i]);
   felt.assign(still_places, std::vector<Force>(ticks));
   if (program.states.empty()) {
     for (std::size_t i = 0; i < still_places; ++i) {
@@ -228,6 +271,64 @@ std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
 }
 
 namespace {
+
+/// What swings at one place, as its spectrum shows it.
+struct SwingingForce {
+  const std::vector<Force>& forces;
+  const Spectrum& spectrum;
+  const std::vector<float>& fade;
+  const std::vector<double>& powers;
+  double seconds = 0, rate = 0;
+};
+
+/// The size of a fundamental with its harmonics, but for the lines of others.
+double size_of_tone(const SwingingForce& felt, const std::vector<Tone>& tones, const Tone& tone) {
+  constexpr double foot = 2.5;  // lines
+  const auto near_one = [&](const Tone& each, std::size_t line) {
+    const double at = static_cast<double>(line), apart = each.frequency * felt.seconds;
+    const double times = each.shaped ? std::max(1.0, std::round(at / apart)) : 1;
+    return std::abs(at - times * apart) <= foot;
+  };
+  return size_of_lines(felt.spectrum, felt.fade, 1, felt.powers.size() - 1, [&](std::size_t line) {
+    if (!near_one(tone, line)) return false;
+    // What both may be is the faster one's, of which it is the fundamental.
+    return std::ranges::none_of(tones, [&](const Tone& other) {
+      return other.frequency != tone.frequency && near_one(other, line) &&
+             std::abs(other.frequency * felt.seconds - static_cast<double>(line)) <= foot;
+    });
+  });
+}
+
+/// Tells of steady swings what each of them is: one that is the sum of several by its parts, and one with corners, whose
+/// harmonics are faster than it, by its whole size.
+void tell_tones(const SwingingForce& felt, const std::vector<Tone>& tones, double fastest_sway, Swing& sway,
+                Swing& vibration) {
+  if (tones.empty()) return;
+  const auto is_slow = [&](const Tone& each) { return each.frequency < fastest_sway; };
+  const bool any_fast = !std::ranges::all_of(tones, is_slow);
+  for (const bool slow : {true, false}) {
+    Swing& swing = slow ? sway : vibration;
+    if (!(swing.frequency > 0)) continue;
+    for (const Tone& each : tones)
+      if (is_slow(each) == slow)
+        swing.parts.push_back({tones.size() > 1 ? size_of_tone(felt, tones, each) : each.amplitude, each.frequency});
+    std::ranges::sort(swing.parts, std::greater(), &SwingPart::amplitude);
+    std::erase_if(swing.parts, [](const SwingPart& part) { return part.amplitude < least_force; });
+    if (swing.parts.size() > 1) swing.frequency = swing.parts.front().frequency;
+  }
+  const auto shaped = std::ranges::find_if(tones, [&](const Tone& each) { return is_slow(each) && each.shaped; });
+  const bool corners = shaped != tones.end();
+  if (tones.size() == 1 && corners) {
+    if (const auto size = size_of_repeating(felt.forces, 1 / tones.front().frequency, felt.rate))
+      sway.amplitude = *size;
+  } else if (corners && sway.parts.size() == 1 && any_fast) {
+    // Its harmonics are not of the vibration beside it.
+    sway.amplitude = sway.parts.front().amplitude;
+    if (vibration.parts.size() == 1) vibration.amplitude = vibration.parts.front().amplitude;
+  }
+  for (Swing* const swing : {&sway, &vibration})
+    if (swing->parts.size() < 2) swing->parts.clear();
+}
 
 /// Tells the swings at the place where the forces change most. Returns the part of that change at the place where they
 /// change least.
@@ -270,16 +371,36 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
   vibration = swing_in(powers, first_fast, powers.size(), seconds);
   // The harmonics of a sway count with it.
   const double times = sway.frequency > 0 ? vibration.frequency / sway.frequency : 0;
-  const bool harmonic =
-      times > 0 && vibration.amplitude < 0.5 * sway.amplitude && std::abs(times - std::round(times)) < 0.05;
+  const std::vector<Tone> tones = fundamentals_of(powers, seconds, rate);
+  const double fastest_sway = (static_cast<double>(first_fast) - 0.5) / seconds;
+  const auto of = [&](double frequency) {
+    return std::ranges::any_of(tones, [&](const Tone& each) {
+      return std::abs(each.frequency - frequency) < same_rate * frequency;
+    });
+  };
+  // The fundamentals of a steady sum tell which of them have harmonics; otherwise a weak multiple is one.
+  const bool told_by_tones = !(sway.frequency > 0) || of(sway.frequency), resolved = times > 0 && told_by_tones;
+  const bool any_fast = std::ranges::any_of(tones, [&](const Tone& each) { return each.frequency > fastest_sway; });
+  const bool harmonic = resolved ? !any_fast
+                                 : times > 0 && vibration.amplitude < 0.5 * sway.amplitude &&
+                                       std::abs(times - std::round(times)) < 0.05;
   if (harmonic) vibration = {};
+  double slowest = sway.frequency;
+  for (const Tone& each : tones) slowest = std::min(slowest, each.frequency);
   if (sway.frequency > 0)
     sway.amplitude =
-        size_within(spectrum, fade, std::max<std::size_t>(3, static_cast<std::size_t>(sway.frequency * seconds)) - 2,
+        size_within(spectrum, fade, std::max<std::size_t>(3, static_cast<std::size_t>(slowest * seconds)) - 2,
                     harmonic ? powers.size() : first_fast);
   if (sway.frequency > 0) sway.axis = axis_within(spectrum, fewest_swings, first_fast);
   sway.amplitude = std::min(sway.amplitude, farthest_from_middle(*at_busiest));
-  if (!(vibration.frequency > 0)) return share;
+  const auto tell_sum = [&] {
+    if (told_by_tones)
+      tell_tones({*at_busiest, spectrum, fade, powers, seconds, rate}, tones, fastest_sway, sway, vibration);
+  };
+  if (!(vibration.frequency > 0)) {
+    tell_sum();
+    return share;
+  }
   vibration.axis = axis_within(spectrum, first_fast, powers.size());
   double slower = 0, faster = 0;
   for (std::size_t i = 1; i < powers.size(); ++i) (i < first_fast ? slower : faster) += powers[i];
@@ -295,22 +416,35 @@ double tell_greatest_swings(const Bank& bank, const std::vector<std::vector<Forc
   const double peak = std::sqrt(2 * tone);
   if (tone >= pure * (slower + faster) && peak > vibration.amplitude && peak < missed * vibration.amplitude)
     vibration.amplitude = peak;
+  tell_sum();
   return share;
+}
+
+double changing_square_of(const std::vector<Force>& forces) {
+  double squares = 0;
+  glm::dvec2 mean{0};
+  for (const Force& force : forces) mean += glm::dvec2(force) / static_cast<double>(forces.size());
+  for (const Force& force : forces) squares += glm::dot(glm::dvec2(force) - mean, glm::dvec2(force) - mean);
+  return squares;
+}
+
+/// Tells a swing that is all that changes, and does so by an exponential. Whether there is one.
+bool tell_fading(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway, Swing& vibration) {
+  if (felt.empty() || vibration.noise) return false;
+  const std::vector<Force>& busiest = *std::ranges::max_element(felt, {}, changing_square_of);
+  const std::optional<Swing> fading = fading_swing(busiest, bank.program().description().device.rate);
+  if (!fading || fading->course->greatest < least_force) return false;
+  sway = vibration = {};
+  (fading->frequency < slowest_vibration ? sway : vibration) = *fading;
+  return true;
 }
 
 /// Tells of a swing that dies away or grows how it does so, its size over all of the time, and its rate while it is
 /// there. A sway is one only if it was found; a vibration may be over too soon for that.
 void tell_course(const Bank& bank, const std::vector<std::vector<Force>>& felt, bool fast, Swing& swing) {
   if (swing.noise || (!fast && !(swing.frequency > 0))) return;
-  const auto changing = [](const std::vector<Force>& forces) {
-    double squares = 0;
-    glm::dvec2 mean{0};
-    for (const Force& force : forces) mean += glm::dvec2(force) / static_cast<double>(forces.size());
-    for (const Force& force : forces) squares += glm::dot(glm::dvec2(force) - mean, glm::dvec2(force) - mean);
-    return squares;
-  };
   if (felt.empty()) return;
-  const auto busiest = std::ranges::max_element(felt, {}, changing);
+  const auto busiest = std::ranges::max_element(felt, {}, changing_square_of);
   const double rate = bank.program().description().device.rate;
   const double slowest = fast ? slowest_vibration : 0;
   const auto unsteady =
@@ -336,8 +470,9 @@ void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
       if (std::abs(alone.frequency - vibration.frequency) < same_rate * vibration.frequency) vibration = alone;
     }
   }
-  tell_course(bank, felt, true, vibration);
-  if (sway.amplitude >= least_force) tell_course(bank, felt, false, sway);
+  const bool fading = tell_fading(bank, felt, sway, vibration);
+  if (!fading) tell_course(bank, felt, true, vibration);
+  if (!fading && sway.amplitude >= least_force) tell_course(bank, felt, false, sway);
   // Of two swings nobody knows which one differs.
   if (share > plainly_less || std::min(sway.amplitude, vibration.amplitude) >= least_force) return;
   Swing& swing = sway.amplitude > vibration.amplitude ? sway : vibration;

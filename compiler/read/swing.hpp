@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,12 @@ struct SwingCourse {
   double tenth_after = 0;  ///< s: a tenth is left, or there; 0 if more is at all times
 };
 
+/// One of the swings of which a changing force is the sum, with its harmonics.
+struct SwingPart {
+  double amplitude = 0;  ///< N: as of `Swing`
+  double frequency = 0;  ///< Hz
+};
+
 /// A changing force on a hand that holds still.
 struct Swing {
   double amplitude = 0;  ///< N: the 99th percentile of its size, as the amplitude of a relief is defined
@@ -26,6 +33,17 @@ struct Swing {
   /// N: about the amplitude at the place where it is least; nothing if that is more than half of the greatest
   std::optional<double> least{};
   std::optional<SwingCourse> course{};  ///< nothing of one that stays as it is, or comes and goes
+  /// 1/s: of the size of one that dies away (negative) or grows by an exponential and is all that changes; otherwise 0.
+  double rate_of_change = 0;
+  /// The swings of which it is the sum, the strongest first; none if it is one, or a sum of too many.
+  std::vector<SwingPart> parts{};
+
+  /// N: of all parts but the strongest together, as one of so much power; 0 without parts.
+  double beside_strongest() const;
+  /// Hz: of the second strongest part; 0 without parts.
+  double next_rate() const { return parts.size() > 1 ? parts[1].frequency : 0; }
+  /// N: the greatest size of one that dies away, with the other sign of one that grows; 0 if it stays as it is.
+  double change() const { return !course ? 0 : course->grows ? -course->greatest : course->greatest; }
 };
 
 /// s: so long hands hold still that feel what time brings.
@@ -33,6 +51,9 @@ inline constexpr double still_seconds = 8;
 
 /// Below this frequency (Hz) a swing is a sway, which the hand follows; above it is a vibration.
 inline constexpr double slowest_vibration = 10;
+
+/// m: where such hands are, over a patch.
+std::vector<glm::dvec2> places_of_rest(const Bank& bank);
 
 /// The forces on hands that hold still at a few positions for some seconds, for each tick; empty if they cannot change.
 std::vector<std::vector<Force>> felt_at_rest(const Bank& bank);

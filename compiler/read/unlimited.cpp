@@ -172,6 +172,7 @@ std::optional<Unlimited> without_limit(PatchProgram program, const Bank& bank, i
   std::ranges::stable_sort(added, std::less(), [](const auto& each) { return each.first; });
   for (std::size_t i = added.size(); i-- > 0;)
     program.tick.insert(program.tick.begin() + static_cast<std::ptrdiff_t>(added[i].first), added[i].second);
+  program.places = {};  // those of the instructions before
   const std::vector<float> parameters = parameters_of(bank);
   const double ticks = std::pow(program.device.rate, times);
   Result<Program> loaded = Program::load(std::move(program));

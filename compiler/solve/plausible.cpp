@@ -35,11 +35,11 @@ bool may_jump(const Terms& terms, TermId root) {
 }
 
 /// A straight way over the patch, as shares of its half sides from -1 to 1.
-struct Way {
+struct Stroke {
   double from_x, from_y, to_x, to_y;
 };
 // Askew, so that no line of a pattern lies along one of them.
-constexpr Way ways[] = {{-0.97, 0.131, 0.93, 0.177}, {0.213, -0.95, 0.171, 0.97}, {-0.91, -0.83, 0.89, 0.94}};
+constexpr Stroke ways[] = {{-0.97, 0.131, 0.93, 0.177}, {0.213, -0.95, 0.171, 0.97}, {-0.91, -0.83, 0.89, 0.94}};
 
 /// Whether two heights differ by no more than the rounding of numbers of a size, or of their own.
 bool is_level(double low, double high, double size = 0) {
@@ -47,7 +47,7 @@ bool is_level(double low, double high, double size = 0) {
   return !(high - low > rounding * std::max({size, std::abs(low), std::abs(high)}));
 }
 
-std::optional<Jump> jump_along(PlaceEvaluator& height, const Way& way, std::size_t steps) {
+std::optional<Jump> jump_along(PlaceEvaluator& height, const Stroke& way, std::size_t steps) {
   const auto place = [&](double share) {
     return std::array{(way.from_x + share * (way.to_x - way.from_x)) * height.reach_x(),
                       (way.from_y + share * (way.to_y - way.from_y)) * height.reach_y()};
@@ -162,7 +162,7 @@ std::optional<JumpingHeight> find_jump(const CheckedMaterial& material, const De
     // About a millisecond for the largest heights.
     constexpr std::size_t most_work = 100000, fewest_steps = 48, most_steps = 128;
     const std::size_t steps = std::clamp(most_work / (height.operations() + 1), fewest_steps, most_steps);
-    for (const Way& way : ways)
+    for (const Stroke& way : ways)
       if (const auto jump = jump_along(height, way, steps))
         return JumpingHeight{*jump, carrier.span, carrier.name.substr(0, carrier.name.find(' '))};
   }

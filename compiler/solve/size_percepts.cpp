@@ -207,7 +207,7 @@ PerceptRecord PerceptSolver::record(const Told& told) {
   const Told& setting = told.shares == none ? told : told_[told.shares];
   record.blended = setting.solved && setting.asked->blended;
   if (setting.solved && !record.blended) record.parameter = static_cast<std::uint16_t>(setting.parameter);
-  record.alone = force_[0] == carrier.force_x && force_[1] == carrier.force_y;
+  record.alone = is_only_force(carrier);
   record.basis.summand = is_whole(carrier);
   const double share = band_share(setting);
   record.basis.share = static_cast<float>(share);

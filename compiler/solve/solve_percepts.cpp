@@ -75,6 +75,30 @@ bool PerceptSolver::is_whole(const Carrier& carrier) {
   return false;
 }
 
+/// Whether no other force than the carrier's pushes: the total force is the carrier's, as it is or after limits and
+/// factors.
+bool PerceptSolver::is_only_force(const Carrier& carrier) {
+  const auto comes_from = [&](TermId total, TermId force) {
+    std::vector<TermId> waiting{total};
+    std::unordered_set<TermId> seen;
+    while (!waiting.empty() && diagnostics_.charge(1, material_.span, Work::solving)) {
+      const TermId current = waiting.back();
+      waiting.pop_back();
+      if (current == force) return true;
+      if (!seen.insert(current).second) continue;
+      const Term& term = (*terms_)[current];
+      if (term.kind != TermKind::operation) continue;
+      const bool product = term.operation == Operation::multiply;
+      if (product) waiting.push_back(term.b);
+      if (product || term.operation == Operation::divide || term.operation == Operation::negate ||
+          term.operation == Operation::limit)
+        waiting.push_back(term.a);
+    }
+    return false;
+  };
+  return comes_from(force_[0], carrier.force_x) && comes_from(force_[1], carrier.force_y);
+}
+
 /// Whether the carrier's force is a term of the total force, unchanged: neither scaled nor limited nor switched.
 bool PerceptSolver::is_summand(const Carrier& carrier) {
   if (summands_.empty()) find_summands();
@@ -138,10 +162,10 @@ void PerceptSolver::plan(const Terms& terms, const std::vector<Carrier>& carrier
   mark_decalibrating(parameters);
 }
 
-/// The author's parameters that a term depends on.
-std::set<std::uint32_t> PerceptSolver::parameters_of(TermId id) const {
+/// The author's parameters that a term depends on by itself, and not through one of the terms in `beyond`.
+std::set<std::uint32_t> PerceptSolver::parameters_of(TermId id, const std::array<TermId, 2>& beyond) const {
   std::set<std::uint32_t> found;
-  std::set<TermId> seen;
+  std::set<TermId> seen(beyond.begin(), beyond.end());
   std::vector<TermId> waiting{id};
   while (!waiting.empty()) {
     const TermId current = waiting.back();
@@ -155,18 +179,43 @@ std::set<std::uint32_t> PerceptSolver::parameters_of(TermId id) const {
   return found;
 }
 
-/// Marks the parameters that scale the force of a solved carrier: they move the percept away from its level.
+/// Whether a term is made of one of these.
+bool PerceptSolver::is_made_of(TermId id, const std::array<TermId, 2>& parts) const {
+  std::set<TermId> seen;
+  std::vector<TermId> waiting{id};
+  const TermId first = std::min(parts[0], parts[1]);
+  while (!waiting.empty()) {
+    const TermId current = waiting.back();
+    waiting.pop_back();
+    if (current == parts[0] || current == parts[1]) return true;
+    // Operands precede their users.
+    if (current < first || !seen.insert(current).second) continue;
+    if (!diagnostics_.charge(4, material_.span, Work::solving)) break;
+    for (const TermId operand : operands((*terms_)[current])) waiting.push_back(operand);
+  }
+  return false;
+}
+
+/// Marks the parameters that scale the force of a solved carrier: they move the percept away from its level. A limit is
+/// a factor that is made of the force itself. Of what it is made, only the limit is no part of the force; and a spring
+/// or a wall is as stiff as before where it grows no more.
 void PerceptSolver::mark_decalibrating(std::vector<Parameter>& parameters) const {
   for (const Told& told : told_) {
     if (!told.solved) continue;
-    const TermId force = (*carriers_)[told.carrier].force_x;
+    const Carrier& carrier = (*carriers_)[told.carrier];
+    const std::array<TermId, 2> whole{carrier.force_x, carrier.force_y};
+    const TermId force = carrier.force_x;
+    const Extractor extractor = told.percept->extractor;
+    const bool keeps_its_law = extractor == Extractor::stiffness || extractor == Extractor::wall_stiffness;
     if (!diagnostics_.charge(terms_->size() / 8, material_.span, Work::solving)) return;
     for (TermId id = force + 1; id < terms_->size(); ++id) {
       const Term& term = (*terms_)[id];
       const bool product = term.operation == Operation::multiply && (term.a == force || term.b == force);
       const bool quotient = term.operation == Operation::divide && term.a == force;
       if (term.kind != TermKind::operation || !(product || quotient)) continue;
-      for (const std::uint32_t index : parameters_of(term.a == force ? term.b : term.a)) {
+      const TermId factor = term.a == force ? term.b : term.a;
+      if (keeps_its_law && is_made_of(factor, whole)) continue;
+      for (const std::uint32_t index : parameters_of(factor, whole)) {
         std::string& description = parameters[index].description;
         const std::string mark = fmt::format("(decalibrates {})", told.percept->name);
         if (!description.ends_with(mark)) description += (description.empty() ? "" : " ") + mark;

@@ -70,6 +70,7 @@ class PerceptSolver {
   void find_summands();
   bool is_summand(const Carrier& carrier);
   bool is_whole(const Carrier& carrier);
+  bool is_only_force(const Carrier& carrier);
   void match(const AskedPercept& asked);
   std::string chosen_by(const std::string& percept) const;  ///< the map that the device's rule names; may be empty
   const Map* map_for(const Percept& percept, const AskedPercept& asked);
@@ -83,7 +84,8 @@ class PerceptSolver {
   static double exertion(const Told& told) { return told.shares == none ? told.percept->exerts : 0; }
   void check_conflict(const Told& told);
   void mark_decalibrating(std::vector<Parameter>& parameters) const;
-  std::set<std::uint32_t> parameters_of(TermId id) const;
+  std::set<std::uint32_t> parameters_of(TermId id, const std::array<TermId, 2>& beyond) const;
+  bool is_made_of(TermId id, const std::array<TermId, 2>& parts) const;
   void couple();
   bool order_from(std::size_t index, std::vector<int>& state);
   void work_out_sizes();

@@ -18,8 +18,9 @@ QtMessageHandler usual = nullptr;
 void end_without_a_screen(QtMsgType type, const QMessageLogContext& context, const QString& text) {
   if (type != QtFatalMsg) return;  // its other lines tell the same in words of Qt
   if (!text.contains("platform plugin")) return usual(type, context, text);
-  std::fputs("sandpaper: there is no screen to open a window on; log in to a desktop, or feel without a window: wale feel\n",
-             stderr);
+  std::fputs(
+      "sandpaper: there is no screen to open a window on; log in to a desktop, or feel without a window: wale feel\n",
+      stderr);
   std::_Exit(1);
 }
 
@@ -39,7 +40,8 @@ int main(int argc, char** argv) {
   parser.setApplicationDescription("Lays materials out, lets a hand feel them and changes them.");
   parser.addHelpOption();
   const QCommandLineOption device("device", "The device to feel with, as `wale feel --device` spells it.", "DEVICE");
-  const QCommandLineOption look("screenshot", "Writes a picture of the window when everything is drawn, and ends.", "FILE");
+  const QCommandLineOption look("screenshot", "Writes a picture of the window when everything is drawn, and ends.",
+                                "FILE");
   parser.addOptions({device, look});
   parser.addPositionalArgument("FILE", "A Wale file with a workspace.", "[FILE…]");
   parser.process(application);

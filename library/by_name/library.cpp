@@ -202,6 +202,14 @@ Result<Compiled> Library::find(const std::string& name, const CompileOptions& op
   if (!named) {
     Error error = std::move(named.error());
     if (error.place.name.empty()) error.place.name = "name";
+    for (const std::string ending : {".wale", ".wpp"}) {
+      if (error.code != Code::unknown_name || !name.ends_with(ending)) continue;
+      const std::string stem = name.substr(0, name.size() - ending.size());
+      error.mend = "`open` reads the file of a path, and `find` takes the name of a material";
+      if (!find_named_material(stem, parts_->roots)) continue;
+      error.mend += ", as in `" + stem + "`";
+      error.nearest = {stem};
+    }
     return error;
   }
   return parts_->compiled(*std::move(named), options);

@@ -1,24 +1,29 @@
 #include "library/by_name/worker.hpp"
 
 #include <exception>
+#include <new>
 #include <system_error>
 #include <utility>
 
 namespace wale {
 
 Worker::Queue::~Queue() {
-  std::deque<Piece> dropped;
   {
     const std::lock_guard lock(mutex_);
     ends_ = true;
-    dropped.swap(waiting_);
+    dropped_.swap(waiting_);
   }
   news_.notify_all();
-  for (Piece& each : dropped)
-    each.result.set_value(Error{Code::wrong_moment,
-                                "the library was destroyed before this was begun",
-                                "keep the library until its futures are ready",
-                                {.name = "library"}});
+  for (Piece& each : dropped_) {
+    try {
+      each.result.set_value(Error{Code::wrong_moment,
+                                  "the library was destroyed before this was begun",
+                                  "keep the library until its futures are ready",
+                                  {.name = "library"}});
+    } catch (const std::bad_alloc&) {
+      each.result.set_exception(std::current_exception());
+    }
+  }
   thread_.reset();
 }
 

@@ -43,6 +43,7 @@ class Worker {
     std::mutex mutex_;
     std::condition_variable news_;
     std::deque<Piece> waiting_;
+    std::deque<Piece> dropped_;  // made early: a deque takes memory also when it is empty
     bool ends_ = false;
     std::optional<command::DeepThread> thread_;  // the last member: it uses the others
   };

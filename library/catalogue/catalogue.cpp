@@ -8,6 +8,7 @@
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/meant_material.hpp"
 #include "library/by_name/missing_folder.hpp"
+#include "library/index/content_hash.hpp"
 
 namespace wale {
 namespace {
@@ -49,7 +50,10 @@ class LibraryCatalogue final : public Catalogue {
             .called = material.called,
             .feels = material.feels,
             .documentation = material.documentation,
-            .shipped = material.shipped()};
+            .shipped = material.shipped(),
+            .content = material.shipped()
+                           ? ContentHash().take(compiler_build()).take(material.module).take(material.name).digits()
+                           : std::string()};
   }
 
   std::optional<Error> missing_;  // about the first of the given folders that is none

@@ -36,8 +36,8 @@ FileRequest request_of(const IndexChoice& choice) {
 
 void offer_index(CLI::App& verb, IndexChoice& choice) {
   must_say(verb.add_option("--index", choice.file,
-                           "look in this index as it stands, one of `wale library index` (default: one in the user's "
-                           "cache, which is brought up to date)")
+                           "look in this index as it stands, a file or postgresql://USER@HOST/DATABASE, which `wale library "
+                           "index` makes (default: one in the user's cache, which is brought up to date)")
                ->type_name("FILE"),
            "the name of an index", "`wale library index -o FILE` makes one");
   offer_library(verb, choice.folders, "a folder whose materials are looked at too, as in my/materials; may be repeated");
@@ -53,7 +53,7 @@ StoreProgress shown_progress() {
   };
 }
 
-std::string kept_index(const IndexChoice& choice, const std::vector<LibraryFile>& files) {
+std::string cache_folder() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
   fs::path folder;
@@ -63,8 +63,15 @@ std::string kept_index(const IndexChoice& choice, const std::vector<LibraryFile>
     folder = fs::path(home) / ".cache" / "wale";
   else
     return {};
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  return folder.string();
+}
+
+std::string kept_index(const IndexChoice& choice, const std::vector<LibraryFile>& files) {
+  const fs::path folder = cache_folder();
+  if (folder.empty()) return {};
   std::error_code trouble;
-  fs::create_directories(folder, trouble);
   // One for each library. Files that are only in this binary are the same everywhere; others have relative names.
   ContentHash hash;
   hash.take(choice.device);
@@ -78,13 +85,13 @@ std::string kept_index(const IndexChoice& choice, const std::vector<LibraryFile>
 Result<IndexHere> index_here(const IndexChoice& choice) {
   IndexHere here;
   if (!choice.file.empty()) {
-    auto opened = LibraryStore::open(choice.file, false);
+    auto opened = LibraryStore::open(choice.file, false, cache_folder());
     if (!opened) return opened.error();
     here.store = *std::move(opened);
     if (!here.store->is_of_this_wale())
-      print_error("wale: warning: {} is of another build of Wale, whose maps may give other levels; `wale library index -o` "
+      print_error("wale: warning: {} is of another build of Wale, whose maps may give other levels; `wale library index` "
                   "brings it up to date\n",
-                  visible_text(choice.file));
+                  visible_text(without_password(choice.file)));
     return here;
   }
   const FileRequest request = request_of(choice);

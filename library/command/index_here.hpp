@@ -14,13 +14,14 @@ namespace wale::command {
 
 /// In which index a verb looks.
 struct IndexChoice {
-  std::string file;  ///< of an index that is taken as it stands; empty: one of the library that imports find here
+  /// A file, or the address of a shared one, that is taken as it stands; empty: one of the library that imports find here.
+  std::string file;
   std::string device = default_device;
   std::vector<std::string> folders;
   Sandbox sandbox = Sandbox::required;
 };
 
-/// --index FILE, --library DIR and --unsandboxed-pictures.
+/// --index INDEX, --library DIR and --unsandboxed-pictures.
 void offer_index(CLI::App& verb, IndexChoice& choice);
 
 /// The index that a verb looks in.
@@ -36,6 +37,9 @@ struct IndexHere {
 /// date, and shows how far it is on a terminal. Where none can be kept, reads the library, and says that this is why it
 /// takes long. Errors: those of `LibraryStore::open` for a file that was named.
 Result<IndexHere> index_here(const IndexChoice& choice);
+
+/// The folder of indexes in the user's cache, which is made if it is not there; empty if the system names no place.
+std::string cache_folder();
 
 /// Where the index of that library is kept, a file in the user's cache; empty if the system names no place.
 std::string kept_index(const IndexChoice& choice, const std::vector<LibraryFile>& files);

@@ -61,7 +61,8 @@ std::string edited(const WrittenPatch& written, const LaidOutPatch& patch, const
     edits.push_back({written.end, written.end, " { " + lines + " }"});
   }
   // From behind, so that places stay; of two at one place, what is inserted comes first in the text.
-  std::ranges::stable_sort(edits, [](const Edit& a, const Edit& b) { return std::pair(a.begin, a.end) > std::pair(b.begin, b.end); });
+  std::ranges::stable_sort(
+      edits, [](const Edit& a, const Edit& b) { return std::pair(a.begin, a.end) > std::pair(b.begin, b.end); });
   std::string text = written.text;
   for (const Edit& each : edits) text.replace(each.begin, each.end - each.begin, each.replacement);
   return written.lead + text;

@@ -37,8 +37,8 @@ struct WrittenLayout {
   std::vector<std::shared_ptr<const WrittenPatch>> patches;
 };
 
-/// The text of a patch in which only that is changed which the patch says otherwise now, with what stands before it; nothing
-/// if it has to be written anew. `settings` are those of the patch now.
+/// The text of a patch in which only that is changed which the patch says otherwise now, with what stands before it;
+/// nothing if it has to be written anew. `settings` are those of the patch now.
 std::string edited(const WrittenPatch& written, const LaidOutPatch& patch, const SettingLines& settings);
 
 /// Whether a piece of text begins on a line of its own.

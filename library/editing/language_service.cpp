@@ -13,6 +13,7 @@
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/open_file.hpp"
+#include "compiler/preview/preview.hpp"
 #include "library/by_name/missing_folder.hpp"
 #include "library/by_name/told.hpp"
 #include "library/by_name/workspaces.hpp"
@@ -49,6 +50,20 @@ std::string why_not_measured(const DescribedPercept& percept) {
   std::string why = percept.domain_why;
   for (const OutsideRange& each : percept.outside) why += (why.empty() ? "" : "; ") + outside_in_words(each);
   return why;
+}
+
+/// As `compile_opened`, and `called` is the name of the material, if it is not empty.
+std::optional<Program> compile_called(OpenedFile& opened, const FileRequest& request, const std::string& name,
+                                      const std::string& called) {
+  if (called.empty()) return compile_opened(opened, request, name, opened.diagnostics);
+  const CheckedMaterial* found =
+      chosen_material(*opened.module, name, opened.sources, opened.source, opened.diagnostics);
+  if (!found) return std::nullopt;
+  CheckedMaterial material = *found;
+  material.name = called;
+  const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
+  return compile_material(material, *opened.module, request.device, opened.sources, opened.source, *resolver,
+                          opened.diagnostics);
 }
 
 }  // namespace
@@ -97,6 +112,17 @@ struct LanguageService::Parts {
     return unknown(Code::unknown_device, "device", device, opened.module->declarations().devices.spellings());
   }
 
+  /// What is declared where a program is described. Error: `unknown_device` if nothing declares its device.
+  Result<CheckedModule> around(const Program& program, SourceSet& sources) const {
+    const FileRequest asked = request({.device = program.description().device.name});
+    Diagnostics diagnostics;
+    const auto resolver = file_resolver(asked.roots, nullptr, asked.sandbox, asked.devices);
+    CheckedModule here = check_source(sources, sources.add("here", "wale 1\n"), *resolver, diagnostics);
+    if (!here.declarations().devices.contains(asked.device))
+      return unknown(Code::unknown_device, "device", asked.device, here.declarations().devices.spellings());
+    return here;
+  }
+
   Result<OpenedFile> opened(std::string_view text, const CompileOptions& options) const {
     return open_named({.name = options.name, .bytes = std::string(text)}, request(options));
   }
@@ -125,14 +151,15 @@ CheckedText LanguageService::check(std::string_view text, const CompileOptions& 
   return checked;
 }
 
-CompiledText LanguageService::compile(std::string_view text, const CompileOptions& options) const {
+CompiledText LanguageService::compile(std::string_view text, const CompileOptions& options,
+                                      const std::string& called) const {
   if (auto wrong = parts_->wrong(options)) return {.problems = {{.error = *std::move(wrong)}}};
   auto opened = parts_->opened(text, options);
   if (!opened) return {.problems = {{.error = std::move(opened.error())}}};
   if (opened->program) return {.program = std::move(opened->program)};
   CompiledText compiled;
   if (!opened->diagnostics.has_errors())
-    compiled.program = compile_opened(*opened, parts_->request(options), options.material, opened->diagnostics);
+    compiled.program = compile_called(*opened, parts_->request(options), options.material, called);
   compiled.problems = problems_of(opened->diagnostics, opened->sources, opened->source);
   return compiled;
 }
@@ -158,14 +185,10 @@ std::vector<Problem> LanguageService::legibility(std::string_view text, const Wo
 }
 
 Result<ToldMaterial> LanguageService::tell(const Program& program) const {
-  const FileRequest request = parts_->request({.device = program.description().device.name});
   SourceSet sources;
-  Diagnostics diagnostics;
-  const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
-  const CheckedModule here = check_source(sources, sources.add("here", "wale 1\n"), *resolver, diagnostics);
-  if (!here.declarations().devices.contains(request.device))
-    return unknown(Code::unknown_device, "device", request.device, here.declarations().devices.spellings());
-  const Description description = describe(Bank(program), here.declarations());
+  const auto here = parts_->around(program, sources);
+  if (!here) return here.error();
+  const Description description = describe(Bank(program), here->declarations());
   ToldMaterial told{.text = description_text(description)};
   for (const DescribedPercept& each : description.percepts) {
     ToldPercept percept{.name = each.name,
@@ -176,6 +199,40 @@ Result<ToldMaterial> LanguageService::tell(const Program& program) const {
     told.percepts.push_back(std::move(percept));
   }
   return told;
+}
+
+Result<std::vector<std::byte>> LanguageService::preview(const Program& program, std::span<const float> parameters,
+                                                        PatchSize size, const std::string& name) const {
+  SourceSet sources;
+  const auto here = parts_->around(program, sources);
+  if (!here) return here.error();
+  const Declarations& declarations = here->declarations();
+  const Bank bank(program, parameters, size);
+  const auto drawn = draw_preview(bank, preview_text(bank, declarations), declarations);
+  if (!drawn) return drawn.error();
+  return encode_page(*drawn->page, name);
+}
+
+Result<std::vector<PreviewPart>> LanguageService::preview_parts(const Program& program,
+                                                                std::span<const float> parameters,
+                                                                PatchSize size) const {
+  SourceSet sources;
+  const auto here = parts_->around(program, sources);
+  if (!here) return here.error();
+  const Bank bank(program, parameters, size);
+  const auto drawn = draw_preview_parts(bank, preview_text(bank, here->declarations()).felt, here->declarations());
+  if (!drawn) return drawn.error();
+  std::vector<PreviewPart> parts;
+  const auto add = [&](const std::string& name, const std::string& title, const Canvas& page) -> Result<> {
+    auto bytes = encode_page(page, name + ".png");
+    if (!bytes) return bytes.error();
+    parts.push_back({name, title, *std::move(bytes)});
+    return {};
+  };
+  if (auto added = add(drawn->surface ? "surface" : "field", "", *drawn->picture); !added) return added.error();
+  for (const PlotPage& each : drawn->plots)
+    if (auto added = add(each.name, each.title, *each.page); !added) return added.error();
+  return parts;
 }
 
 Result<std::string> LanguageService::format(std::string_view text) const {

@@ -90,10 +90,11 @@ void add_areas(Span picture, const CheckedWorkspace& checked, Layout& layout) {
 
 SettingLines setting_lines(const LaidOutPatch& patch);
 
-/// A statement of a workspace in its text: from `at`, where the one before it ended, to `next`, where it ends itself with
-/// its comment.
-std::shared_ptr<const WrittenPatch> written_of(const PlacedStatement& placed, const LaidOutPatch& patch, const SyntaxTree& tree,
-                                               std::string_view text, std::size_t at, std::size_t next) {
+/// A statement of a workspace in its text: from `at`, where the one before it ended, to `next`, where it ends itself
+/// with its comment.
+std::shared_ptr<const WrittenPatch> written_of(const PlacedStatement& placed, const LaidOutPatch& patch,
+                                               const SyntaxTree& tree, std::string_view text, std::size_t at,
+                                               std::size_t next) {
   const Span span = span_of(placed);
   const std::size_t begin = std::max<std::size_t>(span.begin, at);
   auto written = std::make_shared<WrittenPatch>();
@@ -120,7 +121,8 @@ std::shared_ptr<const WrittenPatch> written_of(const PlacedStatement& placed, co
   return written;
 }
 
-Layout layout_of(const WorkspaceDecl& declared, const CheckedModule& module, const SyntaxTree& tree, std::string_view text) {
+Layout layout_of(const WorkspaceDecl& declared, const CheckedModule& module, const SyntaxTree& tree,
+                 std::string_view text) {
   Layout layout{.name = std::string(declared.name.text),
                 .documentation = std::string(declared.documentation),
                 .begin = with_documentation(text, declared.span.begin),
@@ -207,8 +209,11 @@ std::string indented(std::string_view lines, std::string_view by) {
 
 SettingLines setting_lines(const LaidOutPatch& patch) {
   SettingLines lines;
-  const auto line = [&](const std::string& key, const std::string& value) { lines.emplace_back(key, key + " " + value); };
-  if (patch.at_is_written || patch.at != glm::dvec2(0)) line("at", millimetres(patch.at.x) + ", " + millimetres(patch.at.y));
+  const auto line = [&](const std::string& key, const std::string& value) {
+    lines.emplace_back(key, key + " " + value);
+  };
+  if (patch.at_is_written || patch.at != glm::dvec2(0))
+    line("at", millimetres(patch.at.x) + ", " + millimetres(patch.at.y));
   if (patch.size) line("size", millimetres(patch.size->x) + ", " + millimetres(patch.size->y));
   if (!patch.shape.empty()) line("shape", patch.shape);
   if (patch.rim) line("rim", millimetres(*patch.rim));
@@ -265,7 +270,8 @@ std::string standard_patch(const LaidOutPatch& patch) {
 std::vector<Layout> layouts_in(const SyntaxTree& tree, const CheckedModule& module, std::string_view text) {
   std::vector<Layout> layouts;
   for (const Declaration& each : tree.declarations)
-    if (const auto* workspace = std::get_if<WorkspaceDecl>(&each)) layouts.push_back(layout_of(*workspace, module, tree, text));
+    if (const auto* workspace = std::get_if<WorkspaceDecl>(&each))
+      layouts.push_back(layout_of(*workspace, module, tree, text));
   return layouts;
 }
 
@@ -282,7 +288,9 @@ std::string layout_text(const Layout& layout) {
   const WrittenPatch* before = nullptr;  // the statement that the text ends with, if it was read
   const auto followed = [&](const WrittenPatch* next) {
     const auto& all = written->patches;
-    const auto place = [&](const WrittenPatch* of) { return std::ranges::find(all, of, [](const auto& each) { return each.get(); }); };
+    const auto place = [&](const WrittenPatch* of) {
+      return std::ranges::find(all, of, [](const auto& each) { return each.get(); });
+    };
     const auto first = before ? place(before) : all.end();
     if (!before) return all.empty() ? next == nullptr : next == all.front().get();
     if (first == all.end()) return false;

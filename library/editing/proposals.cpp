@@ -161,7 +161,8 @@ Proposals proposals_at(std::string_view text, std::size_t at, const Declarations
   Proposals proposals{.begin = at, .end = at};
   while (proposals.begin > 0 && is_of_word(text[proposals.begin - 1])) --proposals.begin;
   // `5mm`: the number is no part of the unit.
-  while (proposals.begin < at && ((text[proposals.begin] >= '0' && text[proposals.begin] <= '9') || text[proposals.begin] == '.'))
+  while (proposals.begin < at &&
+         ((text[proposals.begin] >= '0' && text[proposals.begin] <= '9') || text[proposals.begin] == '.'))
     ++proposals.begin;
   const std::string_view begun = text.substr(proposals.begin, at - proposals.begin);
   const Before found = before(text.substr(0, proposals.begin));

@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
+#include "compiler/compile_to_read.hpp"
 #include "compiler/describe/describe_extracted.hpp"
 #include "compiler/describe/describe_percept.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/resolver.hpp"
 #include "library/index/content_hash.hpp"
-#include "library/licence/licence.hpp"
+#include "library/licence/passing_on.hpp"
 
 namespace wale {
 namespace {
-
-namespace fs = std::filesystem;
 
 EntryPercept entry_percept(const DescribedPercept& told) {
   EntryPercept percept{.name = told.name,
@@ -61,17 +59,6 @@ void add_lost(std::vector<EntryPercept>& percepts, const PatchProgram& program) 
   percepts = std::move(ordered);
 }
 
-/// The licence that the library of a file states: of the nearest folder above with a `wale.project`; empty if there is
-/// none.
-Result<std::string> licence_around(const std::string& file) {
-  std::error_code ignored;
-  for (fs::path folder = fs::absolute(file, ignored).parent_path(); !folder.empty(); folder = folder.parent_path()) {
-    if (fs::exists(folder / project_marker, ignored)) return licence_of_library(folder.string());
-    if (folder == folder.parent_path()) break;
-  }
-  return std::string();
-}
-
 std::string first_part(const std::string& dotted) { return dotted.substr(0, dotted.find('.')); }
 
 /// All that the materials of a file rest on, but for their names.
@@ -98,10 +85,31 @@ std::string first_error(const Diagnostics& diagnostics) {
   return "it cannot be built";
 }
 
+Felt felt_again(const Program& program, const Declarations& declarations, ReadFirst& first) {
+  const Bank bank(program);
+  const PatchProgram& built = program.description();
+  Felt felt;
+  Description description{.material = built.material, .device = built.device, .patch = bank.size()};
+  if (built.vibrates()) {
+    description.percepts = recorded_percepts(bank, {}, declarations);
+  } else {
+    const ForceReading reading = read_again(bank, declarations, {}, first);
+    felt.cues = cues_of(bank, reading);
+    description.percepts = recorded_percepts(bank, reading, declarations);
+    describe_extracted(description, bank, reading, declarations);
+  }
+  for (const DescribedPercept& each : description.percepts) felt.percepts.push_back(entry_percept(each));
+  add_lost(felt.percepts, built);
+  return felt;
+}
+
 /// Builds one material and reads it.
 void compile_entry(Entry& entry, FileEntries& read, const FileRequest& request, const Feel& feel) {
   Diagnostics diagnostics;
-  const auto program = compile_opened(read.opened, request, entry.name, diagnostics);
+  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
+  ReadFirst first;
+  const auto program = compile_to_read(*read.opened.module, entry.name, request.device, read.opened.sources,
+                                       read.opened.source, *resolver, diagnostics, first);
   for (const Diagnostic& each : diagnostics.all()) read.opened.diagnostics.report(each);
   if (!program) {
     entry.trouble = first_error(diagnostics);
@@ -110,7 +118,10 @@ void compile_entry(Entry& entry, FileEntries& read, const FileRequest& request, 
   entry.device = program->description().device.name;
   entry.parameters = program->description().parameters;
   entry.program = write_patch_program(program->description());
-  entry.felt = feel(*program, read.opened.module->declarations());
+  // The program differs from the one that was measured in fates alone, so its reading need not begin anew.
+  const auto* own = feel.target<Felt (*)(const Program&, const Declarations&)>();
+  const Declarations& declarations = read.opened.module->declarations();
+  entry.felt = own && *own == felt_of ? felt_again(*program, declarations, first) : feel(*program, declarations);
 }
 
 }  // namespace
@@ -123,21 +134,8 @@ const EntryPercept* Felt::percept(const std::string& name) const {
 }
 
 Felt felt_of(const Program& program, const Declarations& declarations) {
-  const Bank bank(program);
-  const PatchProgram& built = program.description();
-  Felt felt;
-  Description description{.material = built.material, .device = built.device, .patch = bank.size()};
-  if (built.vibrates()) {
-    description.percepts = recorded_percepts(bank, {}, declarations);
-  } else {
-    const ForceReading reading = read(bank, declarations);
-    felt.cues = cues_of(bank, reading);
-    description.percepts = recorded_percepts(bank, reading, declarations);
-    describe_extracted(description, bank, reading, declarations);
-  }
-  for (const DescribedPercept& each : description.percepts) felt.percepts.push_back(entry_percept(each));
-  add_lost(felt.percepts, built);
-  return felt;
+  ReadFirst first;
+  return felt_again(program, declarations, first);
 }
 
 Entry entry_of(const IndexedMaterial& material) {
@@ -178,12 +176,12 @@ Result<FileEntries> read_entries(const FileRequest& request, const std::string& 
   LibraryIndex index;
   index.add(module, request.file, parse(read.opened.sources, read.opened.source, again));
   // What is in this binary is in the public domain (library/LICENSE).
-  const auto licence = read.opened.is_on_disk ? licence_around(request.file) : Result<std::string>("CC0-1.0");
+  const std::string licence = read.opened.is_on_disk ? licence_over(request.file) : "CC0-1.0";
   for (const IndexedMaterial& material : index.materials()) {
     if (!read.opened.material.empty() && material.name != read.opened.material) continue;
     Entry& entry = read.entries.emplace_back(entry_of(material));
     entry.device = request.device;
-    if (entry.licence.empty() && licence) entry.licence = *licence;
+    if (entry.licence.empty()) entry.licence = licence;
     if (!read.opened.diagnostics.has_errors()) {
       compile_entry(entry, read, watched, feel);
       continue;

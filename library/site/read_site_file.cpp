@@ -2,68 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 
 #include "compiler/cpp/print_header.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/json_text.hpp"
 #include "library/index/content_hash.hpp"
 #include "library/licence/licence.hpp"
+#include "library/licence/passing_on.hpp"
 #include "library/site/material_page.hpp"
 
 namespace wale {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t longest_source = 24 << 10;  // bytes that a page shows; the download has all
-
-/// The licence that stands over a file: that of the nearest `wale.project` above; empty if none is stated.
-std::string licence_over(const std::string& file) {
-  std::error_code ignored;
-  for (fs::path folder = fs::absolute(file, ignored).parent_path(); !folder.empty(); folder = folder.parent_path()) {
-    if (fs::exists(folder / project_marker, ignored)) {
-      const auto stated = licence_of_library(folder.string());
-      return stated ? *stated : std::string();
-    }
-    if (folder == folder.parent_path()) break;
-  }
-  return {};
-}
-
-/// Why a licence keeps a material from the site; empty if it does not.
-std::string why_kept_back(const std::string& licence) {
-  if (licence.empty()) return "it states no licence, so nobody may pass it on";
-  if (may_be_shared(licence)) return {};
-  return fmt::format("its licence, {}, does not let everybody pass it on", licence);
-}
-
-/// The licences of what a text holds, where `over` stands over its file.
-std::set<std::string> licences_in(SourceSet& sources, SourceId source, const std::string& over) {
-  Diagnostics ignored;
-  LibraryIndex index;
-  index.add("", "", parse(sources, source, ignored));
-  std::set<std::string> licences;
-  for (const IndexedMaterial& each : index.materials()) licences.insert(each.licence.empty() ? over : each.licence);
-  if (index.materials().empty()) licences.insert(over);  // functions, which programs hold too
-  return licences;
-}
-
-/// The same of all files that a file imports; empty if each may be passed on.
-std::string why_imports_keep_back(OpenedFile& opened) {
-  for (std::size_t i = 0; i < opened.sources.size(); ++i) {
-    const auto id = static_cast<SourceId>(i);
-    if (id == opened.source) continue;
-    for (const std::string& licence : licences_in(opened.sources, id, licence_over(opened.sources[id].name)))
-      if (!may_be_shared(licence))
-        return fmt::format("it rests on a file {}",
-                           licence.empty() ? "without a licence" : "whose licence, " + licence + ", does not allow it");
-  }
-  return {};
-}
 
 /// The text of one material's declaration, with the comment above it.
 std::string declaration_of(const SyntaxTree& tree, std::string_view text, const std::string& name) {

@@ -12,10 +12,40 @@ namespace wale {
 struct ReadFile {
   std::vector<Entry> entries;
   std::vector<std::pair<std::string, std::string>> rests_on;  ///< paths, the file's first, and the hashes of their bytes
-  bool uses_names = false;  ///< other files of the library may change what it means
+  bool uses_names = false;    ///< other files of the library may change what it means
+  std::string imports_keep_back;  ///< why what it imports forbids to pass it on; empty if it does not, or was not asked
 };
 
-/// Reads one file. One that cannot be read is an entry with its trouble. Thread-safe.
-ReadFile read_library_file(const LibraryFile& file, const FileRequest& request);
+/// Reads one file. One that cannot be read is an entry with its trouble. `to_pass_on` asks whether its imports may be
+/// passed on. Thread-safe.
+ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, bool to_pass_on = false);
+
+/// Reads `files[i]` for each `i` of `which`, on all cores, and hands each to `keep`, one at a time, in any order. Ends at
+/// the first error of `keep`, which it returns.
+Result<> read_library_files(const std::vector<LibraryFile>& files, const std::vector<std::size_t>& which,
+                            const FileRequest& request, bool to_pass_on, const StoreProgress& tell,
+                            const std::function<Result<>(std::size_t which, ReadFile read)>& keep);
+
+/// The hashes of files, and the one of all of them with the names by which an index knows them.
+struct FileHashes {
+  std::vector<std::string> each;
+  std::string all;
+};
+FileHashes hashes_of(const std::vector<LibraryFile>& files, const std::vector<std::string>& names);
+
+/// What an index knows of a file that it holds.
+struct KnownFile {
+  std::string module;
+  std::string rests_on;  ///< as `rests_on_text` has it
+  std::string others;    ///< the hash of all files of its library, if they may change what it means
+};
+
+/// What a file rests on as a text: an array of paths and hashes.
+std::string rests_on_text(const std::vector<std::pair<std::string, std::string>>& rests_on);
+
+/// Whether all that a file rests on is as it was: the file itself, of which `hash` is known and `name` is the name in the
+/// index, and the others, whose paths on this machine `path_of` tells. Thread-safe.
+bool is_unchanged(const KnownFile& known, const std::string& module, const std::string& name, const std::string& hash,
+                  const std::string& others, const std::function<std::string(const std::string& name)>& path_of);
 
 }  // namespace wale

@@ -25,7 +25,8 @@ Result<> is_sound(const WaleBatchOptions& given, const WaleVector* forces) {
     return about_argument("position", "expected an array, found NULL", "give a place for each hand and tick");
   if (given.setting_count > 0 && given.settings == nullptr)
     return about_argument("settings", "expected an array, found NULL", "set `setting_count` to 0");
-  if (!std::isfinite(given.rim)) return about_argument("rim", "expected a finite number", "0 is no rim");
+  if (!(given.rim >= 0 && std::isfinite(given.rim)))
+    return about_argument("rim", "expected a finite number that is not negative", "0 is no rim");
   if (given.time != nullptr)
     for (const double each : std::span(given.time, given.ticks))
       if (!std::isfinite(each)) return about_argument("time", "expected finite numbers", "give s for each tick");

@@ -1,12 +1,14 @@
 #include "wale/loop.h"
 
+#include <optional>
+
 #include "runtime/c/run.hpp"
 #include "runtime/c/sized.hpp"
 #include "runtime/c/stage.hpp"
 #include "wale/loop.hpp"
 
 struct WaleLoop {
-  wale::Loop loop;
+  std::optional<wale::Loop> loop = {};
 };
 
 using namespace wale::c;
@@ -15,9 +17,11 @@ WaleCode wale_loop_begin(WaleStage* stage, WaleLoop** loop, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (auto clear = clear_result("loop", loop); !clear) return clear;
     if (auto given = is_stage(stage); !given) return given;
+    HandleToBe<WaleLoop> handle(loop);
     auto begun = wale::Loop::begin(stage->stage);
     if (!begun) return std::move(begun).error();
-    hand_out(std::make_unique<WaleLoop>(WaleLoop{*std::move(begun)}), loop);
+    handle->loop.emplace(*std::move(begun));
+    handle.give();
     return {};
   });
 }
@@ -34,11 +38,11 @@ WaleVector wale_loop_step(WaleLoop* loop, const WaleReading* reading, int64_t pe
     if (given.contact == WALE_READING_good) read.contact = wale::Contact::good;
     if (given.contact == WALE_READING_lost) read.contact = wale::Contact::lost;
   }
-  return vector_of(loop->loop.step(read, periods));
+  return vector_of(loop->loop->step(read, periods));
 }
 
 void wale_loop_exerted(WaleLoop* loop, WaleVector force) {
-  if (loop != nullptr) loop->loop.exerted({force.x, force.y});
+  if (loop != nullptr) loop->loop->exerted({force.x, force.y});
 }
 
 void wale_loop_free(WaleLoop* loop) { free_handle(loop); }

@@ -73,12 +73,14 @@ int32_t wale_patch_exists(const WalePatch* patch) { return patch != nullptr && p
 
 uint64_t wale_patch_id(const WalePatch* patch) { return patch == nullptr ? 0 : patch->patch.id(); }
 
+uint32_t wale_patch_number(const WalePatch* patch) { return patch == nullptr ? 0xffffffffu : patch->patch.number(); }
+
 void wale_patch_free(WalePatch* patch) { free_handle(patch); }
 
 WaleCode wale_stage_edit(WaleStage* stage, WaleEdit** edit, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (auto clear = clear_result("edit", edit); !clear) return clear;
-    if (auto given = is_stage(stage); !given) return given;
+    if (auto given = is_stage_here(stage); !given) return given;
     hand_out(std::make_unique<WaleEdit>(WaleEdit{stage->stage.edit()}), edit);
     return {};
   });
@@ -93,9 +95,11 @@ WaleCode wale_edit_add(WaleEdit* edit, const WaleProgram* program, const WalePat
     if (!known) return known.error();
     const auto read = read_options(options);
     if (!read) return read.error();
+    HandleToBe<WalePatch> handle(patch);
     auto added = edit->edit.add(**known, *read);
     if (!added) return std::move(added).error();
-    hand_out_patch(*std::move(added), patch);
+    if (handle) handle->patch = *std::move(added);
+    handle.give();
     return {};
   });
 }

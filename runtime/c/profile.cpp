@@ -4,7 +4,7 @@
 
 #include "runtime/c/sized.hpp"
 #include "runtime/device/shipped_devices.hpp"
-#include "runtime/stage/session.hpp"
+#include "runtime/stage/device_figures.hpp"
 #include "schema/sentence.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
@@ -93,6 +93,11 @@ Result<DeviceProfile> read_profile(const WaleProfile* profile) {
     auto shaker = shaker_of(read.name);
     if (!shaker) return std::move(shaker).error();
     read.shaker = *std::move(shaker);
+  }
+  if (auto sound = check_declared_figures(read); !sound) {
+    Error error = std::move(sound).error();
+    error.code = Code::malformed_value;
+    return error;
   }
   return read;
 }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <span>
 
+#include "runtime/c/profile.hpp"
 #include "runtime/c/sized.hpp"
 
 using namespace wale::c;
@@ -96,6 +97,15 @@ WaleCode wale_program_percept(const WaleProgram* program, size_t index, WalePerc
                           .level = wale::predict(bank, index, amplitude).level,
                           .valid_low = known.valid_low,
                           .valid_high = known.valid_high});
+    return {};
+  });
+}
+
+WaleCode wale_program_profile(const WaleProgram* program, WaleProfile* profile, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto given = is_given("program", program); !given) return given;
+    if (auto sized = is_sized("profile", profile); !sized) return sized;
+    write_sized(profile, figures_of(program->program.description().device));
     return {};
   });
 }

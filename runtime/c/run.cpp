@@ -36,11 +36,11 @@ WaleGuards guards_of(const GuardCounts& counts) noexcept {
           .restored = counts.restored};
 }
 
-void hand_out_run(RunResult result, WaleRun** to) {
-  if (to == nullptr) return;
-  auto run = std::make_unique<WaleRun>(WaleRun{std::move(result)});
-  if (run->result.record_problem) run->problem = handle_of(*run->result.record_problem);
-  hand_out(std::move(run), to);
+void give_run(RunResult result, HandleToBe<WaleRun>& handle) {
+  if (!handle) return;
+  if (result.record_problem) handle->problem = handle_of(*result.record_problem);
+  handle->result = std::move(result);
+  handle.give();
 }
 
 }  // namespace wale::c
@@ -87,7 +87,9 @@ WaleCode wale_run_ticks(const WaleRun* run, size_t first, size_t count, size_t e
                       .interaction = vector_of(tick.interaction),
                       .lateness = tick.lateness,
                       .skipped = tick.skipped,
-                      .inside = tick.inside};
+                      .inside = tick.inside,
+                      .patch = tick.patch,
+                      .change = tick.change};
     });
   });
 }

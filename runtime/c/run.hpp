@@ -16,6 +16,6 @@ namespace wale::c {
 inline WaleVector vector_of(const glm::vec2& vector) noexcept { return {vector.x, vector.y}; }
 WaleGuards guards_of(const GuardCounts& counts) noexcept;
 /// Gives a handle to the caller, if it wants one.
-void hand_out_run(RunResult result, WaleRun** to);
+void give_run(RunResult result, HandleToBe<WaleRun>& handle);
 
 }  // namespace wale::c

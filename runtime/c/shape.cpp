@@ -1,6 +1,5 @@
 #include "runtime/c/shape.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "runtime/c/program.hpp"
 #include "runtime/c/run.hpp"
 #include "runtime/c/sized.hpp"
+#include "schema/sentence.hpp"
 
 using namespace wale::c;
 
@@ -34,9 +34,11 @@ WaleCode wale_shape_ellipse(float half_width, float half_height, WaleShape** sha
 WaleCode wale_shape_polygon(const WaleVector* corners, size_t count, WaleShape** shape, WaleError** error) {
   return make_shape(shape, error, [&]() -> wale::Result<wale::Shape> {
     if (auto given = is_given("corners", corners); !given) return std::move(given).error();
-    std::vector<glm::vec2> all;  // one more than is allowed is refused by the shape, and the rest need not be copied
-    for (const WaleVector& each : std::span(corners, std::min(count, wale::Shape::most_corners + 1)))
-      all.emplace_back(each.x, each.y);
+    if (count > wale::Shape::most_corners)  // refused unread
+      return about_argument("corners", wale::sentence("expected 3 to ", wale::Shape::most_corners, " corners, found ", count),
+                            "leave out corners that lie on a line, or use wale_shape_mask");
+    std::vector<glm::vec2> all;
+    for (const WaleVector& each : std::span(corners, count)) all.emplace_back(each.x, each.y);
     return wale::Shape::polygon(all);
   });
 }

@@ -48,7 +48,8 @@ Result<StageOptions> read_stage_options(const WaleStageOptions* options) {
 Result<PatchOptions> read_options(const WalePatchOptions* options) {
   const auto given = read_sized("options", options);
   if (!given) return given.error();
-  if (!std::isfinite(given->rim)) return about_argument("rim", "expected a finite number", "0 is no rim");
+  if (!(given->rim >= 0 && std::isfinite(given->rim)))
+    return about_argument("rim", "expected a finite number that is not negative", "0 is no rim");
   PatchOptions read{.at = {given->x, given->y}, .layer = given->layer};
   if (given->width != 0 || given->height != 0) read.size = PatchSize{given->width, given->height, given->rim};
   if (given->shape != nullptr) read.shape = given->shape->shape;
@@ -60,8 +61,11 @@ Result<const Program*> read_program(const WaleProgram* program) {
   return &program->program;
 }
 
-void hand_out_patch(Patch patch, WalePatch** to) {
-  if (to != nullptr) hand_out(std::make_unique<WalePatch>(WalePatch{std::move(patch)}), to);
+Result<> is_stage_here(const WaleStage* stage) {
+  if (auto given = is_stage(stage); !given) return given;
+  if (stage->home.is_here()) return {};
+  return about_argument("stage", "it is the parent process's, and this is a child of its fork",
+                        "make a stage and a device of the child's own", Code::wrong_moment);
 }
 
 }  // namespace wale::c
@@ -115,9 +119,11 @@ WaleCode wale_stage_add(WaleStage* stage, const WaleProgram* program, const Wale
     if (!known) return known.error();
     const auto read = read_options(options);
     if (!read) return read.error();
+    HandleToBe<WalePatch> handle(patch);
     auto added = stage->stage.add(**known, *read);
     if (!added) return std::move(added).error();
-    hand_out_patch(*std::move(added), patch);
+    if (handle) handle->patch = *std::move(added);
+    handle.give();
     return {};
   });
 }
@@ -137,9 +143,10 @@ WaleCode wale_stage_run(WaleStage* stage, const WaleRunOptions* options, WaleRun
     if (given->kept_seconds != 0) read.kept_seconds = given->kept_seconds;
     read.stop = &stage->interrupted;
     stage->interrupted = false;
+    HandleToBe<WaleRun> handle(run);
     auto done = stage->stage.run(read);  // `stage` may be gone now
     if (!done) return std::move(done).error();
-    hand_out_run(*std::move(done), run);
+    give_run(*std::move(done), handle);
     return {};
   });
 }
@@ -159,9 +166,10 @@ WaleCode wale_stage_stop(WaleStage* stage, WaleRun** run, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (run != nullptr) *run = nullptr;
     if (auto given = is_stage(stage); !given) return given;
+    HandleToBe<WaleRun> handle(run);
     auto done = stage->stage.stop();
     if (!done) return std::move(done).error();
-    hand_out_run(*std::move(done), run);
+    give_run(*std::move(done), handle);
     return {};
   });
 }
@@ -187,7 +195,7 @@ WaleCode wale_stage_now(const WaleStage* stage, WaleNow* now) {
 
 WaleCode wale_stage_on_contact(WaleStage* stage, WaleReceiveContact receive, void* user, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
-    if (auto given = is_stage(stage); !given) return given;
+    if (auto given = is_stage_here(stage); !given) return given;
     if (receive == nullptr) {
       stage->stage.on_contact({});
       return {};
@@ -209,7 +217,7 @@ WaleCode wale_stage_on_contact(WaleStage* stage, WaleReceiveContact receive, voi
 WaleCode wale_stage_poll(WaleStage* stage, size_t* dropped, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (dropped != nullptr) *dropped = 0;
-    if (auto given = is_stage(stage); !given) return given;
+    if (auto given = is_stage_here(stage); !given) return given;
     const std::size_t lost = stage->stage.poll();
     if (dropped != nullptr) *dropped = lost;
     return {};

@@ -17,6 +17,7 @@ struct WaleStage {
         stage(device ? wale::Stage(*device->device, options) : wale::Stage(figures, options)) {}
   ~WaleStage();
 
+  const wale::HomeProcess home;
   std::shared_ptr<wale::c::SharedDevice> device;
   std::atomic<bool> interrupted = false;
   wale::Stage stage;  // ends before its device
@@ -32,7 +33,7 @@ Result<PatchOptions> read_options(const WalePatchOptions* options);
 Result<const Program*> read_program(const WaleProgram* program);
 /// The stage of a call. Error: it is NULL.
 inline Result<> is_stage(const WaleStage* stage) { return is_given("stage", stage); }
-/// Gives a handle to the caller, if it wants one.
-void hand_out_patch(Patch patch, WalePatch** to);
+/// The same. Error also in a child of `fork`, whose parent has made it.
+Result<> is_stage_here(const WaleStage* stage);
 
 }  // namespace wale::c

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <deque>
 #include <limits>
 #include <span>
 
@@ -142,10 +143,15 @@ WaleCode wale_stage_add_workspace(WaleStage* stage, const WaleWorkspace* workspa
     if (auto given = is_given("workspace", workspace); !given) return given;
     if (patches != nullptr) std::fill_n(patches, workspace->workspace.patches.size(), nullptr);
     if (auto given = is_stage(stage); !given) return given;
+    std::deque<HandleToBe<WalePatch>> handles;
+    for (std::size_t i = 0; patches != nullptr && i < workspace->workspace.patches.size(); ++i)
+      handles.emplace_back(&patches[i]);
     auto put = wale::put_on(stage->stage, workspace->workspace);
     if (!put) return std::move(put).error();
-    if (patches == nullptr) return {};
-    for (std::size_t i = 0; i < put->size(); ++i) hand_out_patch(std::move((*put)[i]), &patches[i]);
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+      handles[i]->patch = std::move((*put)[i]);
+      handles[i].give();
+    }
     return {};
   });
 }

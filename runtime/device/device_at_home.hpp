@@ -12,7 +12,8 @@ namespace wale {
 /// the parent's. That holds for a simulated one too, so that a program that forks behaves alike on both.
 class DeviceAtHome final : public Device {
  public:
-  explicit DeviceAtHome(std::unique_ptr<Device> device) : device_(std::move(device)) {}
+  /// `most`: the largest force that the device itself lets through, as its user allows; see `OpenOptions::max_force`.
+  DeviceAtHome(std::unique_ptr<Device> device, double most) : device_(std::move(device)), most_(most) {}
   ~DeviceAtHome() override {
     if (!home_.is_here()) abandon(std::move(device_));
   }
@@ -20,6 +21,7 @@ class DeviceAtHome final : public Device {
   DeviceAtHome& operator=(const DeviceAtHome&) = delete;
 
   bool is_here() const noexcept { return home_.is_here(); }
+  double most() const noexcept { return most_; }
 
   const DeviceProfile& profile() const noexcept override { return device_->profile(); }
   void elapse(long periods) noexcept override {
@@ -33,6 +35,7 @@ class DeviceAtHome final : public Device {
  private:
   const HomeProcess home_;
   std::shared_ptr<Device> device_;
+  const double most_;
 };
 
 }  // namespace wale

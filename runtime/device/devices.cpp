@@ -203,7 +203,7 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
     if (!simulated) return simulated;
     std::unique_ptr<Device> device = *std::move(simulated);
     if (options.max_force < HUGE_VAL) device = std::make_unique<LimitedDevice>(std::move(device), options.max_force);
-    return std::make_unique<DeviceAtHome>(std::move(device));
+    return std::make_unique<DeviceAtHome>(std::move(device), options.max_force);
   }
   if (choice->plugged->driver->is_felt && !options.trusted && has_owners_file())
     return Error{Code::untrusted_device,
@@ -221,7 +221,7 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
     if (error.place.name == "--transport") error.place.name = "transport";
     return error;
   }
-  return std::make_unique<DeviceAtHome>(*std::move(opened));
+  return std::make_unique<DeviceAtHome>(*std::move(opened), options.max_force);
 }
 
 }  // namespace wale

@@ -11,7 +11,8 @@ class TrustedDevice;
 
 /// How hard a plugged device may push its handle, along the device's own axes. All forces are in N at the handle.
 struct ForceLimits {
-  glm::dvec2 gain{1};             ///< N at the handle for each N that is commanded, of each motor
+  /// N at the handle for each N that is commanded, of each motor: where its response is bent, the most of any command.
+  glm::dvec2 gain{1};
   glm::dvec2 peak{1};             ///< the most along each axis, as its trusted declaration says
   double most_newton = HUGE_VAL;  ///< the most of the whole vector, as its user allows
 
@@ -21,8 +22,5 @@ struct ForceLimits {
 
 /// Those of a device whose user allows `most_newton`.
 ForceLimits force_limits(const TrustedDevice& device, double most_newton);
-
-/// The gain of each of the device's own motors, wherever they push.
-glm::dvec2 motor_gains(const DeviceWiring& wiring);
 
 }  // namespace wale

@@ -1,6 +1,7 @@
 #include "runtime/device/hot_plugged_device.hpp"
 
 #include <algorithm>
+#include <new>
 
 #include "runtime/device/driver.hpp"
 #include "schema/without_place.hpp"
@@ -13,12 +14,18 @@ long ticks_to_settle(const DeviceProfile& profile) {
   return std::max(1L, static_cast<long>(profile.velocity_window) + 1);
 }
 
+std::array<AxisResponse, 2> responses_of(const DeviceWiring& wiring, const DeviceProfile& profile) {
+  if (profile.shaker) return {};
+  return {wiring.response_of(0, profile.force_newton), wiring.response_of(1, profile.force_newton)};
+}
+
 }  // namespace
 
 HotPluggedDevice::HotPluggedDevice(std::unique_ptr<PluggedDevice> device, DeviceWiring wiring, Reopen reopen,
                                    std::chrono::milliseconds patience)
     : profile_(device->profile()),
       wiring_(std::move(wiring)),
+      responses_{responses_of(wiring_, profile_)},
       reopen_(std::move(reopen)),
       patience_(patience),
       held_(device.release()) {
@@ -69,12 +76,12 @@ Force HotPluggedDevice::command(Force force) noexcept {
   Force own(0), exerted(0);
   for (int axis = 0; axis < 2; ++axis) {
     const SignedAxis& to = wiring_.motors[static_cast<std::size_t>(axis)];
-    own[to.axis] = static_cast<float>(to.sign * (force[axis] / wiring_.gain[static_cast<std::size_t>(axis)]));
+    own[to.axis] = static_cast<float>(to.sign * responses_[static_cast<std::size_t>(axis)].command(force[axis]));
   }
   own = held_->command(own);
   for (int axis = 0; axis < 2; ++axis) {
     const SignedAxis& to = wiring_.motors[static_cast<std::size_t>(axis)];
-    exerted[axis] = static_cast<float>(to.sign * (own[to.axis] * wiring_.gain[static_cast<std::size_t>(axis)]));
+    exerted[axis] = static_cast<float>(responses_[static_cast<std::size_t>(axis)].force(to.sign * own[to.axis]));
   }
   return exerted;
 }
@@ -109,29 +116,40 @@ bool HotPluggedDevice::rest() {
   return !ends_;
 }
 
-/// Runs on the other thread.
-void HotPluggedDevice::attend() {
+/// Runs on the other thread. Without memory it says less, and tries again later.
+void HotPluggedDevice::attend() noexcept {
+  const auto say = [this](const auto& what) noexcept {
+    const std::lock_guard lock(mutex_);
+    try {
+      what();
+    } catch (const std::bad_alloc&) {
+    }
+  };
   while (rest()) {
     std::unique_ptr<PluggedDevice> lost(retired_.exchange(nullptr, std::memory_order_acquire));
     if (!lost) continue;
-    {
-      const std::lock_guard lock(mutex_);
+    say([&] {
       report_.reason = lost->reason();
       report_.manner = lost->manner();
       add(report_.tally, lost->tally());
-    }
+    });
     lost.reset();
     do {
-      OpenedDevice opened = reopen_();
-      {
-        const std::lock_guard lock(mutex_);
-        report_.refusal = opened ? "" : in_words_without_place(opened.error());
-      }
+      OpenedDevice opened = opened_again();
+      say([&] { report_.refusal = opened ? "" : in_words_without_place(opened.error()); });
       if (!opened) continue;
       returns_.fetch_add(1, std::memory_order_relaxed);
       offered_.store(opened->release(), std::memory_order_release);
       break;
     } while (rest());
+  }
+}
+
+OpenedDevice HotPluggedDevice::opened_again() const noexcept {
+  try {
+    return reopen_();
+  } catch (const std::bad_alloc&) {
+    return Error{.code = Code::short_of_resources};
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -26,7 +27,7 @@ struct HotPlugReport {
   std::vector<std::pair<std::string, long>> tally;  ///< sums over the whole time, before and after losses
 };
 
-/// A hardware device as the stage uses it: its axes turned by its wiring, and set up again when it comes back after a
+/// A hardware device as the stage uses it: its axes turned and its forces corrected by its wiring, and set up again when it comes back after a
 /// loss. In between it reads `Contact::lost` at its last place, and exerts no force. A device that came back is not
 /// used until the velocity filter holds only its new positions; then the guards let the force slew in.
 ///
@@ -53,7 +54,8 @@ class HotPluggedDevice final : public Device {
   HotPlugReport report() const;
 
  private:
-  void attend();
+  void attend() noexcept;
+  OpenedDevice opened_again() const noexcept;
   /// Waits for the next look; false: the device is being destroyed.
   bool rest();
   static void add(std::vector<std::pair<std::string, long>>& sum,
@@ -61,6 +63,7 @@ class HotPluggedDevice final : public Device {
 
   const DeviceProfile profile_;
   const DeviceWiring wiring_;
+  const std::array<AxisResponse, 2> responses_;  // of the handle's axes
   const Reopen reopen_;
   const std::chrono::milliseconds patience_;
 

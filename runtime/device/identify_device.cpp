@@ -33,9 +33,8 @@ Result<Identified> identify_device(Device& device, const IdentifyOptions& option
 }
 
 DeviceWiring rewired(DeviceWiring wiring, const Identified& found) {
-  if (found.motors_settled->front().axis != wiring.motors.front().axis) std::swap(wiring.gain[0], wiring.gain[1]);
+  wiring = wiring.with_motors(*found.motors_settled);
   wiring.axes = *found.axes_settled;
-  wiring.motors = *found.motors_settled;
   return wiring;
 }
 

@@ -17,7 +17,7 @@ namespace wale {
 Result<Identified> identify_device(Device& device, const IdentifyOptions& options,
                                    const std::function<void(std::string_view)>& say, const std::atomic<bool>& stop);
 
-/// `wiring` with the axes and motors of `found`, which must have settled them. Each motor keeps its gain.
+/// `wiring` with the axes and motors of `found`, which must have settled them. Each motor keeps its gain and response.
 DeviceWiring rewired(DeviceWiring wiring, const Identified& found);
 
 }  // namespace wale

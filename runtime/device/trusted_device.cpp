@@ -7,9 +7,18 @@ namespace wale {
 
 TrustedDevice TrustedDevice::as_built() const {
   DeclaredDevice bare = declared_;
-  const glm::dvec2 gain = motor_gains(declared_.wiring);
-  bare.wiring.axes = bare.wiring.motors = DeviceWiring{}.axes;
-  bare.wiring.gain = {gain.x, gain.y};
+  bare.wiring = declared_.wiring.with_motors(DeviceWiring{}.motors);
+  bare.wiring.axes = DeviceWiring{}.axes;
+  return {std::move(bare), file_};
+}
+
+TrustedDevice TrustedDevice::uncorrected() const {
+  DeclaredDevice bare = declared_;
+  const double peak = declared_.profile.force_newton;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    bare.wiring.gain[axis] = declared_.wiring.response_of(axis, peak).steepest();
+  bare.wiring.response = {};
+  bare.wiring.offset = {};
   return {std::move(bare), file_};
 }
 

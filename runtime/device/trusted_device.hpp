@@ -28,6 +28,9 @@ class TrustedDevice {
 
   /// The same device with its own axes and motors unturned, for finding out how it lies. Each motor keeps its gain.
   TrustedDevice as_built() const;
+  /// The same device without what was calibrated, for measuring it: its gains are the greatest that its responses have,
+  /// so that no limit becomes wider, and a force over its axis's gain is the motor's own command.
+  TrustedDevice uncorrected() const;
 
  private:
   friend Result<std::vector<TrustedDevice>> trusted_devices(std::vector<TrustedDevice> of_owner);

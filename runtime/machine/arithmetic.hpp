@@ -197,14 +197,18 @@ inline float arctangent_of(float a, float b) {
 
 namespace arithmetic {
 
-/// floor(a) as a 32-bit integer, clamped to +-(2^31 - 128); 0 for not-a-number.
+/// All bits if it holds, or none.
+inline std::uint32_t bits_if(bool holds) { return 0u - static_cast<std::uint32_t>(holds); }
+
+/// floor(a) as a 32-bit integer, clamped to +-(2^31 - 128); 0 for not-a-number. In masks, since a compiler that sees what
+/// becomes of the constants goes separate ways for them, and then has no vectors.
 inline std::uint32_t lattice_index(float a) {
   constexpr float most = 2147483520.0f;
-  const float number = a == a ? a : 0.0f;
-  const float least = number < -most ? -most : number;
-  const float held = least > most ? most : least;
+  const float held = float_of(bits_of(a) & bits_if(a >= -most) & bits_if(a <= most));
   const auto towards_zero = static_cast<std::int32_t>(held);
-  return static_cast<std::uint32_t>(towards_zero - (static_cast<float>(towards_zero) > held ? 1 : 0));
+  const std::uint32_t down = bits_if(static_cast<float>(towards_zero) > held);
+  return (static_cast<std::uint32_t>(towards_zero) + down) | (bits_if(a > most) & 0x7fffff80u) |
+         (bits_if(a < -most) & 0x80000080u);
 }
 
 /// A permutation of the 32-bit integers in which each bit of the argument flips each bit of the result with a

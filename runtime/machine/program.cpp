@@ -28,6 +28,16 @@ PatchSize sensible(PatchSize size, PatchSize fallback, float most) {
   return size;
 }
 
+/// Error: the program's bytes would not load again, since a text is longer than a file holds, or a figure is not one of
+/// a file's. Heights are left out: verification has seen all that a reader checks of them, and they may be large.
+Result<> is_loaded_again(const PatchProgram& program) {
+  PatchProgram without_heights = program;
+  without_heights.tables.clear();
+  Result<PatchProgram> read = read_patch_program(write_patch_program(without_heights));
+  if (!read) return std::move(read).error();
+  return {};
+}
+
 }  // namespace
 
 Result<Program> Program::load(std::span<const std::byte> bytes) {
@@ -43,8 +53,9 @@ Result<Program> Program::load(std::span<const std::byte> bytes) {
 }
 
 Result<Program> Program::load(PatchProgram program) {
+  make_visible(program);  // first, since two names may become one, and a text too long for a file
   if (Result<> verified = verify(program); !verified) return std::move(verified).error();
-  make_visible(program);
+  if (Result<> again = is_loaded_again(program); !again) return std::move(again).error();
   return Program(std::make_shared<const DecodedProgram>(std::move(program)));
 }
 

@@ -175,6 +175,8 @@ void verify_vibration(const Shaker& vibration) {
   }
 }
 
+}  // namespace
+
 void verify_device(const DeviceProfile& device) {
   if (device.has_position()) {
     require_within(device.workspace_diameter, 1e-3, 10, "the device's workspace diameter (m)");
@@ -212,6 +214,8 @@ void verify_device(const DeviceProfile& device) {
   require_within(device.bandwidth_x, 0, 1e6, "the device's bandwidth along x (Hz)");
   require_within(device.bandwidth_y, 0, 1e6, "the device's bandwidth along y (Hz)");
 }
+
+namespace {
 
 void verify_percepts(const PatchProgram& program) {
   const auto graded = [](Evidence evidence) {

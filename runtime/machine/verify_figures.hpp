@@ -15,6 +15,9 @@ template <typename... Parts>
 /// lattices of peaks, the patch, the device, percepts and fates. Throws as `refuse` does.
 void verify_figures(const PatchProgram& program);
 
+/// The part of it that checks the figures of a device.
+void verify_device(const DeviceProfile& device);
+
 /// The part of `verify` that checks the cost of code: each section within its share of the period, setup within its
 /// limit. Throws as `refuse` does.
 void verify_costs(const PatchProgram& program);

@@ -69,7 +69,13 @@ Result<std::unique_ptr<ChunkFile>> ChunkFile::create(const std::string& path) {
   if (error == 0) {
     // If this fails, as on a file system without permissions, nobody is kept from cutting the file.
     [[maybe_unused]] const int kept = fchmod(file, made.st_mode & read_only);
-    return std::unique_ptr<ChunkFile>(new ChunkFile(path, file, made.st_mode & all_permissions));
+    try {
+      return std::unique_ptr<ChunkFile>(new ChunkFile(path, file, made.st_mode & all_permissions));
+    } catch (...) {
+      close(file);
+      unlink(path.c_str());
+      throw;
+    }
   }
   close(file);
   unlink(path.c_str());
@@ -83,6 +89,7 @@ ChunkFile::~ChunkFile() {
 
 Result<std::byte*> ChunkFile::grow(ChunkKind kind, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
+  if (chunks_.size() == chunks_.capacity()) chunks_.reserve(2 * chunks_.size() + 16);  // before the file grows
   const auto offset = static_cast<off_t>(first_chunk + chunks_.size() * chunk_size);
   if (const int error = posix_fallocate(file_, offset, chunk_size)) {
     [[maybe_unused]] const int cut = ftruncate(file_, offset);  // so that the file ends with a whole chunk
@@ -122,6 +129,14 @@ Result<> ChunkFile::is_intact() const {
   if (stat(path_.c_str(), &named) != 0 || named.st_dev != own.st_dev || named.st_ino != own.st_ino)
     return lost("another program has renamed the file");
   return {};
+}
+
+void ChunkFile::remove() noexcept {
+  struct stat own {
+  }, named{};
+  const bool is_own = fstat(file_, &own) == 0 && lstat(path_.c_str(), &named) == 0 && named.st_dev == own.st_dev &&
+                      named.st_ino == own.st_ino;
+  if (is_own) unlink(path_.c_str());
 }
 
 void ChunkFile::unmap(std::byte* chunk) noexcept {

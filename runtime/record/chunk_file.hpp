@@ -33,6 +33,9 @@ class ChunkFile {
   /// `unwritable_file`, when another program has removed, renamed or cut it. From any thread.
   Result<> is_intact() const;
 
+  /// Removes the file, if its name still leads to it.
+  void remove() noexcept;
+
   /// Cuts off up to `unused` chunks of ticks at the file's end, stopping at the first chunk of events. The chunks cut
   /// off must not be mapped.
   void cut(std::size_t unused) noexcept;

@@ -38,8 +38,10 @@ Result<> EventStream::append(EventCode kind, std::uint64_t ticks, std::span<cons
 Result<> EventStream::store(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     if (used_ == events_per_chunk) {
-      const Result<std::byte*> chunk = file_.grow(ChunkKind::events, made_++);
+      chunks_.reserve(chunks_.size() + 1);
+      const Result<std::byte*> chunk = file_.grow(ChunkKind::events, made_);
       if (!chunk) return chunk.error();
+      ++made_;
       chunks_.push_back(*chunk);
       used_ = 0;
     }

@@ -17,9 +17,11 @@ static_assert(std::endian::native == std::endian::little, "recordings are stored
 
 /// As in PNG: a byte that no text has, the name, then line ends and an end-of-file mark, which a text transfer changes.
 inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'R', 'C', '\r', '\n', 0x1a, '\n'};
-inline constexpr std::uint32_t version = 4, oldest_version = 1;
+inline constexpr std::uint32_t version = 5, oldest_version = 1;
 /// From this version on, slewing ends also when the wanted force comes past between two ticks (`Guards`).
 inline constexpr std::uint32_t slewing_ends_when_passed = 4;
+/// From this version on, the user's limit counts the device's steps (`UserLimit`), and checks are those of `Check`.
+inline constexpr std::uint32_t limit_counts_steps = 5, words_of_four = 5;
 
 /// Bytes before the first chunk, and of a chunk. Each chunk begins at a page, for pages of 4 to 64 KiB.
 inline constexpr std::size_t first_chunk = 64 * 1024, chunk_size = 256 * 1024;
@@ -93,6 +95,9 @@ enum class EventCode : std::uint32_t {
   shape = 13
 };
 
+/// Periods of the longest run: a double counts them exactly. A run that misses more stays at this one.
+inline constexpr std::int64_t most_periods = std::int64_t{1} << 53;
+
 /// A stage has fewer patches than this. It bounds the memory that a malformed file can ask for.
 inline constexpr std::uint32_t most_patches = 1u << 22;
 
@@ -108,25 +113,29 @@ constexpr std::size_t aligned(std::size_t size) {
   return (size + event_alignment - 1) / event_alignment * event_alignment;
 }
 
-/// A checksum that always detects a single changed word, because each step is one-to-one in the previous sum and in the
-/// word. It misses any other damage with a probability of 2^-32.
+/// A checksum over words of 4 bytes. It always detects a single changed word, because each step is one-to-one in the
+/// previous sum and in the word. It misses any other damage with a probability of 2^-32.
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 class Check {
  public:
-  void add(std::uint64_t word) noexcept {
+  using Word = std::uint32_t;
+  void add(Word word) noexcept {
+    sum_ = (sum_ ^ word) * 0x9e3779b1u;
+    sum_ ^= sum_ >> 15;
+  }
+  std::uint32_t value() const noexcept { return sum_; }
+
+ private:
+  std::uint32_t sum_ = 0x57414c45;
+};
+
+/// That of recordings up to version 4, over words of 8 bytes. Half of the last word has no part in it.
+class OldCheck {
+ public:
+  using Word = std::uint64_t;
+  void add(Word word) noexcept {
     sum_ = (sum_ ^ word) * 0x9e3779b97f4a7c15u;
     sum_ ^= sum_ >> 32;
-  }
-  void add(std::span<const std::byte> bytes) noexcept {
-    std::uint64_t word = 0;
-    for (; bytes.size() >= sizeof word; bytes = bytes.subspan(sizeof word)) {
-      std::memcpy(&word, bytes.data(), sizeof word);
-      add(word);
-    }
-    if (bytes.empty()) return;
-    word = 0;
-    std::memcpy(&word, bytes.data(), bytes.size());
-    add(word);
   }
   std::uint32_t value() const noexcept { return static_cast<std::uint32_t>(sum_ ^ sum_ >> 32); }
 
@@ -134,33 +143,54 @@ class Check {
   std::uint64_t sum_ = 0x57414c45;
 };
 
-inline std::uint32_t check_of(const FileHeader& header) noexcept {
+/// Adds bytes, the last ones padded with zeros to a word.
+template <class AnyCheck>
+void add(AnyCheck& check, std::span<const std::byte> bytes) noexcept {
+  typename AnyCheck::Word word = 0;
+  for (; bytes.size() >= sizeof word; bytes = bytes.subspan(sizeof word)) {
+    std::memcpy(&word, bytes.data(), sizeof word);
+    check.add(word);
+  }
+  if (bytes.empty()) return;
+  word = 0;
+  std::memcpy(&word, bytes.data(), bytes.size());
+  check.add(word);
+}
+
+/// The check of some parts one after the other, each padded with zeros, in a recording of this version.
+template <class... Parts>
+std::uint32_t check_of_parts(std::uint32_t of_version, const Parts&... parts) noexcept {
+  if (of_version < words_of_four) {
+    OldCheck check;
+    (add(check, parts), ...);
+    return check.value();
+  }
   Check check;
-  check.add(std::as_bytes(std::span(&header, 1)).first(sizeof header - 4));
+  (add(check, parts), ...);
   return check.value();
 }
 
-inline std::uint32_t check_of(ChunkHeader header) noexcept {
+/// The header names its own version.
+inline std::uint32_t check_of(const FileHeader& header) noexcept {
+  return check_of_parts(header.version, std::as_bytes(std::span(&header, 1)).first(sizeof header - 4));
+}
+
+inline std::uint32_t check_of(ChunkHeader header, std::uint32_t of_version = version) noexcept {
   header.check = 0;
-  Check check;
-  check.add(std::as_bytes(std::span(&header, 1)));
-  return check.value();
+  return check_of_parts(of_version, std::as_bytes(std::span(&header, 1)));
 }
 
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
-inline std::uint32_t check_of(const TickEntry& entry) noexcept {
-  Check check;
-  check.add(std::as_bytes(std::span(&entry, 1)).first(sizeof entry - 4));
-  return check.value();
+inline std::uint32_t check_of(const TickEntry& entry, std::uint32_t of_version = version) noexcept {
+  return check_of_parts(of_version, std::as_bytes(std::span(&entry, 1)).first(sizeof entry - 4));
 }
 
 /// The bytes after `check` in an event's header, and its payload.
-inline std::uint32_t check_of(const EventHeader& header, std::span<const std::byte> payload) noexcept {
-  Check check;
-  check.add(header.size);
-  check.add(std::as_bytes(std::span(&header, 1)).subspan(8));
-  check.add(payload);
-  return check.value();
+inline std::uint32_t check_of(const EventHeader& header, std::span<const std::byte> payload,
+                              std::uint32_t of_version = version) noexcept {
+  const std::uint64_t size = header.size;
+  return check_of_parts(of_version, std::as_bytes(std::span(&size, 1)),
+                        std::as_bytes(std::span(&header, 1)).subspan(8), payload);
 }
 
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <cstring>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -19,12 +19,15 @@ Result<std::unique_ptr<RecordWriter>> RecordWriter::begin(const std::string& pat
   Result<std::unique_ptr<ChunkFile>> file = ChunkFile::create(path);
   if (!file) return std::move(file).error();
   std::unique_ptr<RecordWriter> writer(new RecordWriter(*std::move(file), ticks_may_wait));
-  if (auto started = writer->start(header); !started) {
-    writer.reset();
-    std::remove(path.c_str());  // this process made it, and it holds no run
+  try {
+    auto started = writer->start(header);
+    if (started) return writer;
+    writer->discard();
     return std::move(started).error();
+  } catch (...) {
+    writer->discard();
+    throw;
   }
-  return writer;
 }
 
 Result<> RecordWriter::start(const RecordingHeader& header) {
@@ -79,10 +82,30 @@ void RecordWriter::append(const RecordedTick& tick) noexcept {
   ticks_.store(number + 1, std::memory_order_relaxed);
 }
 
+void RecordWriter::exerted(Force force) noexcept {
+  if (lost_.load(std::memory_order_relaxed) || used_ == 0 || ticks_.load(std::memory_order_relaxed) == 0) return;
+  TickEntry entry;
+  std::byte* const place = chunk_ + chunk_header_size + (used_ - 1) * sizeof entry;
+  std::memcpy(&entry, place, sizeof entry);
+  const std::uint64_t sequence = entry.sequence;
+  entry.force = {force.x, force.y};
+  entry.check = check_of(entry);
+  const std::atomic_ref stored(*reinterpret_cast<std::uint64_t*>(place));
+  stored.store(0, std::memory_order_relaxed);  // while the entry is not whole it is no tick
+  std::atomic_thread_fence(std::memory_order_release);
+  constexpr std::size_t held_back = sizeof entry.sequence;
+  std::memcpy(place + held_back, reinterpret_cast<const std::byte*>(&entry) + held_back, sizeof entry - held_back);
+  stored.store(sequence, std::memory_order_release);
+}
+
 bool RecordWriter::next_chunk() noexcept {
   const std::size_t place = taken_ % chunks_ahead;
   if (waits_ && ahead_[place].load(std::memory_order_relaxed) == nullptr) {
-    if (auto mapped = map_ahead(); !mapped) give_up(mapped.error());
+    try {
+      if (auto mapped = map_ahead(); !mapped) give_up(std::move(mapped).error());
+    } catch (const std::bad_alloc&) {
+      give_up_without_memory();
+    }
   }
   std::byte* const next = ahead_[place].exchange(nullptr, std::memory_order_acquire);
   if (next == nullptr) return false;
@@ -113,23 +136,36 @@ void RecordWriter::keep_ahead(double seconds) {
     ending_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return over_; });
     if (over_ || failed_.load(std::memory_order_relaxed)) continue;
     lock.unlock();
-    auto good = file_->is_intact();
-    if (good) good = map_ahead();
-    if (!good) give_up(good.error());
+    try {
+      auto good = file_->is_intact();
+      if (good) good = map_ahead();
+      if (!good) give_up(std::move(good).error());
+    } catch (const std::bad_alloc&) {
+      give_up_without_memory();
+    }
     lock.lock();
   }
 }
 
-void RecordWriter::give_up(const Error& error) noexcept {
+void RecordWriter::give_up(Error error) noexcept {
   failed_.store(true, std::memory_order_relaxed);
   const std::lock_guard lock(mutex_);
-  if (!problem_) problem_ = error;
+  if (!problem_) problem_ = std::move(error);
+}
+
+void RecordWriter::give_up_without_memory() noexcept {
+  lacked_memory_.store(true, std::memory_order_relaxed);
+  failed_.store(true, std::memory_order_relaxed);
 }
 
 std::optional<Error> RecordWriter::ended_early() const {
   if (const auto intact = file_->is_intact(); !intact) return intact.error();
   if (whole_ && !lost_.load(std::memory_order_relaxed)) return std::nullopt;
   const std::lock_guard lock(mutex_);
+  if (!problem_ && lacked_memory_)
+    return Error{.code = Code::short_of_resources,
+                 .sentence = "the recording ends after " + std::to_string(ticks_.load()) + " ticks: there was no memory left",
+                 .mend = "free some, and record again"};
   Error error = problem_.value_or(Error{.code = Code::unwritable_file,
                                         .sentence = "the disk was slower than the loop",
                                         .mend = "record on a faster one"});
@@ -137,11 +173,22 @@ std::optional<Error> RecordWriter::ended_early() const {
   return error;
 }
 
-void RecordWriter::note(EventCode kind, const ByteWriter& payload) noexcept {
+template <class Deed>
+void RecordWriter::attempt(const Deed& deed) noexcept {
+  try {
+    deed();
+  } catch (const std::bad_alloc&) {
+    give_up_without_memory();
+    whole_ = false;
+    lost_.store(true, std::memory_order_relaxed);
+  }
+}
+
+void RecordWriter::note(EventCode kind, const ByteWriter& payload) {
   if (!whole_) return;
-  const auto appended = events_.append(kind, ticks_.load(std::memory_order_relaxed), payload.result());
+  auto appended = events_.append(kind, ticks_.load(std::memory_order_relaxed), payload.result());
   if (appended) return;
-  give_up(appended.error());
+  give_up(std::move(appended).error());
   whole_ = false;
   lost_.store(true, std::memory_order_relaxed);  // ticks cannot be replayed without the changes of the stage
 }
@@ -183,41 +230,54 @@ std::uint32_t RecordWriter::number_of(const Shape& shape) {
 }
 
 void RecordWriter::put(const RecordedEvent& patch, const Program& program) noexcept {
-  const std::uint32_t number = number_of(program);
-  const bool shaped = !patch.shape.is_rectangle();
-  const std::uint32_t shape = shaped ? number_of(patch.shape) : 0;
-  const std::uint32_t flags = (shaped ? put_shaped : 0) | (patch.enabled ? put_enabled : 0) |
-                              (patch.changed ? put_changed : 0) | (patch.renewed ? put_renewed : 0) |
-                              (patch.sampled ? put_sampled : 0);
-  ByteWriter bytes;
-  bytes << patch.patch << number << patch.position.x << patch.position.y << patch.size.width << patch.size.height
-        << patch.size.rim << patch.layer << patch.order << flags << static_cast<std::uint32_t>(patch.parameters.size());
-  for (const float value : patch.parameters) bytes << value;
-  if (shaped) bytes << shape;
-  note(EventCode::put, bytes);
+  attempt([&] {
+    const std::uint32_t number = number_of(program);
+    const bool shaped = !patch.shape.is_rectangle();
+    const std::uint32_t shape = shaped ? number_of(patch.shape) : 0;
+    const std::uint32_t flags = (shaped ? put_shaped : 0) | (patch.enabled ? put_enabled : 0) |
+                                (patch.changed ? put_changed : 0) | (patch.renewed ? put_renewed : 0) |
+                                (patch.sampled ? put_sampled : 0);
+    ByteWriter bytes;
+    bytes << patch.patch << number << patch.position.x << patch.position.y << patch.size.width << patch.size.height
+          << patch.size.rim << patch.layer << patch.order << flags
+          << static_cast<std::uint32_t>(patch.parameters.size());
+    for (const float value : patch.parameters) bytes << value;
+    if (shaped) bytes << shape;
+    note(EventCode::put, bytes);
+  });
 }
 
 void RecordWriter::remove(std::size_t patch) noexcept {
-  note(EventCode::remove, ByteWriter() << static_cast<std::uint32_t>(patch));
+  attempt([&] { note(EventCode::remove, ByteWriter() << static_cast<std::uint32_t>(patch)); });
 }
 
 void RecordWriter::bound(std::size_t patch, bool sampled) noexcept {
-  note(EventCode::bound, ByteWriter() << static_cast<std::uint32_t>(patch) << static_cast<std::uint8_t>(sampled));
+  attempt([&] {
+    note(EventCode::bound, ByteWriter() << static_cast<std::uint32_t>(patch) << static_cast<std::uint8_t>(sampled));
+  });
 }
 
 void RecordWriter::set(std::size_t patch, std::size_t parameter, float value) noexcept {
-  note(EventCode::set,
-       ByteWriter() << static_cast<std::uint32_t>(patch) << static_cast<std::uint32_t>(parameter) << value);
+  attempt([&] {
+    note(EventCode::set,
+         ByteWriter() << static_cast<std::uint32_t>(patch) << static_cast<std::uint32_t>(parameter) << value);
+  });
 }
 
 void RecordWriter::move(std::size_t patch, glm::vec2 position) noexcept {
-  note(EventCode::move, ByteWriter() << static_cast<std::uint32_t>(patch) << position.x << position.y);
+  attempt([&] {
+    note(EventCode::move, ByteWriter() << static_cast<std::uint32_t>(patch) << position.x << position.y);
+  });
 }
 
-void RecordWriter::publish(std::uint32_t revision) noexcept { note(EventCode::publish, ByteWriter() << revision); }
+void RecordWriter::publish(std::uint32_t revision) noexcept {
+  attempt([&] { note(EventCode::publish, ByteWriter() << revision); });
+}
 
 void RecordWriter::end() noexcept {
-  if (!lost_.load(std::memory_order_relaxed)) note(EventCode::end, ByteWriter() << ticks_.load());
+  attempt([&] {
+    if (!lost_.load(std::memory_order_relaxed)) note(EventCode::end, ByteWriter() << ticks_.load());
+  });
 }
 
 }  // namespace wale

@@ -38,6 +38,8 @@ class RecordWriter final : public TickSink {
 
   /// Real-time, unless ticks may wait: allocates nothing, takes no lock, makes no system call, does not throw.
   void append(const RecordedTick& tick) noexcept override;
+  /// If the process is killed meanwhile, the file ends before this tick. Real-time as `append`.
+  void exerted(Force force) noexcept override;
 
   /// Changes of the stage, in the order in which they are handed over. One thread at a time may call these. `put` reads
   /// all fields of a `RecordedEvent` that its kind has but the program.
@@ -50,6 +52,8 @@ class RecordWriter final : public TickSink {
   void publish(std::uint32_t revision) noexcept;
   /// Marks the recording as complete: the run is over and no more ticks come.
   void end() noexcept;
+  /// Removes the file, which holds no run, if its name still leads to it. No ticks or changes come any more.
+  void discard() noexcept { file_->remove(); }
 
   /// Why the recording ended before the run, if it did. Call it when no more ticks come.
   std::optional<Error> ended_early() const;
@@ -63,14 +67,19 @@ class RecordWriter final : public TickSink {
 
   /// Stores the header and the first chunks, and starts the thread that maps.
   Result<> start(const RecordingHeader& header);
-  void note(recording_format::EventCode kind, const ByteWriter& payload) noexcept;
+  void note(recording_format::EventCode kind, const ByteWriter& payload);
+  /// Does what may need memory. Without, the recording ends.
+  template <class Deed>
+  void attempt(const Deed& deed) noexcept;
   /// The number of a program, or of a shape. Its bytes are stored at its first use.
   std::uint32_t number_of(const Program& program);
   std::uint32_t number_of(const Shape& shape);
   /// Maps the chunks that are missing ahead, and unmaps the full ones.
   Result<> map_ahead();
   void keep_ahead(double seconds);
-  void give_up(const Error& error) noexcept;
+  void give_up(Error error) noexcept;
+  /// There is no memory for the next chunk or the next change.
+  void give_up_without_memory() noexcept;
   bool next_chunk() noexcept;
 
   std::unique_ptr<ChunkFile> file_;
@@ -94,6 +103,7 @@ class RecordWriter final : public TickSink {
   std::array<std::atomic<std::byte*>, chunks_ahead> full_{};
   std::atomic<bool> lost_ = false;    // a tick found no chunk
   std::atomic<bool> failed_ = false;  // no more chunks can be mapped
+  std::atomic<bool> lacked_memory_ = false;
   std::uint64_t made_ = 0;
 
   mutable std::mutex mutex_;  // guards `over_` and `problem_`

@@ -25,8 +25,6 @@ bool all_zero(std::span<const std::byte> bytes) {
 /// Bytes of the largest file that is read: six hours at 1 kHz.
 constexpr std::size_t largest_recording = std::size_t{1} << 31;
 
-constexpr std::int64_t most_periods = std::int64_t{1} << 53;
-
 /// Reads a recording up to its end or to the first damage.
 class RecordingReader {
  public:
@@ -112,7 +110,7 @@ class RecordingReader {
       auto* const chunks = header.kind == ChunkKind::ticks    ? &contents_.tick_chunks
                            : header.kind == ChunkKind::events ? &event_chunks
                                                               : nullptr;
-      if (chunks == nullptr || header.check != check_of(header) || header.number != chunks->size())
+      if (chunks == nullptr || header.check != check_of(header, contents_.version) || header.number != chunks->size())
         note(sentence("the chunk at byte ", offset, " is damaged"), offset);
       else
         chunks->push_back(offset);
@@ -145,7 +143,7 @@ class RecordingReader {
       if (is_cut_ && header.size > rest) return;  // the cut is what is wrong
       if (header.size == 0 || header.size - 1 > rest) return damaged("is damaged");
       const auto payload = stream.subspan(at + sizeof header, header.size - 1);
-      if (header.check != check_of(header, payload)) return damaged("is damaged");
+      if (header.check != check_of(header, payload, contents_.version)) return damaged("is damaged");
       if (auto read = reader.read(header, payload); !read)
         return damaged("makes no sense: " + in_words_without_place(read.error()));
       most_revision_ = reader.revision();
@@ -180,11 +178,12 @@ class RecordingReader {
   }
 
   std::string what_is_wrong(const TickEntry& entry, std::size_t number, const RecordedTick& before) const {
-    if (entry.sequence != number + 1 || entry.check != check_of(entry)) return "is damaged";
+    if (entry.sequence != number + 1 || entry.check != check_of(entry, contents_.version)) return "is damaged";
     if ((entry.flags & contact_mask) > static_cast<std::uint32_t>(Contact::lost))
       return "has an unknown state of contact with the device";
     if (entry.period < 0 || entry.period > most_periods) return "has a period outside any run";
-    if (number > 0 && (entry.elapsed == 0 || entry.period <= before.period))
+    if (number > 0 && (entry.elapsed == 0 || entry.period < before.period ||
+                       (entry.period == before.period && entry.period < most_periods)))
       return "does not come after the tick before it";
     for (const std::int32_t counts : entry.counts)
       if (counts < -RecordedTick::most_counts || counts > RecordedTick::most_counts) return "has counts outside the range of any encoder";

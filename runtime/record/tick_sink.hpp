@@ -10,6 +10,8 @@ class TickSink {
   virtual ~TickSink() = default;
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   virtual void append(const RecordedTick& tick) noexcept = 0;
+  /// The actuator's output of the last tick is known better now. Real-time as `append`.
+  virtual void exerted(Force /*force*/) noexcept {}
 };
 
 }  // namespace wale

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/record/format.hpp"
+#include "runtime/stage/device_figures.hpp"
 #include "runtime/stage/session.hpp"
 #include "schema/sentence.hpp"
 #include "wale/recording.hpp"
@@ -67,6 +68,7 @@ class Replaying final : public TickSink {
     act_until(1);  // the patches that were there when the run began
     Player player(device, patches_, record, 1, header.most_newton, false, this);
     if (recording_.version() < recording_format::slewing_ends_when_passed) player.end_slewing_only_when_near();
+    if (recording_.version() < recording_format::limit_counts_steps) player.disregard_steps();
     while (replay_.ticks < recording_.ticks()) {
       tick_ = recording_.tick(replay_.ticks);
       act_until(tick_.revision);
@@ -256,7 +258,7 @@ class Replaying final : public TickSink {
 
 Result<Replay> replay(const Recording& recording) {
   if (recording.ticks() == 0) return Replay{};
-  if (auto whole = has_loop_figures(recording.header().device); !whole) return std::move(whole).error();
+  if (auto sound = check_figures(recording.header().device); !sound) return std::move(sound).error();
   try {
     Replaying replaying(recording);
     replaying.run();

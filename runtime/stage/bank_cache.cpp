@@ -51,14 +51,15 @@ void BankCache::keep(Entries::value_type& entry, std::shared_ptr<const PreparedB
     order_.splice(order_.begin(), order_, entry.second.place);
     return;
   }
-  kept_bytes_ += bank->bytes();
+  Order place{&entry};  // what needs memory comes first
   KeptProgram& program = kept_programs_[&entry.first.program.decoded()];
+  kept_bytes_ += bank->bytes();
   if (program.banks++ == 0) {
     program.bytes = bytes_of(entry.first.program);
     kept_program_bytes_ += program.bytes;
   }
   entry.second.kept = std::move(bank);
-  order_.push_front(&entry);
+  order_.splice(order_.begin(), place);
   entry.second.place = order_.begin();
   while (keeps_too_much()) let_oldest_go();
 }

@@ -58,8 +58,14 @@ Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options
   Result<Placement> placement = state->placement(program, options);
   if (!placement) return std::move(placement).error();
   const std::lock_guard lock(state->mutex);
-  const PatchName name = state->table.reserve();
-  parts_->added.emplace_back(name, *std::move(placement));
+  parts_->added.emplace_back(PatchName(), *std::move(placement));
+  PatchName& name = parts_->added.back().first;
+  try {
+    name = state->table.reserve();
+  } catch (...) {
+    parts_->added.pop_back();
+    throw;
+  }
   return Patch(parts_->stage, name.number, name.generation);
 }
 
@@ -137,13 +143,12 @@ Result<> StageEdit::commit() {
   }
   // A patch that was added and removed again was never there.
   std::erase_if(wishes, [&](const PatchTable::Wish& wish) {
-    if (wish.second || state->table.wanted(wish.first) != nullptr) return false;
-    state->table.release(wish.first);
-    return true;
+    return !wish.second && state->table.wanted(wish.first) == nullptr;
   });
+  state->want(std::move(wishes));  // what may throw; all else comes after it
+  for (const auto& [name, placement] : parts_->added) state->table.release(name);  // of those that were never there
   parts_->added.clear();
   parts_->steps.clear();
-  state->want(std::move(wishes));
   return {};
 }
 

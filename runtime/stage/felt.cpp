@@ -46,21 +46,30 @@ int main_axis(std::span<const TickRecord> record) {
 
 int sign_of(float value) { return (value > 0) - (value < 0); }
 
-/// Counts swings of the force from beyond +threshold to beyond -threshold or back, and those of them during which the
-/// hand keeps its direction.
-void count_swings(std::span<const TickRecord> record, float threshold, Felt& felt) {
+/// Counts swings of the force along its main axis between its two sides, and those of them during which the hand keeps
+/// its direction. A texture may push more to one side than to the other, as ridges with one steep flank do. So its sides
+/// are told by its own range, as far as the amplitude goes: the upper and the lower quarter. A force that stays below
+/// half of the amplitude has none.
+void count_swings(std::span<const TickRecord> record, float amplitude, Felt& felt) {
   const int axis = main_axis(record);
-  int side = 0, direction = 0;  // of the last swing
+  float least = amplitude, most = -amplitude;
   for (const TickRecord& tick : record) {
-    const float force = tick.force[axis];
-    if (std::abs(force) <= threshold || sign_of(force) == side) continue;
-    const int moving = sign_of(tick.velocity[axis]);
+    const float force = std::clamp(tick.force[axis], -amplitude, amplitude);
+    least = std::min(least, force), most = std::max(most, force);
+  }
+  if (!(std::max(std::abs(least), std::abs(most)) > amplitude / 2)) return;
+  const float middle = (least + most) / 2, quarter = (most - least) / 4;
+  int side = 0;
+  glm::vec2 direction(0);  // of the hand at the last swing
+  for (const TickRecord& tick : record) {
+    const float off = tick.force[axis] - middle;
+    if (std::abs(off) <= quarter || sign_of(off) == side) continue;
     if (side != 0) {
       ++felt.alternations;
-      if (moving != 0 && moving == direction) ++felt.crossings;
+      if (glm::dot(tick.velocity, direction) > 0) ++felt.crossings;
     }
-    side = sign_of(force);
-    direction = moving;
+    side = sign_of(off);
+    direction = tick.velocity;
   }
 }
 
@@ -139,7 +148,9 @@ Result<float> size_from_run(const PerceptRecord& percept, const Felt& felt, long
   if (!texture && *shown.needed == 0)
     return not_measured(percept, "no motion of a hand shows the carrier of " + percept.name);
   if (!percept.alone)
-    return not_measured(percept, "other forces push besides the " + percept.carrier +
+    return not_measured(percept, (percept.basis.summand
+                                      ? "other forces push besides the " + percept.carrier
+                                      : "the " + percept.carrier + " is changed on its way to the handle, or others push") +
                                      ", so the force at the handle does not give the level of " + percept.name);
   if (texture && felt.crossings < least_crossings)
     return not_measured(percept, "the hand crossed the texture " + std::to_string(felt.crossings) +
@@ -209,7 +220,7 @@ Felt measure(const Record& record, const MeasureOptions& options) {
 
   const float amplitude = options.predicted_amplitude > 0 ? options.predicted_amplitude : felt.force.p99;
   felt.response = response_of(options.change ? std::span<const TickRecord>(marked) : all, record.seconds_per_tick);
-  count_swings(ticks, amplitude / 2, felt);
+  count_swings(ticks, amplitude, felt);
   measure_movement(ticks, felt);
   return felt;
 }

@@ -14,7 +14,7 @@ constexpr float furthest = 1e6f;  ///< N, more than any device gives; the energy
 Guards::Guards(const DeviceProfile& profile, double most)
     : low_(-static_cast<float>(profile.most())),
       high_(static_cast<float>(profile.most())),
-      most_(static_cast<float>(most)),
+      limit_(profile, most),
       most_active_(profile.active_watt > 0 ? profile.active_watt : HUGE_VAL),
       max_step_(static_cast<float>(profile.slew / profile.rate)),
       vibrates_(profile.shaker.has_value()),
@@ -33,16 +33,17 @@ Force Guards::operator()(Force wanted, glm::dvec2 position, long periods) noexce
     wanted = Force(0);
     ++counts_.not_a_number;
   }
-  if (vibrates_) return slewed(within_limits(wanted));
+  const long limited = counts_.user_limit;
+  if (vibrates_) return in_steps(slewed(within_limits(wanted)), limited);
   heat_.elapse(periods);
   const long held = meter_.held();
   const Force lawful = meter_(glm::clamp(wanted, -furthest, furthest), position, periods);
   counts_.energy += meter_.held() - held;
-  const Force field = slewed(within_limits(meter_.held() > held ? lawful : wanted));
+  const Force field = in_steps(slewed(within_limits(meter_.held() > held ? lawful : wanted)), limited);
   const long acted = observer_.acted();
   const Force calmed = observer_(field, position, periods);
   counts_.passivity += observer_.acted() - acted;
-  return calmed == field && !slewing_ ? field : bounded(calmed);
+  return calmed == field && !slewing_ ? field : in_steps(bounded(calmed), limited);
 }
 
 Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
@@ -62,17 +63,16 @@ Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
 
 Force Guards::within_device(Force wanted) const noexcept { return glm::clamp(wanted, low_, high_); }
 
-Force Guards::within_user(Force wanted) const noexcept {
-  if (most_ == HUGE_VALF) return wanted;
-  const float size = vibrates_ ? wanted.x : glm::length(wanted);
-  if (!(size > most_)) return wanted;
-  return vibrates_ ? Force(most_, wanted.y) : wanted * (most_ / size);
+Force Guards::in_steps(Force wanted, long counted) noexcept {
+  const Force stepped = limit_.in_steps(wanted);
+  if (stepped != wanted && counts_.user_limit == counted) ++counts_.user_limit;
+  return stepped;
 }
 
-Force Guards::bounded(Force wanted) const noexcept { return heat_.held_within(within_user(within_device(wanted))); }
+Force Guards::bounded(Force wanted) const noexcept { return heat_.held_within(limit_.clamped(within_device(wanted))); }
 
 Force Guards::within_limits(Force wanted) noexcept {
-  const Force possible = within_device(wanted), allowed = within_user(possible);
+  const Force possible = within_device(wanted), allowed = limit_.clamped(possible);
   // A hand at rest wants frequency 0. The least frequency with amplitude 0 feels the same, so it is not counted.
   if (vibrates_ ? possible.x != wanted.x : possible != wanted) ++counts_.device_limit;
   if (allowed != possible) ++counts_.user_limit;

@@ -1,11 +1,17 @@
 #include <algorithm>
-#include <climits>
 
+#include "runtime/record/format.hpp"
 #include "runtime/stage/session.hpp"
 #include "schema/home_process.hpp"
 #include "wale/loop.hpp"
 
 namespace wale {
+namespace {
+
+/// More count as so many, which a recording can hold.
+constexpr long most_periods_missed = 0x7fffffff;
+
+}  // namespace
 
 struct Loop::Parts {
   /// A device whose readings the program gives, and whose commands it takes.
@@ -64,10 +70,9 @@ Force Loop::step(const Reading& reading, long periods) noexcept {
   if (!parts_ || !parts_->stage->home.is_here()) return Force(0);
   Parts& parts = *parts_;
   const bool first = parts.period < 0;
-  // Counting stops after more than a million years, so that no number of periods turns time back.
-  constexpr long last_period = LONG_MAX / 4;
-  const long elapsed = first ? 0 : std::min(std::max(1L, periods), last_period - parts.period);
-  parts.period += first ? 1 : elapsed;
+  const long elapsed = first ? 0 : std::clamp(periods, 1L, most_periods_missed);
+  // Time stays where it is after a million years, and what is missed still counts.
+  parts.period = std::min<long>(parts.period + (first ? 1 : elapsed), recording_format::most_periods);
   parts.device.reading = reading;
   if (parts.stage->told_to_stop.load(std::memory_order_relaxed)) parts.device.reading.contact = Contact::stale;
   parts.session->player().serve(

@@ -16,6 +16,19 @@ bool same_program(const Placement& one, const Placement& other) {
   return &one.program.decoded() == &other.program.decoded();
 }
 
+/// As comparing their keys, without making these.
+bool same_bank(const Placement& one, const Placement& other) noexcept {
+  const auto same_bits = [](float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); };
+  return same_program(one, other) && same_bits(one.size.width, other.size.width) &&
+         same_bits(one.size.height, other.size.height) && same_bits(one.size.rim, other.size.rim) &&
+         std::ranges::equal(one.parameters, other.parameters, same_bits);
+}
+
+/// Room for the numbers of so many slots, so that noting one never needs memory.
+void make_room(std::vector<std::uint32_t>& numbers, std::size_t slots) {
+  if (numbers.capacity() < slots) numbers.reserve(std::max(slots, 2 * numbers.capacity()));
+}
+
 }  // namespace
 
 PatchTable::Slot* PatchTable::find(PatchName name) {
@@ -39,6 +52,8 @@ PatchName PatchTable::reserve() {
   std::uint32_t number = 0;
   if (free_.empty()) {
     number = static_cast<std::uint32_t>(slots_.size());
+    for (std::vector<std::uint32_t>* each : {&free_, &dirty_, &replaced_, &unsampled_, &later_})
+      make_room(*each, slots_.size() + 1);
     slots_.emplace_back();
   } else {
     number = free_.back();
@@ -90,38 +105,38 @@ void PatchTable::withdraw_request(Slot& slot, std::uint32_t number) {
     jobs_.erase(jobs_.find(job->first));
 }
 
-void PatchTable::request(std::uint32_t number) {
+void PatchTable::request(std::uint32_t number, Prepared prepared) noexcept {
   Slot& slot = slots_[number];
   withdraw_request(slot, number);
-  slot.ready = nullptr;
+  slot.ready = std::move(prepared.ready);
   ++slot.version;
   if (!running_ || manner_ == Manner::together) return;
-  BankKey key = slot.wanted->key();
-  slot.ready = banks_.find(key);
   if (slot.ready) {
     slot.older.reset();
     slot.since = 0;
     return;
   }
   if (slot.since == 0) slot.since = ++waits_;  // a change that replaces one that waits does not wait anew
-  const auto job = jobs_.try_emplace(std::move(key)).first;
-  job->second.slots.push_back(number);
-  slot.job = &*job;
+  slot.job = prepared.job;
   hurry_.store(true, std::memory_order_relaxed);
 }
 
 void PatchTable::want(std::vector<Wish> wishes) {
   bool waits = false;
+  std::size_t come = 0, go = 0;
   for (const auto& [name, wish] : wishes) {
-    Slot& slot = slots_[name.number];
+    const Slot& slot = slots_[name.number];
     const bool was_there = slot.later ? slot.later->has_value() : slot.wanted.has_value();
-    if (was_there && !wish) --count_;
-    if (!was_there && wish) ++count_, slot.reserved = false;
+    go += was_there && !wish;
+    come += !was_there && wish;
     waits = waits || slot.later || (slot.edit != 0 && wishes.size() > 1);
   }
-  if (!waits) return take_wishes(std::move(wishes));
+  if (!waits) take_wishes(wishes);
+  count_ += come - go;
   for (auto& [name, wish] : wishes) {
     Slot& slot = slots_[name.number];
+    if (wish) slot.reserved = false;
+    if (!waits) continue;
     if (!slot.later) later_.push_back(name.number);
     slot.later = std::move(wish);
   }
@@ -130,48 +145,114 @@ void PatchTable::want(std::vector<Wish> wishes) {
 void PatchTable::take_later_wishes() {
   if (std::ranges::any_of(later_, [&](std::uint32_t number) { return slots_[number].edit != 0; })) return;
   std::vector<Wish> wishes;
-  for (const std::uint32_t number : std::exchange(later_, {})) {
+  wishes.reserve(later_.size());
+  for (const std::uint32_t number : later_) {
     Slot& slot = slots_[number];
     wishes.emplace_back(PatchName{number, slot.generation}, *std::exchange(slot.later, std::nullopt));
   }
-  take_wishes(std::move(wishes));
+  try {
+    take_wishes(wishes);
+  } catch (...) {
+    for (auto& [name, wish] : wishes) slots_[name.number].later = std::move(wish);
+    throw;
+  }
+  later_.clear();
 }
 
-void PatchTable::take_wishes(std::vector<Wish> wishes) {
-  std::vector<std::uint32_t> numbers;
-  for (auto& [name, wish] : wishes) {
-    Slot& slot = slots_[name.number];
+/// Of a run that has ended, so that nobody prepares anything.
+void PatchTable::take_later_wishes_at_rest() noexcept {
+  for (const std::uint32_t number : later_) {
+    Slot& slot = slots_[number];
+    std::optional<Placement> wish = *std::exchange(slot.later, std::nullopt);
     if (!wish) {
-      withdraw_request(slot, name.number);
-      ++slot.generation;  // the handle names nothing any more, and the slot is free once the loop has let it go
-      const bool was_there = slot.wanted.has_value();
-      slot.wanted.reset();
-      if (running_ && was_there)
-        mark(name.number), numbers.push_back(name.number);
-      else
-        free_slot(name.number);
+      drop(number);
       continue;
     }
-    const bool other_bank = !slot.wanted || !(slot.wanted->key() == wish->key());
-    if (other_bank && running_ && slot.ready && slot.ready != slot.bank)
-      slot.older = Older{slot.wanted->key(), slot.ready, slot.version};
+    if (!slot.wanted || !same_bank(*slot.wanted, *wish)) slot.ready = nullptr, ++slot.version;
     slot.wanted = std::move(wish);
-    if (other_bank) request(name.number);
-    mark(name.number);
-    numbers.push_back(name.number);
+  }
+  later_.clear();
+}
+
+bool PatchTable::drop(std::uint32_t number) noexcept {
+  Slot& slot = slots_[number];
+  withdraw_request(slot, number);
+  ++slot.generation;  // the handle names nothing any more, and the slot is free once the loop has let it go
+  const bool was_there = slot.wanted.has_value();
+  slot.wanted.reset();
+  if (running_ && was_there) return true;
+  free_slot(number);
+  return false;
+}
+
+std::vector<PatchTable::Prepared> PatchTable::prepare(const std::vector<Wish>& wishes) {
+  std::vector<Prepared> all(wishes.size());
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    const auto& [name, wish] = wishes[i];
+    Slot& slot = slots_[name.number];
+    if (slot.job != nullptr) slot.job->second.overtaken.reserve(slot.job->second.overtaken.size() + wishes.size());
+    if (!wish) continue;
+    all[i].other_bank = !slot.wanted || !same_bank(*slot.wanted, *wish);
+    if (!all[i].other_bank || !running_) continue;
+    if (slot.ready && slot.ready != slot.bank) all[i].older = slot.wanted->key();
+    if (manner_ == Manner::together) continue;
+    BankKey key = wish->key();
+    all[i].ready = banks_.find(key);
+    if (all[i].ready) continue;
+    all[i].job = &*jobs_.try_emplace(std::move(key)).first;
+    std::vector<std::uint32_t>& waiting = all[i].job->second.slots;
+    waiting.reserve(waiting.size() + wishes.size());
+  }
+  return all;
+}
+
+void PatchTable::forget_idle_jobs() noexcept {
+  std::erase_if(jobs_, [](const auto& job) { return job.second.slots.empty() && !job.second.begun; });
+}
+
+void PatchTable::take_wishes(std::vector<Wish>& wishes) {
+  // First all that needs memory.
+  std::vector<Prepared> prepared;
+  std::vector<std::uint32_t> numbers;
+  std::map<std::uint32_t, Edit> edit;
+  try {
+    numbers.reserve(wishes.size());
+    if (running_ && manner_ == Manner::piecewise && wishes.size() > 1) edit.try_emplace(last_edit_ + 1);
+    prepared = prepare(wishes);
+  } catch (...) {
+    forget_idle_jobs();
+    throw;
+  }
+  // The new jobs have their slots before any old job is withdrawn, which might be one of them.
+  for (std::size_t i = 0; i < wishes.size(); ++i)
+    if (prepared[i].job != nullptr) prepared[i].job->second.slots.push_back(wishes[i].first.number);
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    const std::uint32_t number = wishes[i].first.number;
+    std::optional<Placement>& wish = wishes[i].second;
+    if (!wish) {
+      if (drop(number)) mark(number), numbers.push_back(number);
+      continue;
+    }
+    Slot& slot = slots_[number];
+    if (prepared[i].older) slot.older = Older{*std::move(prepared[i].older), slot.ready, slot.version};
+    slot.wanted = std::move(wish);
+    if (prepared[i].other_bank) request(number, std::move(prepared[i]));
+    mark(number);
+    numbers.push_back(number);
   }
   if (!running_ || manner_ == Manner::together) return;
   if (wishes.size() < 2) {
     for (const std::uint32_t number : numbers) settle(slots_[number].edit);
     return;
   }
-  const std::uint32_t edit = ++last_edit_;
+  ++last_edit_;
   for (const std::uint32_t number : numbers) {
-    slots_[number].edit = edit;
+    slots_[number].edit = last_edit_;
     slots_[number].edit_version = slots_[number].version;
   }
-  edits_[edit].slots = std::move(numbers);
-  settle(edit);
+  edit.begin()->second.slots = std::move(numbers);
+  edits_.merge(edit);
+  settle(last_edit_);
 }
 
 void PatchTable::settle(std::uint32_t edit) {
@@ -208,16 +289,25 @@ void PatchTable::begin(Manner manner, bool lock_memory) {
     slot.sampled = slot.touched = slot.renewed = slot.is_unsampled = false;
     slot.withdrawn = 0;
     slot.since = slot.felt_version = 0;
-    request(number);
+    Prepared prepared;
+    if (manner == Manner::piecewise) {
+      BankKey key = slot.wanted->key();
+      prepared.ready = banks_.find(key);
+      if (!prepared.ready) {
+        prepared.job = &*jobs_.try_emplace(std::move(key)).first;
+        prepared.job->second.slots.push_back(number);
+      }
+    }
+    request(number, std::move(prepared));
     mark(number);
   }
 }
 
-void PatchTable::end() {
+void PatchTable::end() noexcept {
   running_ = false;
-  for (const std::uint32_t number : later_) slots_[number].edit = 0;
-  take_later_wishes();
+  for (Slot& slot : slots_) slot.job = nullptr;
   jobs_.clear();
+  take_later_wishes_at_rest();
   edits_.clear();
   replaced_.clear();
   unsampled_.clear();
@@ -226,7 +316,6 @@ void PatchTable::end() {
   for (std::uint32_t number = 0; number < slots_.size(); ++number) {
     Slot& slot = slots_[number];
     const bool removed = slot.taken && !slot.wanted && !slot.reserved;
-    slot.job = nullptr;
     slot.edit = 0;
     slot.dirty = slot.is_unsampled = slot.is_replaced = false;
     slot.withdrawn = 0;
@@ -245,7 +334,8 @@ bool PatchTable::changes_outline(const Slot& slot) const {
 
 void PatchTable::publish(Exchange<PlacedPatches>& patches, RecordWriter* recorder) {
   if (dirty_.empty()) return;
-  std::vector<std::uint32_t> numbers = std::exchange(dirty_, {});
+  std::vector<std::uint32_t> numbers = dirty_;
+  dirty_.clear();  // keeps its room
   std::size_t outlines = 0;
   for (const std::uint32_t number : numbers) {
     Slot& slot = slots_[number];

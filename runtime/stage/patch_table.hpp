@@ -56,12 +56,13 @@ class PatchTable {
 
   /// What becomes of a patch; nothing removes it.
   using Wish = std::pair<PatchName, std::optional<Placement>>;
-  /// All or nothing is felt at one tick. The names are reserved or have patches, each at most once.
+  /// All or nothing is felt at one tick. The names are reserved or have patches, each at most once. Throws
+  /// std::bad_alloc; then nothing has changed.
   void want(std::vector<Wish> wishes);
 
   /// Begins a run, with banks and memories of its own for all patches.
   void begin(Manner manner, bool lock_memory = false);
-  void end();
+  void end() noexcept;
   /// Whether `publish` has something to do.
   bool has_news() const { return !dirty_.empty(); }
   /// Hands over what is ready as the next revision, if anything has changed, and records it.
@@ -165,10 +166,23 @@ class PatchTable {
   Slot* find(PatchName name);
   const Slot* find(PatchName name) const;
   void mark(std::uint32_t number);
-  /// Makes the wishes those that are published next.
-  void take_wishes(std::vector<Wish> wishes);
+  /// What a wish needs that takes memory, made before anything changes.
+  struct Prepared {
+    bool other_bank = false;
+    std::optional<BankKey> older;               // the key of the bank that is ready and not felt yet
+    std::shared_ptr<const PreparedBank> ready;  // the wanted bank, if it is known
+    Jobs::value_type* job = nullptr;            // otherwise the one that the slot will wait for
+  };
+  std::vector<Prepared> prepare(const std::vector<Wish>& wishes);
+  /// Forgets jobs for which no slot waits.
+  void forget_idle_jobs() noexcept;
+  /// Makes the wishes those that are published next. Throws std::bad_alloc; then nothing has changed.
+  void take_wishes(std::vector<Wish>& wishes);
+  /// The patch of a slot is not wanted any more. True if the loop may have it.
+  bool drop(std::uint32_t number) noexcept;
   void take_later_wishes();
-  void request(std::uint32_t number);
+  void take_later_wishes_at_rest() noexcept;
+  void request(std::uint32_t number, Prepared prepared) noexcept;
   void withdraw_request(Slot& slot, std::uint32_t number);
   /// For the patch's edit.
   bool is_ready(const Slot& slot) const {

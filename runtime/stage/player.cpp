@@ -42,7 +42,13 @@ Reading Player::sound(Reading reading) noexcept {
 }
 
 void Player::exerted(Force force) noexcept {
-  if (all_finite(force)) guards_.commanded(force);
+  if (!all_finite(force) || served_ == 0) return;
+  guards_.commanded(force);
+  record_.ticks[(served_ - 1) % record_.ticks.size()].force = force;
+  if (sink_ != nullptr) sink_->exerted(force);
+  if (outlets_ == nullptr) return;
+  state_.force = force;
+  outlets_->state.store(state_);
 }
 
 Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats, double most_newton,
@@ -174,18 +180,19 @@ void Player::note(const Beat& beat, const Reading& reading, const Hand& hand, co
                    .interaction = reading.interaction});
   }
   if (outlets_ == nullptr) return;
-  outlets_->state.store({.time = hand.time,
-                         .ticks_run = static_cast<long>(served_),
-                         .ticks_missed = missed_,
-                         .lateness = static_cast<double>(beat.lateness) * 1e-9,
-                         .position = hand.workspace,
-                         .velocity = hand.velocity,
-                         .force = output.exerted,
-                         .inside = inside_ != nullptr,
-                         .number = felt_.number,
-                         .generation = felt_.generation,
-                         .revision = patches_.held() != nullptr ? patches_.held()->revision : 0,
-                         .guards = guards()});
+  state_ = {.time = hand.time,
+            .ticks_run = static_cast<long>(served_),
+            .ticks_missed = missed_,
+            .lateness = static_cast<double>(beat.lateness) * 1e-9,
+            .position = hand.workspace,
+            .velocity = hand.velocity,
+            .force = output.exerted,
+            .inside = inside_ != nullptr,
+            .number = felt_.number,
+            .generation = felt_.generation,
+            .revision = patches_.held() != nullptr ? patches_.held()->revision : 0,
+            .guards = guards()};
+  outlets_->state.store(state_);
   outlets_->desk.serve(patches_.held());
 }
 

@@ -52,6 +52,8 @@ class Player {
   ~Player() { device_.command(Force(0)); }
   /// As `Guards::end_slewing_only_when_near`. Before the first tick.
   void end_slewing_only_when_near() noexcept { guards_.end_slewing_only_when_near(); }
+  /// As `Guards::disregard_steps`. Before the first tick.
+  void disregard_steps() noexcept { guards_.disregard_steps(); }
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
@@ -117,6 +119,7 @@ class Player {
   TimeHistogram lateness_;
   CostMeter costs_;
   Outlets* outlets_;
+  TickState state_;  // as last given to the outlets
 };
 
 }  // namespace wale

@@ -39,27 +39,31 @@ int hold_latency() {
 
 }  // namespace
 
-RealTimeClaim::RealTimeClaim(const StageOptions& options) {
-  const auto say = [this](const std::string& what) { status_ += (status_.empty() ? "" : ", ") + what; };
+std::string GrantedClaim::in_words() const {
+  std::string words = "ordinary priority";
+  if (priority_error == 0) words = "SCHED_FIFO priority " + std::to_string(priority);
+  if (priority_error.value_or(0) != 0) words += " (SCHED_FIFO: " + reason(*priority_error) + ")";
+  if (lock_error) words += *lock_error == 0 ? ", memory locked" : ", memory not locked (" + reason(*lock_error) + ")";
+  if (latency_error)
+    words += *latency_error == 0 ? ", processors kept awake" : ", processors may sleep (" + reason(*latency_error) + ")";
+  return words;
+}
+
+RealTimeClaim::RealTimeClaim(const StageOptions& options) noexcept {
   if (options.priority) {
     sched_param wanted{};
-    wanted.sched_priority = *options.priority;
-    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
-    say(error == 0 ? "SCHED_FIFO priority " + std::to_string(*options.priority)
-                   : "ordinary priority (SCHED_FIFO: " + reason(error) + ")");
-  } else {
-    say("ordinary priority");
+    granted_.priority = wanted.sched_priority = *options.priority;
+    granted_.priority_error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
   }
   touch_stack();
   if (options.lock_memory) {
     stack_ = static_cast<const std::byte*>(__builtin_frame_address(0)) - stack_bytes;
-    const bool locked = lock_pages(stack_, stack_bytes);
-    say(locked ? "memory locked" : "memory not locked (" + reason(errno) + ")");
-    if (!locked) stack_ = nullptr;
+    granted_.lock_error = lock_pages(stack_, stack_bytes) ? 0 : errno;
+    if (granted_.lock_error != 0) stack_ = nullptr;
   }
   if (options.low_latency) {
     latency_ = hold_latency();
-    say(latency_ >= 0 ? "processors kept awake" : "processors may sleep (" + reason(errno) + ")");
+    granted_.latency_error = latency_ >= 0 ? 0 : errno;
   }
 }
 

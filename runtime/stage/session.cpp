@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "runtime/device/device_at_home.hpp"
+#include "runtime/stage/device_figures.hpp"
 #include "runtime/stage/devices_in_use.hpp"
 #include "runtime/stage/patches_in_run.hpp"
 #include "runtime/stage/scheduling.hpp"
@@ -31,35 +32,11 @@ std::string few_digits(double value) {
 
 }  // namespace
 
-Result<> has_loop_figures(const DeviceProfile& profile) {
-  struct Figure {
-    const char* name;
-    double value;
-    bool needed;
-  };
-  const bool place = profile.has_position(), push = !profile.shaker;
-  const std::array<Figure, 6> figures{{{"rate", profile.rate, true},
-                                       {"workspace", profile.workspace_diameter, place},
-                                       {"position counts", profile.position_counts, place},
-                                       {"force", profile.force_newton, push},
-                                       {"force counts", profile.force_counts, push},
-                                       {"acceleration", profile.most(), !push}}};
-  for (const auto& [name, value, needed] : figures) {
-    if (needed && (!(value > 0) || !std::isfinite(value))) {
-      return Error{.code = Code::unusable_device,
-                   .sentence = "the device " + profile.name + " declares no positive " + name,
-                   .mend = "give its profile this figure",
-                   .place = {.name = name, .text = few_digits(value)}};
-    }
-  }
-  if (!(profile.velocity_window <= most_velocity_window))
-    return Error{.code = Code::unusable_device,
-                 .sentence = "the device " + profile.name + " declares a velocity window of " +
-                             few_digits(profile.velocity_window) + " ticks, expected " + few_digits(most_velocity_window) +
-                             " at most",
-                 .mend = "declare a shorter one",
-                 .place = {.name = "velocity_window", .text = few_digits(profile.velocity_window)}};
-  return {};
+Error run_without_memory() {
+  return {.code = Code::short_of_resources,
+          .sentence = "there was no memory left for the run",
+          .mend = "free some, and start it again",
+          .place = {.name = "stage"}};
 }
 
 namespace {
@@ -101,7 +78,7 @@ Error no_thread(const char* for_what, const std::system_error& error) {
 Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stage, const RunOptions& options,
                                                 Clock clock, bool may_be_empty, Device& device) {
   const DeviceProfile& profile = stage->profile;
-  if (auto whole = has_loop_figures(profile); !whole) return std::move(whole).error();
+  if (auto sound = check_figures(profile); !sound) return std::move(sound).error();
   const Result<RunLength> length = length_of(options, profile.rate);
   if (!length) return length.error();
   const StageOptions& how = stage->options;
@@ -115,22 +92,24 @@ Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stag
   std::unique_lock lock(stage->mutex);
   const auto refuse = [&](Error error) -> Result<std::unique_ptr<Session>> {
     lock.unlock();
-    session->stage_ = nullptr;  // it was not taken
     return error;
   };
   if (stage->over) return refuse(stage_is_gone());
   if (stage->running) return refuse(another_run());
   if (!may_be_empty && stage->table.size() == 0)
     return refuse(wrong_moment("stage", "nothing is on the stage", "add a patch first"));
-  if (const auto* const opened = dynamic_cast<const DeviceAtHome*>(&device); opened != nullptr && !opened->is_here())
+  const auto* const opened = dynamic_cast<const DeviceAtHome*>(&device);
+  if (opened != nullptr && !opened->is_here())
     return refuse(wrong_moment("device", "the device is the parent process's, and this is a child of its fork",
                                "open it again in the child"));
   if (!take_device(device))
     return refuse(wrong_moment("device", "another stage runs on this device",
                                "wait for the end of its run or stop it, or give this stage a device of its own"));
   session->has_device_ = true;
+  // The guards know what the device will not let through: the passivity observer would take it for an energy gain.
+  session->most_ = opened != nullptr ? std::min(how.max_force, opened->most()) : how.max_force;
   if (auto begun = session->begin_recording(); !begun) return refuse(std::move(begun).error());
-  stage->running = stage->served = true;
+  session->has_stage_ = stage->running = stage->served = true;
   stage->told_to_stop = false;
   stage->outlives_its_device = clock == Clock::own;
   stage->caller_serves = clock == Clock::unreal;
@@ -139,14 +118,14 @@ Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stag
   stage->outlets.state.store({});
   lock.unlock();
   session->player_.emplace(device, session->patches_, session->result_.record, static_cast<std::size_t>(session->kept_),
-                           how.max_force, clock == Clock::real, stage->recorder.get(), &stage->outlets);
+                           session->most_, clock == Clock::real, stage->recorder.get(), &stage->outlets);
   if (clock != Clock::unreal)
     if (auto started = session->start_preparing(); !started) return std::move(started).error();
   return session;
 }
 
 Session::~Session() {
-  if (!stage_) {
+  if (!has_stage_) {
     if (has_device_) give_device_back(device_);
     return;
   }
@@ -154,7 +133,8 @@ Session::~Session() {
   player_.reset();  // commands zero force
   if (has_device_) give_device_back(device_);
   const std::lock_guard lock(stage_->mutex);
-  if (stage_->recorder && clock_ == Clock::own) stage_->recorder->end();
+  if (stage_->recorder && clock_ == Clock::own && has_begun_) stage_->recorder->end();
+  if (stage_->recorder && !has_begun_) stage_->recorder->discard();  // so that another try finds no file
   stage_->table.end();
   stage_->recorder.reset();
   stage_->running = stage_->served = stage_->caller_serves = false;
@@ -173,13 +153,20 @@ void Session::stop_threads() noexcept {
   if (preparing_.joinable()) preparing_.join();
 }
 
+void Session::fail() noexcept {
+  has_failed_ = true;
+  if (clock_ == Clock::own) stage_->told_to_stop = true;
+  const std::lock_guard lock(stage_->mutex);
+  stage_->news.notify_all();
+}
+
 Result<> Session::begin_recording() {
   const std::optional<RecordTo>& to = stage_->options.record;
   if (!to) return {};
   if (!to->hand.empty())
     if (auto text = is_name_text("record_hand", to->hand, record_hand_mend); !text) return text;
   const RecordingHeader header{.device = stage_->profile,
-                               .most_newton = stage_->options.max_force,
+                               .most_newton = most_,
                                .virtual_time = clock_ == Clock::unreal,
                                .hand = to->hand};
   auto begun = RecordWriter::begin(to->file, header, clock_ == Clock::unreal);
@@ -190,7 +177,13 @@ Result<> Session::begin_recording() {
 
 Result<> Session::start_preparing() {
   try {
-    preparing_ = std::thread([this] { prepare(); });
+    preparing_ = std::thread([this]() noexcept {
+      try {
+        prepare();
+      } catch (...) {
+        fail();
+      }
+    });
   } catch (const std::system_error& error) {
     return no_thread("banks", error);
   }
@@ -229,12 +222,13 @@ void Session::hand_over_first() {
 }
 
 bool Session::is_stopped() const noexcept {
-  return (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) ||
+  return has_failed_.load(std::memory_order_relaxed) || (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) ||
          stage_->told_to_stop.load(std::memory_order_relaxed);
 }
 
 void Session::serve_in_virtual_time() {
   const double rate = stage_->profile.rate;
+  has_begun_ = true;
   const long every = std::max(1L, std::lround(rate * progress_seconds));
   VirtualClock clock;
   result_.scheduling = "virtual time";
@@ -254,10 +248,11 @@ Result<> Session::serve_in_real_time() {
   std::atomic<bool> abandoned = false;
   hand_over_first();
   if (stage_->options.lock_memory) lock_pages(&*player_, sizeof *player_);
-  const auto loop = [&] {
+  GrantedClaim granted;
+  const auto loop = [&]() noexcept {
     {
       const RealTimeClaim claim(stage_->options);
-      result_.scheduling = claim.status();
+      granted = claim.granted();
       MonotonicClock clock;
       result_.ticks_missed = run_loop(
           clock, stage_->profile.rate, ticks_,
@@ -276,15 +271,19 @@ Result<> Session::serve_in_real_time() {
   } catch (const std::system_error& error) {
     return no_thread("the loop", error);
   }
+  has_begun_ = true;
   struct Joiner {
     std::thread& thread;
     std::atomic<bool>& abandoned;
     ~Joiner() {
-      abandoned = true;  // matters only when `progress` threw
-      thread.join();
+      abandoned = true;  // matters only when `progress` threw, or there was no memory
+      if (thread.joinable()) thread.join();
     }
   } joiner{thread, abandoned};
   attend();
+  thread.join();
+  if (has_failed_) return run_without_memory();
+  result_.scheduling = granted.in_words();
   return {};
 }
 
@@ -308,10 +307,17 @@ void Session::attend() {
 Result<> Session::attend_apart() {
   hand_over_first();
   try {
-    attending_ = std::thread([this] { attend(); });
+    attending_ = std::thread([this]() noexcept {
+      try {
+        attend();
+      } catch (...) {
+        fail();
+      }
+    });
   } catch (const std::system_error& error) {
     return no_thread("changes", error);
   }
+  has_begun_ = true;
   return {};
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -10,11 +12,8 @@
 
 namespace wale {
 
-/// Ticks. The filter tries each length of its window at each tick.
-inline constexpr double most_velocity_window = 100;
-
-/// Whether the profile has all that a loop needs. Error: `unusable_device`.
-Result<> has_loop_figures(const DeviceProfile& profile);
+/// The error of a run for which there was no memory.
+Error run_without_memory();
 
 /// One run of a stage, from its beginning to its end. The stage is taken for it as long as it exists.
 class Session {
@@ -40,6 +39,8 @@ class Session {
   Result<> begin_recording();
   Result<> start_preparing();
   void stop_threads() noexcept;
+  /// A thread of the run has no memory for its work: the run ends, and a `Loop` gives no force any more.
+  void fail() noexcept;
   /// The thread that prepares banks.
   void prepare();
   /// Waits until all banks are ready, but not for long, and hands over what is ready.
@@ -56,6 +57,10 @@ class Session {
   Clock clock_;
   Device& device_;
   bool has_device_ = false;  // no other run uses it
+  bool has_stage_ = false;   // no other run is under way on it
+  bool has_begun_ = false;   // ticks may have been served
+  std::atomic<bool> has_failed_ = false;
+  double most_ = HUGE_VAL;   // N, the largest force that the user allows, by the stage's options or the device's
   long ticks_ = 0, kept_ = 0;
   Exchange<PlacedPatches> patches_;
   RunResult result_;

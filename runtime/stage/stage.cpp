@@ -67,10 +67,16 @@ Result<Patch> Stage::add(const Program& program, const PatchOptions& options) {
   if (!placement) return std::move(placement).error();
   const std::lock_guard lock(state_->mutex);
   placement->order = state_->table.next_order();
-  const PatchName name = state_->table.reserve();
   std::vector<PatchTable::Wish> wishes;
-  wishes.emplace_back(name, *std::move(placement));
-  state_->want(std::move(wishes));
+  wishes.emplace_back(PatchName(), *std::move(placement));
+  const PatchName name = state_->table.reserve();
+  wishes.front().first = name;
+  try {
+    state_->want(std::move(wishes));
+  } catch (...) {
+    state_->table.release(name);
+    throw;
+  }
   return Patch(state_, name.number, name.generation);
 }
 
@@ -110,13 +116,18 @@ Result<> Stage::start() {
                                 Session::Clock::real, true, *state->device);
   if (!session) return std::move(session).error();
   state->outcome.reset();
+  Result<RunResult> ended_early = run_without_memory();  // made now, while there is memory
   try {
-    state->thread = std::thread([state = state.get(), session = *std::move(session)]() mutable {
-      Result<RunResult> result = session->play();
-      if (result) result->record.ticks.clear();
+    state->thread = std::thread([state = state.get(), session = *std::move(session),
+                                 result = std::move(ended_early)]() mutable noexcept {
+      try {
+        result = session->play();
+        if (result) result->record.ticks.clear();
+      } catch (...) {
+      }
       {
         const std::lock_guard lock(state->mutex);
-        state->outcome = std::move(result);
+        state->outcome.emplace(std::move(result));
       }
       session.reset();
     });

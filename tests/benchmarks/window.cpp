@@ -1,5 +1,5 @@
-// Measures the window of Sandpaper on the screen that it is given, for tests/benchmarks/window: how soon it opens, how many
-// pictures a second it draws, and how late the loop is with and without it.
+// Measures the window of Sandpaper on the screen that it is given, for tests/benchmarks/window: how soon it opens, how
+// many pictures a second it draws, and how late the loop is with and without it.
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QEvent>
@@ -60,9 +60,9 @@ workspace many {
 )";
   const double pitch = 160.0 / side;
   for (int i = 0; i < side * side; ++i)
-    text += "  patch p" + std::to_string(i) + " = stream { at " + std::to_string(pitch * (i % side) - 80 + pitch / 2) + " mm, " +
-            std::to_string(pitch * (i / side) - 80 + pitch / 2) + " mm; size " + std::to_string(0.8 * pitch) + " mm, " +
-            std::to_string(0.8 * pitch) + " mm }\n";
+    text += "  patch p" + std::to_string(i) + " = stream { at " + std::to_string(pitch * (i % side) - 80 + pitch / 2) +
+            " mm, " + std::to_string(pitch * (i / side) - 80 + pitch / 2) + " mm; size " + std::to_string(0.8 * pitch) +
+            " mm, " + std::to_string(0.8 * pitch) + " mm }\n";
   return text + "}\n";
 }
 
@@ -88,7 +88,8 @@ double lateness(MainWindow& window, const QString& file, double seconds) {
     return -1;
   }
   std::vector<double> late;
-  for (std::size_t i = 0; i < recording->ticks(); ++i) late.push_back(1e-9 * static_cast<double>(recording->tick(i).lateness));
+  for (std::size_t i = 0; i < recording->ticks(); ++i)
+    late.push_back(1e-9 * static_cast<double>(recording->tick(i).lateness));
   if (late.empty()) return -1;
   const auto place = late.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(late.size() - 1));
   std::nth_element(late.begin(), place, late.end());
@@ -97,7 +98,8 @@ double lateness(MainWindow& window, const QString& file, double seconds) {
 
 int verdict(const char* what, double value, const char* unit, double bar, bool at_most) {
   const bool good = at_most ? value <= bar : value >= bar;
-  std::printf("%-58s %9.3g %-4s  %s %.3g%s\n", what, value, unit, at_most ? "at most" : "at least", bar, good ? "" : "  MISSED");
+  std::printf("%-58s %9.3g %-4s  %s %.3g%s\n", what, value, unit, at_most ? "at most" : "at least", bar,
+              good ? "" : "  MISSED");
   return good ? 0 : 1;
 }
 
@@ -126,8 +128,10 @@ int measure(double seconds) {
   if (!window.open(written("animated.wale", patches(10)))) return 2;
   wait_until_quiet(window);
   window.feeling().set_on(true);
-  missed += verdict("100 animated patches, felt", pictures_a_second(window, seconds, false), "/s", bar_animated - 1, false);
-  missed += verdict("100 animated patches, panned and felt", pictures_a_second(window, seconds, true), "/s", bar_animated - 1, false);
+  missed +=
+      verdict("100 animated patches, felt", pictures_a_second(window, seconds, false), "/s", bar_animated - 1, false);
+  missed += verdict("100 animated patches, panned and felt", pictures_a_second(window, seconds, true), "/s",
+                    bar_animated - 1, false);
   window.feeling().set_on(false);
 
   // By turns, so that other load on the computer falls on both.

@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <wale.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -245,7 +246,15 @@ void look_at(const char* function, const WaleError* wrong, WaleCode code) {
   if (code == WALE_CODE_malformed_value && told.place.length == 0) fail("argument");
   if ((code == WALE_CODE_unreadable_file || code == WALE_CODE_unwritable_file) && told.place.length == 0) fail("file");
   if (!holds(told.in_words, told.sentence) || !holds(told.in_words, told.mend)) fail("sentence in its words");
-  if (!holds(told.in_words, told.place)) fail("place in its words");
+  // Words are for a terminal: what is no plain text stands in them in another form.
+  const auto is_plain = [](WaleText text) {
+    return std::all_of(text.data, text.data + text.length, [](unsigned char c) { return c >= 0x20 && c < 0x7f; });
+  };
+  if (is_plain(told.place) && !holds(told.in_words, told.place)) fail("place in its words");
+  if (std::any_of(told.in_words.data, told.in_words.data + told.in_words.length,
+                  [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; }))
+    fail("words that a terminal shows");
+  if (std::strchr(told.in_words.data, '\n') && !std::strchr(told.mend.data, '\n')) fail("words in one line");
   if (told.column >= 0 && (told.column < 1 || told.number < 1)) fail("line and column");
   if (std::string(told.place.data, told.place.length).find(".wale") != std::string::npos && code / 100 < 5 &&
       told.column < 1)

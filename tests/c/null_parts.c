@@ -120,12 +120,17 @@ static void devices_and_shapes(void) {
   wale_devices_free(all);
   CHECK_NO_STRUCT("profile", wale_profile(WALE_TEXT("sandpaper"), NULL, &error));
   CHECK_NO_PLACE("device", wale_device_open(WALE_TEXT("simulated"), NULL, NULL, &error));
+  CHECK_NULL("program", wale_program_profile(NULL, &profile, &error));
+  CHECK_NO_STRUCT("profile", wale_program_profile(corduroy, NULL, &error));
   CHECK_NULL("device", wale_device_profile(NULL, &profile, &error));
   WaleDevice* device = simulated();
   CHECK_NO_STRUCT("profile", wale_device_profile(device, NULL, &error));
   wale_device_free(device);
 
   const WaleVector corners[3] = {{0, 0}, {1, 0}, {0, 1}};
+  CHECK_SAYS(WALE_CODE_malformed_value, "corners", "expected 3 to 256 corners, found 300",
+             "leave out corners that lie on a line, or use wale_shape_mask",
+             wale_shape_polygon(corners, 300, &shape, &error)); /* they are not read */
   const uint8_t cell = 1;
   CHECK_NO_PLACE("shape", wale_shape_ellipse(1, 1, NULL, &error));
   CHECK_NO_PLACE("shape", wale_shape_polygon(corners, 3, NULL, &error));

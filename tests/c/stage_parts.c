@@ -6,6 +6,13 @@
 #include "tests/c/parts.h"
 #include "tests/c/placed.h"
 
+static const char rail_stick[] =
+    "wale 1\n\ndevice rail_stick {\n  class force_plane\n  workspace disc(100 mm)\n  position 8192 counts\n"
+    "  force 4 N, 1000 counts\n  rate 1000 Hz\n  speed assumed 1 m/s\n  slew assumed 100 N/s\n"
+    "  velocity_filter 15, 1 counts\n  patch 80 mm, 80 mm, 5 mm\n  mass assumed 0.1 kg\n  damping assumed 1 N s/m\n"
+    "  friction assumed 0.05 N\n  delay assumed 1 ms\n  sustained unknown\n  active assumed 1 W\n"
+    "  source \"the maker's data sheet\"\n}\n\nmaterial syrup {\n  physical { force = -2 N s/m * velocity }\n}\n";
+
 static void devices(void) {
   WaleDevices* all = NULL;
   CHECK_GOOD(wale_devices(&all, &error));
@@ -48,6 +55,17 @@ static void devices(void) {
   wale_device_free(device);
   wale_device_free(device); /* freed already */
   CHECK_MALFORMED(wale_device_profile(NULL, &profile, &error));
+  /* Of a device that only a text declares. */
+  WaleProgram* program = NULL;
+  WaleStage* stage = NULL;
+  WaleCompileOptions options = {.size = sizeof options, .device = WALE_TEXT("rail_stick")};
+  CHECK_GOOD(wale_library_compile(library, WALE_TEXT(rail_stick), &options, &program, &error));
+  CHECK_GOOD(wale_program_profile(program, &profile, &error));
+  CHECK(is_text(profile.name, "rail_stick") && profile.force == 4 && profile.rate == 1000 && profile.mass == 0.1);
+  CHECK(profile.workspace_diameter == 0.1 && !profile.vibrates && profile.has_position);
+  CHECK_GOOD(wale_stage_create_for(&profile, NULL, &stage, &error));
+  CHECK_GOOD(wale_stage_add(stage, program, NULL, NULL, &error));
+  wale_stage_free(stage), wale_program_free(program);
   CHECK_CODE(WALE_CODE_unknown_device, wale_device_open(WALE_TEXT("sandpeper"), NULL, &device, &error));
   CHECK_CODE(WALE_CODE_absent_device, wale_device_open(WALE_TEXT("1-77"), NULL, &device, &error));
   CHECK(device == NULL);
@@ -204,6 +222,7 @@ static void shapes(void) {
   CHECK_MALFORMED(wale_shape_ellipse(1, 1, NULL, &error));
   CHECK_MALFORMED(wale_shape_polygon(NULL, 3, &none, &error));
   CHECK_MALFORMED(wale_shape_polygon(corners, 2, &none, &error));
+  CHECK_MALFORMED(wale_shape_polygon(corners, SIZE_MAX, &none, &error));
   CHECK_MALFORMED(wale_shape_mask(NULL, 3, 2, 0.01f, &none, &error));
   CHECK_MALFORMED(wale_shape_mask(cells, SIZE_MAX, 2, 0.01f, &none, &error));
   CHECK_MALFORMED(wale_shape_mask(cells, 0, 0, 0.01f, &none, &error));
@@ -223,6 +242,7 @@ static void shapes(void) {
   for (int i = 0; i < 1800; ++i) {
     const double x = ticks[i].position.x / 0.01, y = ticks[i].position.y / 0.01, from_edge = x * x + y * y - 1;
     CHECK(fabs(from_edge) < 0.01 || ticks[i].inside == (from_edge < 0));
+    CHECK(ticks[i].patch == (ticks[i].inside ? wale_patch_id(patch) : 0));
   }
   wale_run_free(run);
   wale_patch_free(patch);
@@ -234,7 +254,7 @@ static void patches(void) {
   WalePatch *patch = NULL, *other = NULL;
   WalePatchOptions options = {.size = sizeof options, .x = 0.01f, .width = 0.02f, .height = 0.02f};
   CHECK_GOOD(wale_stage_add(stage, corduroy, &options, &patch, &error));
-  const WalePatchOptions wrong[] = {{.x = NAN}, {.width = 0.01f}, {.width = -1, .height = 1}, {.layer = INFINITY}};
+  const WalePatchOptions wrong[] = {{.x = NAN}, {.width = 0.01f}, {.width = -1, .height = 1}, {.layer = INFINITY}, {.rim = -1}};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
     WalePatchOptions each = wrong[i];
     each.size = sizeof each;
@@ -291,6 +311,7 @@ static void patches(void) {
   wale_edit_free(edit);
   wale_patch_free(patch);
   wale_patch_free(patch); /* freed already */
+  CHECK(wale_patch_number(NULL) == UINT32_MAX && wale_patch_number(patch) != wale_patch_number(other));
   CHECK(wale_patch_id(NULL) == 0 && !wale_patch_exists(NULL));
   CHECK_MALFORMED(wale_patch_set(NULL, WALE_TEXT("wale"), 1, &error));
   CHECK_MALFORMED(wale_patch_move(NULL, 0, 0, &error));

@@ -49,8 +49,13 @@ static WaleCode find_nothing(WaleError** error) {
 
 static WaleCode add(WaleError** error) {
   WalePatch* added = NULL;
+  const size_t before = wale_stage_size(stage);
   const WaleCode code = wale_stage_add(stage, corduroy, NULL, &added, error);
-  if (code == 0) wale_patch_remove(added, NULL);
+  CHECK(wale_stage_size(stage) == before + (code == 0));
+  if (code == 0) {
+    allowed = -1;
+    wale_patch_remove(added, NULL);
+  }
   wale_patch_free(added);
   return code;
 }

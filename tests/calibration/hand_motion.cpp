@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "calibration/feel/felt_report.hpp"
 #include "calibration/feel/rehearsal.hpp"
+#include "compiler/describe/describe.hpp"
 #include "schema/without_place.hpp"
 #include "tests/calibration/declared.hpp"
 
@@ -122,6 +124,96 @@ TEST(FeltPercepts, AreJudgedAgainstWhatThePersonLetsThrough) {
       << felt_text(limited);
   EXPECT_NE(felt_json(limited).find("\"max_force_newton\": 0.3"), std::string::npos) << felt_json(limited);
   EXPECT_EQ(felt_text(whole).find("--max-force"), std::string::npos);
+}
+
+/// The report of a run of 8 s, with what `describe` reads.
+FeltReport told(const std::string& text, const std::string& hand) {
+  Declared declared("material m { " + text + " }\n");
+  const Program program = declared.program();
+  FeltReport report = felt(program, hand, 8);
+  tell_read_percepts(report, Bank(program), declared.declarations());
+  return report;
+}
+
+/// The levels of `describe`, by percept.
+std::map<std::string, double> described(const std::string& text) {
+  Declared declared("material m { " + text + " }\n");
+  std::map<std::string, double> levels;
+  for (const DescribedPercept& each : describe(Bank(declared.program()), declared.declarations()).percepts)
+    levels[each.name] = each.level;
+  return levels;
+}
+
+// Two waves of one fixed amplitude: only the fine one is roughness, and the coarse one is bumpiness. By Parseval the
+// fine one has the share a^2 / (a^2 + b^2) of the mean square of the force, whose amplitudes are 0.25 / 4 and 5 / 20.
+TEST(FeltPercepts, HaveTheShareOfTheReliefThatDescribeReads) {
+  for (const char* waves : {"0.25 * sin(2 pi * x / 4 mm) + 5 * sin(2 pi * x / 20 mm)",
+                            "sin(2 pi * x / 3 mm) + 7 * sin(2 pi * x / 21 mm)"}) {
+    const std::string text = "physical { force = lateral(" + std::string(waves) + ", amplitude: 2 N) }";
+    const FeltReport report = told(text, "lateral");
+    const auto levels = described(text);
+    ASSERT_EQ(report.levels.at(0).name, "roughness");
+    ASSERT_TRUE(report.levels[0].back) << felt_text(report);
+    EXPECT_NEAR(report.levels[0].back->level, levels.at("roughness"), 0.01) << felt_text(report);
+    ASSERT_EQ(report.read.size(), 1u) << felt_text(report);
+    EXPECT_EQ(report.read[0].name, "bumpiness");
+    EXPECT_NEAR(report.read[0].level, levels.at("bumpiness"), 1e-6);
+    EXPECT_NE(felt_text(report).find("`wale describe` reads bumpiness"), std::string::npos);
+  }
+  const FeltReport fine = told("physical { force = lateral(0.25 * sin(2 pi * x / 4 mm) + 5 * sin(2 pi * x / 20 mm), "
+                               "amplitude: 2 N) }", "lateral");
+  EXPECT_NEAR(fine.levels.at(0).size, 2 * 0.0625 / std::hypot(0.0625, 0.25), 0.02);
+}
+
+// A hand that goes along x meets nothing of the ribs across y, and the device gives all that there is.
+TEST(FeltPercepts, AreComparedWithWhatTheHandsWayShows) {
+  for (const char* heights : {"grating(x, period: 3 mm) + grating(y, period: 3 mm)",
+                              "sin(2 pi * x / 4 mm) + sin(2 pi * y / 2.5 mm)"}) {
+    const std::string text = "perceptual { roughness 0.5 } physical { force = lateral(" + std::string(heights) + ") }";
+    const FeltReport straight = told(text, "lateral"), round = told(text, "circular");
+    const std::string said = felt_text(straight);
+    EXPECT_NE(said.find(" N on the hand's way (100 %); over the whole patch it is 1.5"), std::string::npos) << said;
+    ASSERT_TRUE(straight.levels.at(0).back) << said;
+    EXPECT_NEAR(straight.levels[0].back->level, 0.5, 0.01) << said;
+    EXPECT_EQ(felt_text(round).find("hand's way"), std::string::npos) << felt_text(round);
+  }
+}
+
+TEST(FeltPercepts, OfRidgesWithOneSteepFlankAreRead) {
+  for (const char* steep : {"0.33", "0.2", "0.1"}) {
+    const std::string text =
+        "perceptual { roughness 0.5 } physical { let s = " + std::string(steep) +
+        "\n let t = modulo(x, 3 mm) / 3 mm\n height h = if t < 1 - s then 0.5 - 0.5 * cos(pi * t / (1 - s)) else 0.5 + "
+        "0.5 * cos(pi * (t - 1 + s) / s)\n force = lateral(h) }";
+    const FeltReport report = told(text, "lateral");
+    EXPECT_GT(report.felt.crossings, 300) << steep;
+    ASSERT_TRUE(report.levels.at(0).back) << felt_text(report);
+    EXPECT_NEAR(report.levels[0].back->level, described(text).at("roughness"), 0.02) << felt_text(report);
+  }
+}
+
+// A limit or a factor is no other force, and what the program aims at is what it pushes with.
+TEST(FeltPercepts, AreReadThroughALimitAndAFactor) {
+  const FeltReport scaled =
+      told("perceptual { roughness 0.5 } physical { force = 2 * lateral(grating(x, period: 2.5 mm)) }", "lateral");
+  ASSERT_TRUE(scaled.levels.at(0).back) << felt_text(scaled);
+  EXPECT_NE(felt_text(scaled).find("delivered    3.04"), std::string::npos) << felt_text(scaled);
+  EXPECT_NE(felt_text(scaled).find("aims at      amplitude 3.04"), std::string::npos) << felt_text(scaled);
+  const std::string wall = "perceptual { softness 0.8 } physical { force = firm() limit 2 N }";
+  const FeltReport limited = told(wall, "press at 20 mm, 0 mm");
+  ASSERT_TRUE(limited.levels.at(0).back) << felt_text(limited);
+  EXPECT_NEAR(limited.levels[0].back->level, described(wall).at("hardness"), 0.02) << felt_text(limited);
+}
+
+// What `describe` does not read has no level, and what it reads is told, also beside percepts that were asked for.
+TEST(FeltPercepts, AreNoOthersThanThoseOfDescribe) {
+  const FeltReport damper = told("physical { force = crisp(5 N s/m) }", "lateral");
+  EXPECT_TRUE(damper.levels.empty()) << felt_text(damper);
+  EXPECT_TRUE(described("physical { force = crisp(5 N s/m) }").empty());
+  const FeltReport both =
+      told("physical { force a = firm(800 N/m, face: 25 mm) limit 7 N\n force b = viscous(3 N s/m) }", "lateral");
+  EXPECT_NE(felt_text(both).find("besides      `wale describe` reads hardness 0.84"), std::string::npos) << felt_text(both);
+  EXPECT_NE(felt_json(damper).find("\"predicted_amplitude_newton\": null"), std::string::npos);
 }
 
 // Advice helps: a hand that crosses the ridges already, or that no direction serves better, gets none.

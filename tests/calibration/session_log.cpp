@@ -49,6 +49,12 @@ std::vector<SessionEvent> one_of_each() {
           SessionAnswer{"pile", "board", "1"},
           SessionAnswer{"label", "1", "rough, \"like bark\"\nand ★"},
           SessionTakenBack{{6, 7}},
+          SessionPlaced{"patches", "kitchen",
+                        {{.name = "board", .at = {-0.0625, 0.03125}, .size = glm::dvec2(0.25, 0.5), .shape = "ellipse",
+                          .rim = 0.001953125, .layer = 2},
+                         {.name = "cloth"}},
+                        {"river"}},
+          SessionPlaced{"keys", "sorting", {{.name = "cloth", .at = {0.125, 0}}}, {}},
           SessionGroups{"sorted", "kitchen", {{{"board", "cloth"}, "hard"}, {{}, ""}}},
           SessionNote{""},
           SessionOther{"estimate", R"({"magnitude":12.5,"of":["board"]})"},
@@ -95,11 +101,18 @@ TEST(SessionLog, IsAsItsPageSays) {
   for (const Error& each : record->problems) ADD_FAILURE() << in_words(each);
   std::string again;
   std::set<std::size_t> kinds;
-  for (const SessionEntry& each : record->entries) again += *session_line(each) + "\n", kinds.insert(each.event.index());
+  for (const SessionEntry& each : record->entries)
+    again += *session_line(each) + "\n", kinds.insert(each.event.index());
   EXPECT_EQ(again, shown);
   EXPECT_EQ(kinds.size(), std::variant_size_v<SessionEvent>) << "the page shows each event";
   ASSERT_EQ(record->standing_answers().size(), 2u);
   EXPECT_EQ(std::get<SessionAnswer>(record->standing_answers()[1]->event), (SessionAnswer{"pile", "mat", "1"}));
+}
+
+TEST(SessionLog, HasLengthsAsAPersonWritesThem) {
+  const auto line = session_line({.event = SessionOrder{"places", "w", 1, {{"a", "", glm::dvec2(0.1 + 0.2, 0.0242)}}}});
+  ASSERT_TRUE(line);
+  EXPECT_NE(line->find("\"at_mm\":[300.0,24.2]"), std::string::npos) << *line;
 }
 
 TEST(SessionLog, IsOnTheDiskBeforeTheCallReturns) {
@@ -168,7 +181,8 @@ TEST(SessionLog, ThatIsCutAnywhereKeepsAllWholeLines) {
       EXPECT_TRUE(record->problems.empty());
     } else {
       ASSERT_EQ(record->problems.size(), 1u) << length;
-      EXPECT_TRUE(in_words(record->problems[0]).starts_with("cut.session:" + std::to_string(lines + 1) + ":")) << in_words(record->problems[0]);
+      EXPECT_TRUE(in_words(record->problems[0]).starts_with("cut.session:" + std::to_string(lines + 1) + ":"))
+          << in_words(record->problems[0]);
     }
   }
 }
@@ -177,7 +191,8 @@ TEST(SessionLog, SaysFileAndLineOfWhatIsMalformedAndKeepsTheRest) {
   const TemporaryFolder folder;
   const std::string whole = contents_of(written_to(folder / "one.session"));
   std::vector<std::string> lines;
-  for (std::size_t at = 0; at < whole.size(); at = whole.find('\n', at) + 1) lines.push_back(whole.substr(at, whole.find('\n', at) - at));
+  for (std::size_t at = 0; at < whole.size(); at = whole.find('\n', at) + 1)
+    lines.push_back(whole.substr(at, whole.find('\n', at) - at));
   const auto with = [&](std::size_t line, const std::string& text) {
     std::string log;
     for (std::size_t i = 0; i < lines.size(); ++i) log += (i == line ? text : lines[i]) + "\n";
@@ -204,19 +219,30 @@ TEST(SessionLog, SaysFileAndLineOfWhatIsMalformedAndKeepsTheRest) {
     EXPECT_EQ(record->problems[0].place.number, 2u) << in_words(record->problems[0]);
     EXPECT_EQ(record->entries.size(), lines.size() - 1);
   }
+  const std::size_t placed = 8;
+  for (const std::string& each :
+       {swapped(placed, "\"layer\":2", "\"layer\":-2"), swapped(placed, "\"at_mm\"", "\"at_cm\""),
+        swapped(placed, "[250.0,500.0]", "[250.0]"), swapped(placed, "\"gone\":[\"river\"]", "\"gone\":\"river\""),
+        swapped(placed, "\"ellipse\"", "2")}) {
+    const auto record = read_session_log(each, "bad.session");
+    ASSERT_TRUE(record && record->problems.size() == 1) << each;
+    EXPECT_EQ(record->problems[0].place.number, placed + 1);
+  }
   // A line that somebody took out, or copied, is noticed too.
   std::string fewer = whole;
   fewer.erase(whole.find(lines[3]), lines[3].size() + 1);
   auto record = read_session_log(fewer, "bad.session");
   ASSERT_TRUE(record && record->problems.size() == 1);
-  EXPECT_NE(in_words(record->problems[0]).find("lines 4 to 4 are missing"), std::string::npos) << in_words(record->problems[0]);
+  EXPECT_NE(in_words(record->problems[0]).find("lines 4 to 4 are missing"), std::string::npos)
+      << in_words(record->problems[0]);
   record = read_session_log(with(3, lines[3] + "\n" + lines[3]), "bad.session");
   ASSERT_TRUE(record && record->problems.size() == 1);
   EXPECT_EQ(record->entries.size(), lines.size());
   // What nobody answered cannot be taken back.
   record = read_session_log(swapped(7, "[6,7]", "[6,9]"), "bad.session");
   ASSERT_TRUE(record && record->problems.size() == 1);
-  EXPECT_NE(in_words(record->problems[0]).find("line 9 has no answer"), std::string::npos) << in_words(record->problems[0]);
+  EXPECT_NE(in_words(record->problems[0]).find("line 9 has no answer"), std::string::npos)
+      << in_words(record->problems[0]);
 }
 
 TEST(SessionLog, IsToldFromOtherFilesAndNewerOnes) {

@@ -386,6 +386,37 @@ TEST(Sliders, NameThePerceptThatTheyDecalibrate) {
   EXPECT_EQ(parameters[*program.parameter("period")].description, "from ridge to ridge");
 }
 
+// The place of a wall is no factor, and a limit leaves its stiffness, as that of a spring; but a texture gets weaker.
+TEST(Sliders, OfAWallAndOfALimitDecalibrateOnlyWhatTheyChange) {
+  const auto description = [](const std::string& material, const std::string& parameter) {
+    const Program program = Declared("material m { " + material + " }\n").program();
+    return program.description().parameters[*program.parameter(parameter)].description;
+  };
+  const std::string top = " param top = 6 N in 1 N .. 9 N\n";
+  EXPECT_EQ(description("perceptual { softness 0.8 } physical { param face = 12 mm in 5 mm .. 30 mm\n"
+                        " force = firm(face: face) limit 8 N }", "face"), "");
+  EXPECT_EQ(description("perceptual { hardness 0.5 } physical {" + top + "force = firm() limit top }", "top"), "");
+  EXPECT_EQ(description("perceptual { springiness 0.5 } physical {" + top + "force = spring() limit top }", "top"), "");
+  EXPECT_EQ(description("perceptual { roughness 0.5 } physical { param period = 2 mm in 1 mm .. 5 mm\n" + top +
+                        "force = lateral(grating(x, period: period)) limit top }", "period"), "");
+  EXPECT_EQ(description("perceptual { roughness 0.5 } physical {" + top +
+                        "force = lateral(grating(x, period: 2 mm)) limit top }", "top"), "(decalibrates roughness)");
+}
+
+// A force that only a limit, a factor or a sign changes is alone: a run reads it back.
+TEST(Records, AForceThatIsLimitedOrScaledIsAlone) {
+  const auto alone = [](const std::string& material) {
+    return Declared("material m { " + material + " }\n").program().description().percepts.at(0).alone;
+  };
+  EXPECT_TRUE(alone("perceptual { softness 0.8 } physical { force = firm() limit 8 N }"));
+  EXPECT_TRUE(alone("perceptual { roughness 0.5 } physical { force = 2 * lateral(grating(x, period: 3 mm)) }"));
+  EXPECT_TRUE(alone("perceptual { roughness 0.5 } physical { param g = 1 in 0 .. 2\n"
+                    "force = g * lateral(grating(x, period: 3 mm)) / 2 limit 3 N }"));
+  EXPECT_FALSE(alone("perceptual { roughness 0.5 } physical { force = 2 * lateral(grating(x, period: 3 mm)) + "
+                     "spring(20 N/m) }"));
+  EXPECT_FALSE(alone("perceptual { hardness 0.5 } physical { force a = firm() limit 8 N\n force b = sticky(0.3 N) }"));
+}
+
 TEST(Records, HoldTheFiguresForDescriptions) {
   const Program program = Declared(five).program();
   const PerceptRecord& roughness = program.description().percepts[percept_index(program, "roughness")];

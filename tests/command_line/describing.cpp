@@ -288,6 +288,25 @@ TEST(Describing, SaysHowWellALevelIsKnownAndWhatACatalogueKeeps) {
   EXPECT_EQ(evidence_of("alike"), "estimated");
 }
 
+// F = -60 N/m (hand - rest) is 60 N/m * rest in the middle.
+TEST(Describe, ASpringIsToldByThePlaceToWhichItPulls) {
+  const TemporaryFolder folder;
+  const auto file = [&](const std::string& force) {
+    return folder.write("m.wale", "wale 1\nmaterial m { physical { force = " + force + " } }\n");
+  };
+  const std::string aside = file("spring(60 N/m, rest: vector(20 mm, -10 mm))");
+  const auto json = wale({"describe", aside, "--json"}).json();
+  EXPECT_NEAR(json.at("spring_rest_m").at(0).get<double>(), 0.02, 2e-4);
+  EXPECT_NEAR(json.at("spring_rest_m").at(1).get<double>(), -0.01, 2e-4);
+  const std::string text = wale({"describe", aside}).out;
+  EXPECT_TRUE(contains(text, "its spring pulls to 20 mm, -10 mm from the middle")) << text;
+  EXPECT_TRUE(contains(text, "a push in the middle of 1.34 N")) << text;
+  for (const char* other : {"spring(60 N/m)", "vector(0.3 N, 0.4 N)"}) {
+    const std::string told = wale({"describe", file(other)}).out;
+    EXPECT_FALSE(contains(told, "its spring pulls")) << told;
+  }
+}
+
 TEST(Feeling, WithNoMoreForceThanTheUserAllows) {
   const auto felt = [](const std::string& most) {
     return wale({"feel", corduroy, "--virtual-time", "--seconds", "2", "--max-force", most, "--json"});

@@ -2,6 +2,8 @@
 // out.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -21,14 +23,32 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// A device whose motors give no more than so many N, as a clipped waveform is.
+class ClippedDevice final : public Device {
+ public:
+  ClippedDevice(std::unique_ptr<Device> device, float most) : device_(std::move(device)), most_(most) {}
+
+  const DeviceProfile& profile() const noexcept override { return device_->profile(); }
+  void elapse(long periods) noexcept override { device_->elapse(periods); }
+  Reading sample() noexcept override { return device_->sample(); }
+  Force command(Force force) noexcept override {
+    return device_->command({std::clamp(force.x, -most_, most_), std::clamp(force.y, -most_, most_)});
+  }
+
+ private:
+  std::unique_ptr<Device> device_;
+  float most_;
+};
+
 /// The thirty gratings of chapter 5: what each did to the hand, when it was executed once.
 struct RoughnessDesign {
   Design design{text_of("/calibration/experiments/minsky1995_chapter5.wale")};
   std::map<std::string, std::string> amplitudes;  // N, by the stimulus's name
   std::vector<FeltSize> felt;
 
-  /// `change` makes another device of the simulated one.
-  explicit RoughnessDesign(const std::function<void(DeviceProfile&)>& change = [](DeviceProfile&) {}) {
+  /// `change` makes another device of the simulated one, which gives at most `most` N.
+  explicit RoughnessDesign(
+      const std::function<void(DeviceProfile&)>& change = [](DeviceProfile&) {}, float most = HUGE_VALF) {
     const auto table =
         analysis::read_table("stimuli", text_of("/calibration/experiments/minsky1995_chapter5_stimuli.csv"));
     for (std::size_t row = 0; row < table->rows(); ++row) amplitudes.emplace(table->cell(row, 0), table->cell(row, 1));
@@ -37,8 +57,10 @@ struct RoughnessDesign {
         [&](const Program& program) -> Result<FeltDevice> {
           DeviceProfile profile = program.description().device;
           change(profile);
-          return FeltDevice{std::make_unique<SimulatedJoystick>(profile, HandModel{0.55, 6.5, 135}, Lateral{0.04, 1}),
-                            nullptr, "simulated", "lateral", true};
+          std::unique_ptr<Device> joystick =
+              std::make_unique<SimulatedJoystick>(profile, HandModel{0.55, 6.5, 135}, Lateral{0.04, 1});
+          return FeltDevice{std::make_unique<ClippedDevice>(std::move(joystick), most), nullptr, "simulated", "lateral",
+                            true};
         },
         {.seconds = 3, .virtual_time = true, .folder = {}, .recordings = {}});
     for (const Program& each : ready.stimuli) felt.push_back(*presenter.present(each, ""));
@@ -105,19 +127,39 @@ TEST(VirtualStudies, TheHandleIsHeardOf) {
   EXPECT_GT(std::abs(by_interaction - by_actuator), 0.01);
 }
 
+/// The exponent of fifteen observers who feel the force between hand and handle.
+analysis::Coefficient interaction_exponent(const RoughnessDesign& of) {
+  const PlantedLaw law{.threshold = 0, .noise = 0.1};
+  return analysis::analyse_magnitudes(study(5, law, 0.76, 0.02, of),
+                                      {.size = {}, .intervals_of_spread = false, .alternatives = false})
+      ->exponent;
+}
+
 /// A handle with three times the friction gives another map, by more than the map's interval.
 TEST(VirtualStudies, TripledFrictionShows) {
-  const PlantedLaw law{.threshold = 0, .noise = 0.1};
-  const auto exponent_of = [&](const RoughnessDesign& of) {
-    return analysis::analyse_magnitudes(study(5, law, 0.76, 0.02, of),
-                                        {.size = {}, .intervals_of_spread = false, .alternatives = false})
-        ->exponent;
-  };
-  const analysis::Coefficient whole = exponent_of(roughness_design());
+  const analysis::Coefficient whole = interaction_exponent(roughness_design());
   const analysis::Coefficient changed =
-      exponent_of(RoughnessDesign([](DeviceProfile& profile) { profile.friction *= 3; }));
+      interaction_exponent(RoughnessDesign([](DeviceProfile& profile) { profile.friction *= 3; }));
   EXPECT_TRUE(changed.value < whole.low() || changed.value > whole.high())
       << changed.value << " is within " << whole.low() << " to " << whole.high();
+}
+
+/// So does a waveform that is clipped at 1 N, the same for all stimuli.
+TEST(VirtualStudies, AClippedWaveformShows) {
+  const analysis::Coefficient whole = interaction_exponent(roughness_design());
+  const analysis::Coefficient clipped = interaction_exponent(RoughnessDesign([](DeviceProfile&) {}, 1));
+  EXPECT_LT(clipped.value, whole.low()) << "larger stimuli are clipped more";
+}
+
+/// A delay of 10 ms makes no other map, and cannot: the force comes later over the same gratings, so its size stays
+/// what it was within 2 %, and planted observers feel sizes. What a delay does change, the phase between motion and
+/// force, no law of theirs knows.
+TEST(VirtualStudies, ADelayLeavesTheSizesAsTheyAre) {
+  const RoughnessDesign delayed([](DeviceProfile& profile) { profile.delay_x = profile.delay_y += 0.01; });
+  for (std::size_t i = 0; i < delayed.felt.size(); ++i)
+    EXPECT_NEAR(delayed.felt[i].interaction.size / roughness_design().felt[i].interaction.size, 1, 0.02) << i;
+  const analysis::Coefficient whole = interaction_exponent(roughness_design()), late = interaction_exponent(delayed);
+  EXPECT_TRUE(whole.low() < late.value && late.value < whole.high()) << late.value;
 }
 
 /// Observers whose answers bend with a threshold, or go along with the answer before, are found out.

@@ -1,5 +1,5 @@
 // A libFuzzer target for the loader. Any bytes are refused with a reason, or make a program that runs within the force
-// of its device. The checksum is corrected first, so that the fuzzer reaches the later checks.
+// of its device and is written so that it loads again. The checksum is corrected first, so that the fuzzer reaches the later checks.
 
 #include <cmath>
 #include <cstdlib>
@@ -22,6 +22,9 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   const auto loaded = wale::Program::load(bytes);
   if (!loaded) return loaded.error().sentence.empty() ? (std::abort(), 0) : 0;
   const auto& program = *loaded;
+  const std::vector<std::byte> written = write_patch_program(program.description());
+  const auto again = wale::Program::load(written);
+  if (!again || write_patch_program(again->description()) != written) std::abort();
   long points = 0;
   for (const auto& peak : program.description().peaks) points += peak.points * static_cast<long>(peak.code.size());
   if (points > 1'000'000) return 0;  // accepted, but too slow to fuzz

@@ -93,6 +93,27 @@ TEST(Entry, HasWhatTheProgramReads) {
   EXPECT_NEAR((*felt.cues)[CueKind::amplitude].value_or(0), roughness->size, 0.02);
 }
 
+/// An entry goes on with what its compilation has measured. It is that of a program that was compiled alone, with all
+/// warnings, and then read anew: textures, springs, walls, memory, noise in time, states and several percepts at once.
+TEST(Entry, IsThatOfAProgramThatIsReadAnew) {
+  for (const char* file : {"fabric/corduroy", "wood/oak", "earth/sand", "mechanism/ratchet", "fluid/oil", "rubber/foam", "abstract/noises"}) {
+    FileRequest request;
+    request.file = std::string(WALE_SOURCE_DIR) + "/library/" + file + ".wale";
+    const auto read = read_entries(request, file);
+    ASSERT_TRUE(read) << in_words(read.error());
+    for (const Entry& entry : read->entries) {
+      Diagnostics diagnostics;
+      const auto program = compile_opened(read->opened, request, entry.name, diagnostics);
+      ASSERT_TRUE(program) << entry.name;
+      EXPECT_EQ(entry.program, write_patch_program(program->description())) << entry.name;
+      const Felt anew = felt_of(*program, read->opened.module->declarations());
+      EXPECT_EQ(entry.felt.percepts, anew.percepts) << entry.name;
+      ASSERT_EQ(entry.felt.cues.has_value(), anew.cues.has_value()) << entry.name;
+      EXPECT_TRUE(!anew.cues || entry.felt.cues->values == anew.cues->values) << entry.name;
+    }
+  }
+}
+
 TEST(Entry, OfAMaterialWithAnErrorSaysSo) {
   const Shelf shelf;
   const FileEntries read = shelf.read();

@@ -143,7 +143,7 @@ TEST(Mends, SayWhatToWriteInstead) {
       {"let \"a\" = 3", "write names without quotes"},
       {"height ribs grating(x)", "write `height ribs = …`"},
       {"param k 3", "write `param k = …`"},
-      {"patch = 3 mm", "write `patch 3`"},
+      {"patch = 3 mm", "write `patch 3 mm`"},
       {"q = 3", "write `let q = …`"},
       {"fource = 3", "did you mean `force`?"},
       {"* 3", "to continue on the next line, end the line above with the operator"},

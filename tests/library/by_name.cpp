@@ -139,6 +139,7 @@ TEST(ByName, ErrorsAreAboutTheArgument) {
       {library.find("denim", {.material = "denin"}), Code::unknown_material, "material", {"denim"}},
       {library.open(denim_file(), {.material = "velvet"}), Code::unknown_material, "material", {}},
       {library.find("corderoy"), Code::unknown_name, "name", {"corduroy"}},
+      {library.find("corduroy.wale"), Code::unknown_name, "name", {"corduroy"}},  // `open` reads files
       {library.find("mesh"), Code::unknown_name, "name", {"aluminium_mesh"}},  // a word of names
       {library.find(""), Code::malformed_value, "name", {}},
       {library.find(" "), Code::malformed_value, "name", {}},

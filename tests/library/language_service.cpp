@@ -9,6 +9,7 @@
 #include <set>
 
 #include "wale/catalogue.hpp"
+#include "wale/patch_program.hpp"
 
 namespace wale::language_service_test {
 namespace {
@@ -35,17 +36,21 @@ TEST(LanguageService, ColoursEachWordByWhatItIs) {
     found.emplace_back(text.substr(each.begin, each.end - each.begin), each.kind);
   using K = WordKind;
   const std::vector<std::pair<std::string, WordKind>> expected = {
-      {"wale", K::keyword},  {"1", K::number},       {"/// told", K::documentation}, {"material", K::keyword}, {"a", K::name},
-      {"{", K::symbol},      {"// why", K::comment}, {"physical", K::keyword},       {"{", K::symbol},         {"force", K::keyword},
-      {"=", K::symbol},      {"120", K::number},     {"N", K::unit},                 {"/", K::symbol},         {"m", K::unit},
-      {"*", K::symbol},      {"hand", K::name},      {"\"t\"", K::text},   {"}", K::symbol},         {"}", K::symbol}};
+      {"wale", K::keyword},     {"1", K::number},         {"/// told", K::documentation},
+      {"material", K::keyword}, {"a", K::name},           {"{", K::symbol},
+      {"// why", K::comment},   {"physical", K::keyword}, {"{", K::symbol},
+      {"force", K::keyword},    {"=", K::symbol},         {"120", K::number},
+      {"N", K::unit},           {"/", K::symbol},         {"m", K::unit},
+      {"*", K::symbol},         {"hand", K::name},        {"\"t\"", K::text},
+      {"}", K::symbol},         {"}", K::symbol}};
   EXPECT_EQ(found, expected);
 }
 
 TEST(LanguageService, AnyBytesAreSafe) {
   std::mt19937 random(19);
-  const std::string pieces[] = {"wale 1\n", "material a {", "}", "physical {", "\"", "//", "/*", "*/", "5 mm", "\xc3", "\0x",
-                                "patch b = oak { at", "workspace w {", "é", "\n", "..", "(", ")", "patches from", "///"};
+  const std::string pieces[] = {
+      "wale 1\n",           "material a {",  "}", "physical {", "\"", "//", "/*", "*/",           "5 mm", "\xc3", "\0x",
+      "patch b = oak { at", "workspace w {", "é", "\n",         "..", "(",  ")",  "patches from", "///"};
   for (int i = 0; i < 1500; ++i) {
     std::string text;
     for (unsigned n = random() % 14; n > 0; --n) text += pieces[random() % std::size(pieces)];
@@ -176,7 +181,8 @@ std::string with(std::string text, const std::string& what, const std::string& b
 
 TEST(LanguageService, WhatHasNotChangedIsWrittenAsItsAuthorWroteIt) {
   EXPECT_EQ(rewritten([](Layout&) {}), by_hand);
-  EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[0].at.x = 0.01; }), with(by_hand, "at -50 mm, 0 mm", "at 10 mm, 0 mm"));
+  EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[0].at.x = 0.01; }),
+            with(by_hand, "at -50 mm, 0 mm", "at 10 mm, 0 mm"));
   EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[1].size = glm::dvec2(0.05, 0.03); }),
             with(by_hand, "size 5 cm, 4 cm", "size 50 mm, 30 mm"));
   EXPECT_EQ(rewritten([](Layout& layout) { layout.patches[1].made_of = "corduroy(wale: 3 mm)"; }),
@@ -193,13 +199,51 @@ TEST(LanguageService, WhatHasNotChangedIsWrittenAsItsAuthorWroteIt) {
   // Each comment stays with its patch where the order changes.
   const std::string turned = rewritten([](Layout& layout) { std::swap(layout.patches[0], layout.patches[2]); });
   EXPECT_NE(turned.find("r=oak   // as it is\n"), turned.npos) << turned;
-  EXPECT_NE(turned.find("  // left one\n  patch p = a { size 40 mm, 40 mm; at -50 mm, 0 mm } // why\n"), turned.npos) << turned;
+  EXPECT_NE(turned.find("  // left one\n  patch p = a { size 40 mm, 40 mm; at -50 mm, 0 mm } // why\n"), turned.npos)
+      << turned;
   EXPECT_LT(turned.find("r=oak"), turned.find("patch p")) << turned;
   const std::string one_line = "wale 1\nworkspace w { patch a = oak; patch b = denim }\n";
   EXPECT_EQ(rewritten([](Layout&) {}, one_line), one_line);
   rewritten([](Layout& layout) { std::swap(layout.patches[0], layout.patches[1]); }, one_line);
   rewritten([](Layout& layout) { layout.patches.erase(layout.patches.begin()); }, one_line);
   rewritten([](Layout& layout) { layout.patches.push_back({.name = "c", .made_of = "oak"}); }, one_line);
+}
+
+TEST(LanguageService, CompilesAMaterialUnderAnotherName) {
+  const std::string text = "wale 1\nmaterial of_a_window = denim(roughness: 0.3)\n";
+  const CompiledText own = service().compile(text, {.material = "of_a_window"});
+  const CompiledText called = service().compile(text, {.material = "of_a_window"}, "denim");
+  ASSERT_TRUE(own.program && called.program);
+  PatchProgram description = own.program->description();
+  EXPECT_EQ(description.material, "of_a_window");
+  description.material = "denim";
+  EXPECT_EQ(write_patch_program(called.program->description()), write_patch_program(description))
+      << "only its name differs";
+  // Nothing says a name that nobody wrote.
+  const std::string wrong = "wale 1\nmaterial of_a_window { physical { force = vector(20 N, 0 N) } }\n";
+  for (const Problem& each : service().compile(wrong, {.material = "of_a_window"}, "mine").problems)
+    EXPECT_EQ(in_words(each.error).find("of_a_window"), std::string::npos) << in_words(each.error);
+  EXPECT_FALSE(service().compile(text, {.material = "missing"}, "denim").program);
+}
+
+TEST(LanguageService, DrawsWhatPreviewDraws) {
+  const CompiledText compiled = service().compile("wale 1\nmaterial m = corduroy\n");
+  ASSERT_TRUE(compiled.program);
+  const Program& program = *compiled.program;
+  const auto svg = service().preview(program, program.default_parameters(), program.default_size(), "a.svg");
+  ASSERT_TRUE(svg) << in_words(svg.error());
+  const std::string text(reinterpret_cast<const char*>(svg->data()), svg->size());
+  EXPECT_NE(text.find("<svg"), std::string::npos);
+  EXPECT_EQ(service().preview(program, program.default_parameters(), program.default_size(), "a.xyz").error().code,
+            Code::malformed_value);
+  const auto parts = service().preview_parts(program, program.default_parameters(), program.default_size());
+  ASSERT_TRUE(parts) << in_words(parts.error());
+  EXPECT_EQ(parts->front().name, "surface");
+  EXPECT_EQ(std::ranges::count(*parts, "spectrum", &PreviewPart::name), 1);
+  for (const PreviewPart& each : *parts) {
+    ASSERT_GT(each.png.size(), 8u) << each.name;
+    EXPECT_EQ(each.png[1], std::byte{'P'}) << each.name;
+  }
 }
 
 TEST(LanguageService, TellsWhatAMaterialReadsAs) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -55,6 +56,23 @@ TEST(Hash, IsTheSameWithinACell) {
     EXPECT_EQ(hash_of(-1 + f, 0, 0), hash_of(-1, 0, 0));
   }
   EXPECT_NE(hash_of(-0.001f, 0, 0), hash_of(0, 0, 0));
+}
+
+/// Of every 4099th of all floats, and of those at the ends: what the standard library says of the same in double precision.
+TEST(Hash, CountsInWholeNumbersBelow) {
+  const auto expected = [](float a) {
+    if (std::isnan(a)) return std::int64_t{0};
+    return static_cast<std::int64_t>(std::floor(std::min(std::max(static_cast<double>(a), -2147483520.0), 2147483520.0)));
+  };
+  const auto check = [&](float a) {
+    ASSERT_EQ(static_cast<std::int32_t>(arithmetic::lattice_index(a)), expected(a)) << a;
+  };
+  for (std::uint64_t bits = 0; bits <= 0xffffffffu; bits += 4099) {
+    const auto a = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    if (a == 0 || std::isnormal(a) || !std::isfinite(a)) check(a);  // others are flushed before
+  }
+  for (const float end : {2147483520.0f, 2147483648.0f, 1e30f, std::numeric_limits<float>::infinity(), 8388607.5f, 0.99999994f, 1.0f, 0.0f})
+    check(end), check(-end);
 }
 
 TEST(Hash, TakesAnyFloat) {

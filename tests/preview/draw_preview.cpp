@@ -88,9 +88,10 @@ TEST(Preview, WordsAreOnThePage) {
   PreviewText text = preview_text(bank, common_modules()->declarations);
   EXPECT_EQ(text.title, "A sine grating");
   EXPECT_EQ(text.names, "grating · washboard");
-  ASSERT_EQ(text.figures.size(), 1u);
-  EXPECT_EQ(text.figures[0].word, "maximum force");
-  EXPECT_EQ(text.figures[0].value, "1 N");
+  const auto maximum = std::ranges::find(text.figures, "maximum force", &PreviewText::Figure::word);
+  ASSERT_NE(maximum, text.figures.end());
+  EXPECT_EQ(maximum->value, "1 N");
+  EXPECT_EQ(text.figures[0].word, "roughness") << "what the force reads, although nobody asked for it";
   const Drawing drawing = drawn(bank, text);
   if (!(*new_canvas(1, 1, {}))->has_text()) GTEST_SKIP() << "no font is installed";
   EXPECT_LT(darkest(drawing, 64, 60, 500, 110), 200);     // title
@@ -182,12 +183,63 @@ TEST(Exhibit, ASectionMayGoAnywhere) {
   EXPECT_EQ(exhibit.way_name, "60°");
   const Profile force = force_along(grating, exhibit, 0, 101);
   for (std::size_t i = 0; i < 101; ++i) {
-    const double x = 0.003 + std::cos(angle) * force.at[i];
+    // Places on the axis count from the foot of the patch's centre.
+    const double foot = 0.003 * std::cos(angle) + 0.001 * std::sin(angle);
+    const double x = 0.003 + std::cos(angle) * (force.at[i] - foot);
     EXPECT_NEAR(force.values[i], -2 * std::cos(2 * pi * x / 0.004) * std::cos(angle), 1e-4);
   }
   const Exhibit far = exhibit_of(grating, nullptr, {.along = {}, .at = glm::dvec2(0.03, 0), .name = {}});
   EXPECT_EQ(far.centre, glm::dvec2(0.03, 0)) << "the picture is around the place";
   EXPECT_EQ(far.way_name, "x");
+}
+
+/// A wall of 600 N/m at x = 20 mm is there on the axis of a section through any place, and no part of the section is
+/// outside of the patch.
+TEST(Exhibit, PlacesOnASectionAreThoseOnThePatch) {
+  const Bank wall(standard::material("material m { physical { force = firm(600 N/m, face: 20 mm) } }", "m"));
+  for (const glm::dvec2 place : {glm::dvec2(0.03, 0), glm::dvec2(-0.05, 0.02), glm::dvec2(0.07, -0.03)}) {
+    const Exhibit exhibit = exhibit_of(wall, nullptr, {.along = 0, .at = place, .name = "x"});
+    const Profile force = force_along(wall, exhibit, 0, 321);
+    EXPECT_NEAR(force.at.front(), -0.08, 1e-6);
+    EXPECT_NEAR(force.at.back(), 0.08, 1e-6);
+    for (std::size_t i = 0; i < force.at.size(); ++i) {
+      const double expected = force.at[i] > 0.02 && force.at[i] < 0.036 ? -600 * (force.at[i] - 0.02) : 0;
+      if (force.at[i] >= 0.036) continue;  // where the device limits it
+      EXPECT_NEAR(force.values[i], expected, 0.01) << force.at[i];
+    }
+  }
+  // Along y the wall's push of 6 N is the same everywhere, and the section has the patch's height.
+  const Exhibit along_y = exhibit_of(wall, nullptr, {.along = pi / 2, .at = glm::dvec2(0.03, 0.05), .name = "y"});
+  const SectionRange range = section_range(along_y);
+  EXPECT_NEAR(range.from, -0.08, 1e-6);
+  EXPECT_NEAR(range.to, 0.08, 1e-6);
+  const Exhibit oblique = exhibit_of(wall, nullptr, {.along = pi / 4, .at = glm::dvec2(0.07, 0), .name = "45°"});
+  for (const double end : {section_range(oblique).from, section_range(oblique).to}) {
+    EXPECT_LE(std::abs(on_section(oblique, end).x), 0.08 + 1e-9);
+    EXPECT_LE(std::abs(on_section(oblique, end).y), 0.08 + 1e-9);
+  }
+}
+
+/// A wall that only damps, and one that does both, are shown moving where they are and not in front of them.
+TEST(Exhibit, MotionIsShownWhereItMatters) {
+  for (const char* force : {"crisp(5 N s/m)", "firm(600 N/m, face: 20 mm) + crisp(5 N s/m, face: 20 mm)"}) {
+    const Bank bank(standard::material(std::string("material m { physical { force = ") + force + " } }", "m"));
+    const Exhibit exhibit = exhibit_of(bank);
+    ASSERT_TRUE(exhibit.resists_motion) << force;
+    const Profile against = force_against_speed(bank, exhibit, 11);
+    EXPECT_GT(std::abs(*std::ranges::max_element(against.values, {}, [](double value) { return std::abs(value); })), 0.5)
+        << force;
+  }
+  const Bank oil = spring_and_oil(0, 3);
+  EXPECT_EQ(exhibit_of(oil).moving_at, glm::dvec2(0)) << "alike everywhere";
+}
+
+/// The picture has the level of a percept that nobody asked for, as `describe` reads it.
+TEST(Preview, HardnessIsReadAlsoBehindALimit) {
+  const Bank bank(standard::material("material m { physical { force = firm(600 N/m, face: 20 mm) limit 8 N } }", "m"));
+  const PreviewText text = preview_text(bank, common_modules()->declarations);
+  EXPECT_EQ(text.figures.at(0).word, "hardness");
+  EXPECT_EQ(text.evidence.find("physics only"), std::string::npos) << text.evidence;
 }
 
 /// Ribs of 1 N and, 25 mm to the right, a wall: the picture shows both.
@@ -223,7 +275,7 @@ TEST(Preview, TheMaximumIsAlwaysAmongTheFigures) {
   const PreviewText text = preview_text(bank, common_modules()->declarations);
   ASSERT_EQ(text.figures.size(), 6u);
   EXPECT_EQ(std::ranges::count(text.figures, "maximum force", &PreviewText::Figure::word), 1);
-  EXPECT_EQ(text.figures.back().value, "4 more");
+  EXPECT_EQ(text.figures.back().value, "6 more") << "also the spring that is read, and its stiffness";
 }
 
 TEST(Axis, TicksAreRoundNumbers) {

@@ -206,3 +206,17 @@ def test_the_package_finds_the_library_of_its_prefix(tmp_path) -> None:
     for each in pathlib.Path(library).parent.glob("libwale-runtime.so.1"):
         (tmp_path / "lib" / each.name).symlink_to(each)
     assert told().stdout.strip() == wale.__version__
+
+
+@pytest.mark.parametrize("odd", ["a\nb", "\x1b[31mred", "\u202eyordroc", "x\r\ny", "a\u2028b", "\x9b1m"])
+def test_what_a_person_reads_is_one_line_that_a_terminal_shows(library: wale.Library, odd: str) -> None:
+    calls = [wale.Recording, wale.load_workspace, wale.profile, wale.open_device, library.open, library.open_workspace,
+             library.find, library.profile, library.open_device, lambda name: library.level(name, 0.5),
+             lambda name: library.level("roughness", name), lambda name: library.find("corduroy", device=name),
+             lambda name: library.compile("wale 1\n", name=name), lambda name: library.compile(f"wale 1\nmaterial {name} {{\n}}\n"),
+             lambda name: library.find("corduroy", material=name), lambda name: wale.Library([name])]
+    for call in calls:
+        with pytest.raises(wale.Error) as raised:
+            call(odd)
+        words = str(raised.value)
+        assert not any(code < " " or "\x7f" <= code < "\xa0" or code in "\u2028\u2029\u202e" for code in words), repr(words)

@@ -4,6 +4,7 @@ import math
 import signal
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -379,3 +380,44 @@ def test_profiles_beyond_any_device_are_refused() -> None:
     profile = wale.profile("sandpaper")
     for wrong in [{"velocity_window": 1e9}, {"delay_x": 1e9}, {"name": ""}]:
         assert code_of(lambda: wale.Stage(replace(profile, **wrong))) == wale.Code.malformed_value
+
+
+def test_a_device_that_a_text_declares(library: wale.Library) -> None:
+    text = (Path(__file__).parents[2] / "examples/custom_device/main.cpp").read_text().split('R"(')[1].split(')"')[0]
+    syrup = library.compile(text, device="rail_stick")
+    profile = syrup.profile
+    assert (profile.name, profile.force, profile.rate, profile.mass) == ("rail_stick", 4, 1000, 0.1)
+    stage = wale.Stage(profile)
+    stage.add(syrup)
+    with wale.Loop(stage) as loop:
+        for count in range(200):
+            force = loop.step((count, 0))
+    assert -4 <= force[0] < -0.01  # syrup resists
+    assert library.find("corduroy").profile == wale.profile("sandpaper")
+
+
+def test_ticks_say_which_patch_they_were_on(device: wale.Device, library: wale.Library, tmp_path) -> None:
+    file = tmp_path / "run.wrec"
+    with wale.Stage(device, record=file) as stage:
+        left = stage.add(library.find("corduroy"), at=(-0.02, 0), size=(0.02, 0.04))
+        right = stage.add(library.find("oil"), at=(0.02, 0), size=(0.02, 0.04))
+        ticks = stage.run(3, virtual_time=True).ticks
+        by_id = {left.id: left.number, right.id: right.number, 0: 0xFFFFFFFF}
+    assert set(ticks["patch"]) == set(by_id)
+    assert ((ticks["patch"] != 0) == (ticks["inside"] != 0)).all() and len(set(by_id.values())) == 3
+    assert (ticks["position"][ticks["patch"] == left.id][:, 0] < 0).all() if left.exists else True
+    assert [by_id[each] for each in ticks["patch"]] == list(wale.Recording(file).ticks["patch"])
+
+
+def test_numbers_that_no_struct_holds_are_named(stage: wale.Stage, corduroy: wale.Program) -> None:
+    patch = stage.add(corduroy)
+    with wale.Stage(wale.profile("sandpaper")) as other, wale.Loop(other) as loop:
+        for name, wrong in [("contact", {"contact": 2**40}), ("button", {"button": 2**40}), ("button", {"button": -2**40})]:
+            with pytest.raises(ValueError, match=f"^{name}: "):
+                loop.step((0, 0), **wrong)
+        for periods in [-2**70, 2**70, -1, 0]:
+            loop.step((0, 0), periods=periods)
+    for name, wrong in [("enabled", lambda: patch.enable(2**40)), ("parameter", lambda: patch.set("\ud800", 1)),
+                        ("name", lambda: wale.profile("\ud800")), ("spelling", lambda: wale.open_device("\ud800"))]:
+        with pytest.raises(ValueError, match=f"^{name}: "):
+            wrong()

@@ -103,6 +103,43 @@ TEST(Felt, SwingsBelowHalfTheAmplitudeDoNotCount) {
   EXPECT_EQ(measure(one_second(rubbing), options(0)).crossings, 79) << "without a prediction, half of the P99 counts";
 }
 
+// Ridges with a steep and a gentle flank push with 2 N to one side and with less to the other, down to almost nothing,
+// and a hand that crosses 40 of them feels both flanks of each.
+TEST(Felt, FlanksNeedNotBeAlike) {
+  for (const double gentle : {1.0, 0.5, 0.2, 0.02}) {
+    const Felt felt = measure(one_second([&](double t) {
+                                TickRecord tick = rubbing(t);
+                                if (tick.force.x < 0) tick.force.x *= static_cast<float>(gentle);
+                                return tick;
+                              }),
+                              options());
+    // Where one side is hardly anything, the rest at which the hand begins counts as on it.
+    EXPECT_NEAR(felt.crossings, 79, 1) << gentle;
+  }
+}
+
+TEST(Felt, AWallThatIsPressedIsNotCrossed) {
+  const Felt felt = measure(one_second([](double t) {
+                              const double a = 2 * pi * 5 * t;
+                              return TickRecord{.position = {0.01 * std::sin(a), 0},
+                                                .velocity = {0.01 * 2 * pi * 5 * std::cos(a), 0},
+                                                .force = {-2 * std::max(0.0, std::sin(a)), 0}};
+                            }),
+                            options());
+  EXPECT_LE(felt.crossings, 1);  // of five: when the hand goes in first
+}
+
+// A relief may push across the hand's way.
+TEST(Felt, CrossingsNeedNoForceAlongTheWay) {
+  const Felt felt = measure(one_second([](double t) {
+                              TickRecord tick = rubbing(t);
+                              tick.force = {0, tick.force.x};
+                              return tick;
+                            }),
+                            options());
+  EXPECT_EQ(felt.crossings, 79);
+}
+
 TEST(Felt, CrossingsAreCountedAlongTheAxisWithMoreForce) {
   const Felt felt = measure(one_second([](double t) {
                               TickRecord tick = rubbing(t);
@@ -194,6 +231,7 @@ TEST(LevelsBack, AreRefusedWithTheReason) {
 
   PatchProgram program = corduroy(1.934f).description();
   program.percepts[0].alone = false;
+  program.percepts[0].basis.summand = true;
   const Bank mixed(*Program::load(program));
   felt.crossings = 1000;
   EXPECT_EQ(levels_back(mixed, felt)[0].back.error().sentence,

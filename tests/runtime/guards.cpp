@@ -57,11 +57,13 @@ TEST(Guards, EachAxisStaysWithinTheDevicesPeak) {
 
 TEST(Guards, TheForceStaysWithinTheUsersLimit) {
   Guards guards(sandpaper(), 3);
-  for (int tick = 0; tick < 200; ++tick) at(guards, {1.8f, 2.4f});
+  for (int tick = 0; tick < 200; ++tick) at(guards, {1.79f, 2.39f});
   EXPECT_EQ(guards.counts().user_limit, 0);
   const Force held = at(guards, {6, -8});
-  EXPECT_NEAR(held.x, 1.8f, 1e-6f);
-  EXPECT_NEAR(held.y, -2.4f, 1e-6f);
+  const auto step_of_device = static_cast<float>(sandpaper().force_step());
+  EXPECT_NEAR(held.x, 1.8f, step_of_device);  // toward zero, so that the device's rounding exceeds nothing
+  EXPECT_NEAR(held.y, -2.4f, step_of_device);
+  EXPECT_LE(glm::length(held), 3);
   EXPECT_EQ(guards.counts().user_limit, 1);
 }
 

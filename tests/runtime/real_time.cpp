@@ -13,6 +13,7 @@
 
 #include "runtime/record/record_writer.hpp"
 #include "runtime/stage/player.hpp"
+#include "tests/runtime/failing_memory.hpp"
 #include "tests/runtime/figures.hpp"
 #include "tests/runtime/placed.hpp"
 #include "tests/runtime/programs.hpp"
@@ -34,6 +35,7 @@ long deeds() { return allocations + locks + throws; }
 #if WALE_SANITIZED
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
+  if (!wale::failing_memory::take_one()) throw std::bad_alloc();
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
@@ -51,6 +53,7 @@ void __libc_free(void*);
 
 void* malloc(std::size_t size) {
   ++allocations;
+  if (!wale::failing_memory::take_one()) return nullptr;
   return __libc_malloc(size);
 }
 void* calloc(std::size_t count, std::size_t size) {

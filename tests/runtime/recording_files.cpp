@@ -262,7 +262,7 @@ TEST(RecordingFile, OtherFilesAreRefusedWithAReason) {
   header.version = version + 1;
   header.check = check_of(header);
   std::memcpy(newer.data(), &header, sizeof header);
-  EXPECT_EQ(refused(Recording::read(newer, "x")), "its format is 5, but this Wale reads only up to 4; update Wale");
+  EXPECT_EQ(refused(Recording::read(newer, "x")), "its format is 6, but this Wale reads only up to 5; update Wale");
   const TemporaryFolder folder;
   const auto missing = Recording::open(folder / "none.wrec");
   EXPECT_EQ(missing.error().sentence, "the file cannot be read: no such file");

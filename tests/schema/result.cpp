@@ -56,5 +56,24 @@ TEST(Codes, HaveNamesAndTitles) {
   EXPECT_FALSE(code_title(Code::other_device).empty());
 }
 
+TEST(Codes, OfNumbersThatNobodyKnowsHaveNoTitle) {
+  for (const unsigned number : {999u, 10000u, 4000000000u}) {
+    EXPECT_EQ(code_name(Code(number)), "W" + std::string(number < 1000 ? "0" : "") + std::to_string(number));
+    EXPECT_EQ(code_title(Code(number)), "");
+    EXPECT_EQ(severity_of(Code(number)), Severity::error);
+  }
+}
+
+TEST(Errors, AreOneLineInWordsThatATerminalShows) {
+  const std::string obeyed = "a\nb\x1b[31m\u202ec\xff\r";
+  Error error{.code = Code::unreadable_file, .sentence = "s " + obeyed, .mend = obeyed, .place = {.name = obeyed, .number = 3}};
+  error.led_to = {{.name = obeyed, .text = obeyed, .source = obeyed}};
+  const std::string shown = "a\\u000ab\\u001b[31m\\u202ec\uFFFD\\u000d";
+  std::string in_line = shown;  // the line breaks of sentences and mends, which this project writes, become blanks
+  in_line.replace(in_line.find("\\u000a"), 6, " ");
+  EXPECT_EQ(in_words(error), shown + ":3: s " + in_line + "; " + in_line);
+  EXPECT_EQ(explained(error), in_words(error) + "\n  " + shown + "  " + shown + "  (" + shown + ")\n");
+}
+
 }  // namespace
 }  // namespace wale::result_test

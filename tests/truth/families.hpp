@@ -19,10 +19,13 @@ std::vector<Family> aperiodic_families();
 std::vector<Family> trend_families();
 std::vector<Family> motion_families();
 std::vector<Family> time_families();
+std::vector<Family> swing_families();
+std::vector<Family> way_families();
 std::vector<Family> memory_families();
 std::vector<Family> mixture_families();
 std::vector<Family> axis_families();
 std::vector<Family> obstacle_families();
+std::vector<Family> place_families();
 
 /// All of them.
 std::vector<Family> families();

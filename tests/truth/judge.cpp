@@ -114,6 +114,14 @@ const std::array<CueRule, cue_count>& cue_rules() {
       {Cue::axis, "axis", "degrees", 180 / std::numbers::pi, 2 * std::numbers::pi / 180, 0},
       {Cue::wall_damping, "damping", "N s/m", 1, 0.03, 0.05},
       {Cue::face, "face", "mm", 1e3, 0.02, 0.3e-3},
+      {Cue::wall_jump, "jump", "N", 1, 0.03, 0.01},
+      {Cue::wall_push, "wall push", "N", 1, 0.03, 0.01},
+      {Cue::other_vibration, "other vibration", "N", 1, 0.03, 0.01},
+      {Cue::other_vibration_rate, "other rate", "Hz", 1, 0.02, 0},
+      {Cue::other_sway, "other sway", "N", 1, 0.03, 0.01},
+      {Cue::other_sway_rate, "other sway rate", "Hz", 1, 0.02, 0},
+      {Cue::one_way_mass, "mass one way", "kg", 1, 0.03, 1e-3},
+      {Cue::uneven_mass, "mass in a part", "kg", 1, 0.03, 1e-3},
   }};
   return rules;
 }

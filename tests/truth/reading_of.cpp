@@ -39,6 +39,11 @@ constexpr std::pair<Cue, CueKind> words[] = {
     {Cue::friction_across, CueKind::friction_across},
     {Cue::mass_across, CueKind::mass_across},
     {Cue::wall_damping, CueKind::wall_damping},
+    {Cue::other_vibration, CueKind::other_vibration},
+    {Cue::other_vibration_rate, CueKind::other_vibration_rate},
+    {Cue::other_sway, CueKind::other_sway},
+    {Cue::other_sway_rate, CueKind::other_sway_rate},
+    {Cue::uneven_mass, CueKind::uneven_mass},
 };
 
 }  // namespace
@@ -54,7 +59,13 @@ Reading reading_of(const Program& program) {
   for (const CueKind kind :
        {CueKind::stiffness_axis, CueKind::viscosity_axis, CueKind::friction_axis, CueKind::mass_axis})
     if (cues[kind]) reading[Cue::axis] = cues[kind];
-  if (found.wall) reading[Cue::face] = glm::dot(found.wall->place, found.wall->inward);
+  if (cues[CueKind::one_way_mass_x] || cues[CueKind::one_way_mass_y])
+    reading[Cue::one_way_mass] =
+        std::hypot(cues[CueKind::one_way_mass_x].value_or(0), cues[CueKind::one_way_mass_y].value_or(0));
+  if (found.wall) {
+    reading[Cue::face] = glm::dot(found.wall->place, found.wall->inward);
+    reading[Cue::wall_jump] = found.wall->preload, reading[Cue::wall_push] = found.wall_push;
+  }
   const auto tell_wall = [&](const WallFace& wall) {
     if (wall.radius > 0)
       reading.walls.push_back({wall.stiffness, wall.radius, 0, wall.fills ? -1 : 1, wall.centre.x, wall.centre.y});
@@ -92,6 +103,11 @@ std::array<std::optional<double>, cue_count> differences_of(const Program& a, co
         difference = std::max(difference.value_or(0), std::abs(*each.noticeable));
       }
   return differences;
+}
+
+bool told_apart(const Program& a, const Program& b) {
+  const Cues first = cues_of(Bank(a), declarations()), second = cues_of(Bank(b), declarations());
+  return Comparer(declarations(), first.device).compare(first, second).verdict == wale::Verdict::apart;
 }
 
 std::optional<double> difference_of(Cue cue, double a, double b) {

@@ -23,6 +23,9 @@ ShapeReading shape_of(const Program& program);
 /// that neither has or that has no threshold.
 std::array<std::optional<double>, cue_count> differences_of(const Program& a, const Program& b);
 
+/// Whether `compare` says that people tell two programs apart.
+bool told_apart(const Program& a, const Program& b);
+
 /// How far apart two sizes of a cue are by the same thresholds, if the reading is right; nothing without a threshold.
 std::optional<double> difference_of(Cue cue, double a, double b);
 

@@ -53,6 +53,8 @@ Composition beats(Chance& chance) {
   made.allow(2e-4 * size);  // each of the two sines is rounded by itself
   made.truth[Cue::vibration] = some;
   made.truth[Cue::vibration_rate] = open;
+  made.truth[Cue::other_vibration] = valued(size);
+  made.truth[Cue::other_vibration_rate] = open;  // either
   return made;
 }
 

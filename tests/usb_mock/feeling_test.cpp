@@ -434,6 +434,44 @@ TEST_F(Feeling, IdentifyFindsTheAxesAndLeavesNoForce) {
   EXPECT_EQ(weak.out, "");
 }
 
+/// A person holds a gauge that shows 0.9 (c - 0.5 N) for a command of c; then 2 N are commanded by what gives 2 N.
+TEST_F(Feeling, ACalibratedDeviceIsCommandedByWhatGivesTheForce) {
+  const auto stick = mock_.plug(PidModel(openffboard()), 1);
+  found(1);
+  std::string typed;
+  const std::vector<double> shares{0, 0.02, 0.04, 0.07, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
+  const auto type = [&](double share, int round) {
+    const double command = 20 * share, newton = 0.9 * std::max(0.0, command - 0.5) + (round == 1 ? 0.002 : -0.002);
+    typed += "\n" + std::to_string(newton) + " N\n";
+  };
+  for (const double share : shares) type(share, 1);
+  for (auto share = shares.rbegin(); share != shares.rend(); ++share) type(*share, 2);
+  typed += "skip\nskip\nskip\nn\nyes\n";  // the other ways, the shaking; and it is written
+  const TemporaryFolder home;
+  const std::string input = home.write("typed", typed), file = home / "wale/devices.wale";
+  const Outcome measured = run_wale("calibrate-device --device 1-1 --hold 0.03 <" + input, home / "");
+  ASSERT_EQ(measured.status, 0) << measured.err;
+  EXPECT_EQ(last(log_of(stick), leave_of_openffboard.size()), leave_of_openffboard);
+  const std::string declaration = text_of(file);
+  EXPECT_TRUE(contains(declaration, "export device my_openffboard {\n  usb \"1209:ffb0\"\n")) << declaration;
+  EXPECT_TRUE(contains(declaration, "\n  gain right 0.") || contains(declaration, "\n  gain right 0.9,"))
+      << declaration;
+  EXPECT_TRUE(contains(declaration, "\n  dead_band right 0.")) << declaration;
+  // To the left nothing was measured: there a command is the force.
+  for (const auto& [force, counts] :
+       {std::pair("2 N", (2 / 0.9 + 0.5) / 20 * 32767), std::pair("-2 N", -2.0 / 20 * 32767)}) {
+    const std::string material = home.write(
+        "push.wale", std::string("wale 1\nmaterial push { physical { force = vector(") + force + ", 0 N) } }\n");
+    stick->with_model([](PidModel& model) { model.log.clear(); });
+    const Outcome felt = run_wale("feel " + material + " --seconds 0.6", home / "");
+    EXPECT_TRUE(contains(felt.err, "as my_openffboard")) << felt.err;
+    double most = 0;
+    for (const int each : pushes_in(log_of(stick), 1))
+      if (std::abs(each) > std::abs(most)) most = each;
+    EXPECT_NEAR(most, counts, 60) << force;
+  }
+}
+
 TEST_F(Feeling, IdentifyIsEndedAtOnceByCtrlC) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   found(1);

@@ -30,11 +30,11 @@ inline std::string text_of(const std::string& path) {
 /// `wale` with these words, all signals at their defaults, killed in the end if it has not ended.
 class Running {
  public:
-  /// `config_home` is the folder of the person's own settings.
+  /// `config_home` is the folder of the person's own settings. Words may end with `<FILE`, for standard input.
   explicit Running(const std::string& words, const std::string& config_home = "/nonexistent") {
     std::string shell = "/bin/sh", option = "-c";
-    std::string line = "ulimit -c 0; XDG_CONFIG_HOME='" + config_home + "' exec " + WALE_BINARY + " " + words +
-                       " </dev/null >" + out_ + " 2>" + err_;
+    std::string line = "ulimit -c 0; XDG_CONFIG_HOME='" + config_home + "' exec " + WALE_BINARY + " </dev/null " +
+                       words + " >" + out_ + " 2>" + err_;
     char* all[] = {shell.data(), option.data(), line.data(), nullptr};
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);

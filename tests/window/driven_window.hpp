@@ -78,7 +78,8 @@ class DrivenWindow : public ::testing::Test {
   /// Drops a material of the palette onto a place, as the mouse does.
   void drop(const char* material, double x_mm, double y_mm) {
     auto* palette = window->findChild<QListView*>("palette");
-    const auto found = palette->model()->match(palette->model()->index(0, 0), Qt::UserRole, material, 1, Qt::MatchExactly);
+    const auto found =
+        palette->model()->match(palette->model()->index(0, 0), Qt::UserRole, material, 1, Qt::MatchExactly);
     ASSERT_FALSE(found.isEmpty()) << material;
     const std::unique_ptr<QMimeData> mime(palette->model()->mimeData({found.front()}));
     QDragEnterEvent enter(pixels(x_mm, y_mm), Qt::CopyAction, mime.get(), Qt::LeftButton, Qt::NoModifier);

@@ -4,11 +4,13 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QImage>
+#include <QPrinter>
 #include <QPushButton>
 #include <QToolButton>
 #include <cmath>
 #include <wale/patch_program.hpp>
 #include <set>
+#include <sstream>
 #include <wale/recording.hpp>
 
 #include "driven_window.hpp"
@@ -64,7 +66,9 @@ class Files : public DrivenWindow {
     }
     QTest::mouseClick(question->findChild<QPushButton*>("answer"), Qt::LeftButton);
   }
-  void wait_for_work() { ASSERT_TRUE(wait_until([&] { return !window->findChild<LongWork*>("long_work")->is_busy(); })); }
+  void wait_for_work() {
+    ASSERT_TRUE(wait_until([&] { return !window->findChild<LongWork*>("long_work")->is_busy(); }));
+  }
   std::size_t files_in_folder() { return QDir(folder.path()).entryList(QDir::Files).size(); }
 };
 
@@ -101,7 +105,8 @@ TEST_F(Files, AnArrayComesInWithItsFiguresAndLeavesAsTheSameBytes) {
 
 TEST_F(Files, MoviesAndShufflesGoBothWays) {
   open_table();
-  exchange().import_files({QString::fromStdString(golden + "demo.movie"), QString::fromStdString(golden + "demo.shuffle")});
+  exchange().import_files(
+      {QString::fromStdString(golden + "demo.movie"), QString::fromStdString(golden + "demo.shuffle")});
   EXPECT_TRUE(announced().contains("demo_shuffle")) << announced().toStdString();
   EXPECT_NE(window->document().text().find("movie demo { frames warm_up, grids, warm_up }"), std::string::npos);
   exchange().export_movie(path("out.movie"), "demo");
@@ -121,8 +126,11 @@ TEST_F(Files, MoviesAndShufflesGoBothWays) {
 TEST_F(Files, MalformedFilesAreSaidAndChangeNothing) {
   open_table();
   const std::size_t before = files_in_folder();
-  for (const auto& [name, bytes] : std::vector<std::pair<const char*, std::string>>{
-           {"a.depth", "abc"}, {"b.shuffle", "Movie: m\n"}, {"c", std::string("\x01\x20\x03\x00\x01\xff", 6)}, {"d.movie", "\n\n"}}) {
+  for (const auto& [name, bytes] :
+       std::vector<std::pair<const char*, std::string>>{{"a.depth", "abc"},
+                                                        {"b.shuffle", "Movie: m\n"},
+                                                        {"c", std::string("\x01\x20\x03\x00\x01\xff", 6)},
+                                                        {"d.movie", "\n\n"}}) {
     exchange().import_files({write(name, bytes)});
     EXPECT_TRUE(announced().contains(name)) << announced().toStdString();
     EXPECT_FALSE(window->findChild<Question*>("question")->isVisible()) << name;
@@ -207,9 +215,43 @@ TEST_F(Files, ProgramsPicturesAndPagesAreWritten) {
   EXPECT_EQ(files_in_folder(), before);
 }
 
+TEST_F(Files, APrinterGetsAPageOfA4OrNothing) {
+  open_table();
+  WorkspacePage page{.name = "table", .diameter = 0.15, .patches = {}};
+  for (const PlacedRef& each : contents().placed) {
+    const wale::Program* program = window->feeling().program(each->id);
+    ASSERT_TRUE(program);
+    page.patches.push_back({each, *each->patch.size, *program, program->default_parameters()});
+  }
+  const auto set_up = [&](QPrinter& printer, const char* name) {
+    printer.setOutputFormat(QPrinter::PdfFormat);
+    printer.setOutputFileName(path(name));
+  };
+  QPrinter printer;
+  set_up(printer, "printed.pdf");
+  EXPECT_TRUE(print_pages(printer, page, [](double) { return true; }));
+  const std::string printed = read(path("printed.pdf"));
+  EXPECT_TRUE(printed.starts_with("%PDF"));
+  double left = -1, bottom = -1, right = 0, top = 0;  // in 1/72 inch
+  const std::size_t box = printed.find("/MediaBox [");
+  ASSERT_NE(box, std::string::npos);
+  std::istringstream(printed.substr(box + 11)) >> left >> bottom >> right >> top;
+  EXPECT_EQ(left, 0);
+  EXPECT_EQ(bottom, 0);
+  EXPECT_NEAR(right, 210 / 25.4 * 72, 1);
+  EXPECT_NEAR(top, 297 / 25.4 * 72, 1);
+  EXPECT_NE(printed.find("/Count 1"), std::string::npos);
+  QPrinter cancelled;
+  set_up(cancelled, "cancelled.pdf");
+  int calls = 0;
+  EXPECT_FALSE(print_pages(cancelled, page, [&](double) { return ++calls < 2; }));
+  EXPECT_FALSE(QFile::exists(path("cancelled.pdf"))) << "half a page is printed";
+}
+
 TEST_F(Files, LongWorkIsCancelled) {
   std::string text = "wale 1\n\nworkspace many {\n";
-  for (int i = 0; i < 400; ++i) text += "  patch p" + std::to_string(i) + " = denim { at 0 mm, 0 mm; size 60 mm, 60 mm }\n";
+  for (int i = 0; i < 400; ++i)
+    text += "  patch p" + std::to_string(i) + " = denim { at 0 mm, 0 mm; size 60 mm, 60 mm }\n";
   ASSERT_TRUE(window->open(write("many.wale", text + "}\n")));
   wait_for_programs();
   exchange().export_pdf(path("many.pdf"));
@@ -258,13 +300,39 @@ TEST_F(Files, APictureDroppedTwiceIsDeclaredUnderTwoNames) {
   QFile::copy(QString(WALE_SOURCE_DIR) + "/library/stone/slate.png", path("slate.png"));
   open_table();
   for (int i = 0; i < 2; ++i) {
-    emit canvas().picture_dropped(path("slate.png"), {0.0, -0.03 * i});
+    emit canvas().others_dropped({path("slate.png")}, {0.0, -0.03 * i});
     answer({0.2});
   }
   const std::string text = window->document().text();
   EXPECT_NE(text.find("material slate {"), std::string::npos) << text;
   EXPECT_NE(text.find("material slate_2 {"), std::string::npos) << text;
   EXPECT_FALSE(language().check(text, {.name = path("table.wale").toStdString()}).has_errors());
+}
+
+TEST_F(Files, SeveralFilesAreDroppedAtOnce) {
+  for (const char* name : {"slate.png", "marble.png"})
+    QFile::copy(QString(WALE_SOURCE_DIR) + "/library/stone/slate.png", path(name));
+  open_table();
+  const auto drop_files = [&](const QStringList& names) {
+    QMimeData mime;
+    QList<QUrl> urls;
+    for (const QString& each : names) urls << QUrl::fromLocalFile(each);
+    mime.setUrls(urls);
+    QDragEnterEvent enter(pixels(0, 0), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&canvas(), &enter);
+    QDropEvent event(QPointF(pixels(0, 0)), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&canvas(), &event);
+  };
+  drop_files({path("slate.png"), path("marble.png")});
+  answer({0.2});
+  EXPECT_EQ(placed("slate_patch").patch.made_of, "slate");
+  EXPECT_EQ(placed("marble_patch").patch.made_of, "marble");
+  EXPECT_EQ(window->document().chosen().size(), 2u);
+  trigger("undo");
+  EXPECT_EQ(window->document().text(), table);  // one step
+  // A file of the thesis is no picture.
+  drop_files({QString::fromStdString(golden + "demo.movie")});
+  EXPECT_NE(window->document().text().find("movie demo"), std::string::npos) << announced().toStdString();
 }
 
 TEST_F(Files, TheMiddleIsWrittenWhereItWasWritten) {

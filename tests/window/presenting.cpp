@@ -11,97 +11,10 @@
 #include <set>
 #include <wale/library.hpp>
 
-#include "driven_window.hpp"
+#include "presented_window.hpp"
 
 namespace sandpaper {
 namespace {
-
-constexpr const char* surfaces = R"(wale 1
-
-material ridges {
-  physical {
-    param size = 1 N in 0 N .. 3 N  "how hard"
-    force = vector(size * sin(2 * pi * x / 4 mm), 0 N)
-  }
-}
-
-workspace table {
-  patch oak_one   = ridges(size: 2 N) { at -50 mm, 40 mm; size 40 mm, 40 mm }
-  patch oak_two   = ridges(size: 0.5 N) { at 50 mm, 40 mm; size 40 mm, 40 mm }
-  patch oak_three = ridges(size: 2 N) { at -50 mm, -40 mm; size 40 mm, 40 mm }
-  patch oak_four  = ridges(size: 0.5 N) { at 50 mm, -40 mm; size 40 mm, 40 mm }
-}
-workspace second { patch only = ridges { at 0 mm, 0 mm; size 40 mm, 40 mm } }
-workspace third { patch only = ridges(size: 3 N) { at 10 mm, 0 mm; size 40 mm, 40 mm } }
-
-movie demo { frames table, second, third, second }
-
-keys sorting { of table; area 60 mm, 60 mm; labels random }
-keys by_name { of table; area 60 mm, 60 mm; labels names }
-)";
-
-class PresentedWindow : public DrivenWindow {
- protected:
-  void SetUp() override {
-    DrivenWindow::SetUp();
-    file = write("surfaces.wale", surfaces);
-    ASSERT_TRUE(window->open(file));
-    wait_for_programs();
-  }
-  /// By the panel, as an experimenter does.
-  void begin_session(const char* participant = "S48", const char* seed = "1995") {
-    window->findChild<QLineEdit*>("participant_id")->setText(participant);
-    window->findChild<QLineEdit*>("seed")->setText(seed);
-    window->findChild<QPushButton*>("session_button")->click();
-  }
-  Session& session() { return window->presenting().session(); }
-  Sorting& sorting() { return window->presenting().sorting(); }
-  SortingTable& table() { return *window->findChild<QWidget*>("sorting")->findChild<SortingTable*>("table"); }
-  wale::SessionRecord log() {
-    auto record = wale::open_session_log(session().path().toStdString());
-    EXPECT_TRUE(record);
-    return record ? *record : wale::SessionRecord();
-  }
-  template <class Event>
-  static std::vector<Event> all_of(const wale::SessionRecord& record) {
-    std::vector<Event> all;
-    for (const wale::SessionEntry& each : record.entries)
-      if (const auto* event = std::get_if<Event>(&each.event)) all.push_back(*event);
-    return all;
-  }
-  void start_sorting() {
-    trigger("start_sorting");
-    ASSERT_TRUE(wait_until([&] { return sorting().runs(); })) << announced().toStdString();
-    QTest::qWait(30);  // for the table's place
-  }
-  /// Rubs over the touching area with the mouse, and gives the greatest force.
-  double felt_in_area() {
-    double most = 0;
-    for (int i = 0; i < 50; ++i) {
-      const double x = sorting().area_at().x + 0.02 * std::sin(0.5 * i);
-      QTest::mouseMove(&table(), table().to_pixels({x, sorting().area_at().y}).toPoint(), 5);
-      QTest::qWait(12);
-      const wale::Force force = window->feeling().now().force;
-      most = std::max<double>(most, std::hypot(force.x, force.y));
-    }
-    return most;
-  }
-  void click_key(std::size_t key) { QTest::mouseClick(&table(), Qt::LeftButton, {}, table().box_of(sorting().keys()[key]).center().toPoint()); }
-  void drag_key(std::size_t key, QPoint to) {
-    const QPoint from = table().box_of(sorting().keys()[key]).center().toPoint();
-    QTest::mousePress(&table(), Qt::LeftButton, {}, from);
-    for (int i = 1; i <= 4; ++i) QTest::mouseMove(&table(), from + (to - from) * i / 4, 5);
-    QTest::mouseRelease(&table(), Qt::LeftButton, {}, to);
-  }
-  std::size_t key_of(const std::string& patch) {
-    for (std::size_t i = 0; i < sorting().keys().size(); ++i)
-      if (sorting().keys()[i].name == patch) return i;
-    ADD_FAILURE() << patch;
-    return 0;
-  }
-
-  QString file;
-};
 
 TEST_F(PresentedWindow, ASortingSessionIsOnTheDiskAndInTheFile) {
   begin_session();
@@ -160,7 +73,8 @@ TEST_F(PresentedWindow, ASortingSessionIsOnTheDiskAndInTheFile) {
   // The answers alone tell the groups.
   std::map<std::string, std::string> pile_of;
   for (const wale::SessionEntry* each : read_back->standing_answers())
-    if (const auto& answer = std::get<wale::SessionAnswer>(each->event); answer.question == "pile") pile_of[answer.about] = answer.answer;
+    if (const auto& answer = std::get<wale::SessionAnswer>(each->event); answer.question == "pile")
+      pile_of[answer.about] = answer.answer;
   EXPECT_EQ(pile_of.at("oak_one"), pile_of.at("oak_three"));
   EXPECT_EQ(pile_of.at("oak_two"), pile_of.at("oak_four"));
   EXPECT_NE(pile_of.at("oak_one"), pile_of.at("oak_two"));
@@ -191,7 +105,8 @@ TEST_F(PresentedWindow, ASortingSessionIsOnTheDiskAndInTheFile) {
   ASSERT_EQ(saved.groups.size(), 2u);
   for (const auto& each : saved.groups) {
     const bool is_hard = each.patches.front() == "oak_one";
-    EXPECT_EQ(each.patches, is_hard ? (std::vector<std::string>{"oak_one", "oak_three"}) : (std::vector<std::string>{"oak_four", "oak_two"}));
+    EXPECT_EQ(each.patches, is_hard ? (std::vector<std::string>{"oak_one", "oak_three"})
+                                    : (std::vector<std::string>{"oak_four", "oak_two"}));
     EXPECT_EQ(each.says, is_hard ? "rough, \"like bark\"" : "");
   }
   trigger("undo");
@@ -202,7 +117,9 @@ TEST_F(PresentedWindow, KeysAreSortedByKeyboardAlone) {
   const std::string before = window->document().text();
   start_sorting();
   table().setFocus();
-  const auto press = [&](int key, Qt::KeyboardModifiers with = {}) { QTest::keyClick(&table(), static_cast<Qt::Key>(key), with); };
+  const auto press = [&](int key, Qt::KeyboardModifiers with = {}) {
+    QTest::keyClick(&table(), static_cast<Qt::Key>(key), with);
+  };
   press(Qt::Key_N);
   press(Qt::Key_Plus);  // the first key is pile 1
   press(Qt::Key_N);
@@ -349,7 +266,8 @@ TEST_F(PresentedWindow, TheSameSeedGivesTheSameOrders) {
     start_sorting();
     runs.push_back(all_of<wale::SessionOrder>(log()));
     ASSERT_EQ(runs.back().size(), 4u);
-    for (const wale::SessionItem& each : runs.back().back().items) EXPECT_TRUE(QString::fromStdString(each.label).toInt() >= 100);
+    for (const wale::SessionItem& each : runs.back().back().items)
+      EXPECT_TRUE(QString::fromStdString(each.label).toInt() >= 100);
   }
   EXPECT_EQ(runs[0], runs[1]);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NE(runs[0][i].items, runs[2][i].items) << runs[0][i].what;
@@ -369,7 +287,8 @@ TEST_F(PresentedWindow, NumbersAreNewInEachSessionAndLogged) {
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(logged.items[i].label, labels[i]);
     trigger("next_frame");
     trigger("previous_frame");
-    EXPECT_EQ(canvas().label_of(placed("oak_one")).toStdString(), labels[0]);  // it keeps its own while the session runs
+    EXPECT_EQ(canvas().label_of(placed("oak_one")).toStdString(),
+              labels[0]);  // it keeps its own while the session runs
     seen.push_back(labels);
     window->findChild<QPushButton*>("session_button")->click();
   }
@@ -385,7 +304,8 @@ TEST_F(PresentedWindow, NothingTellsMaterialsToAParticipant) {
     QString all;
     QAccessibleInterface* list = QAccessible::queryAccessibleInterface(&widget);
     for (int i = 0; i < list->childCount(); ++i)
-      for (const auto kind : {QAccessible::Name, QAccessible::Value, QAccessible::Description}) all += list->child(i)->text(kind) + "\n";
+      for (const auto kind : {QAccessible::Name, QAccessible::Value, QAccessible::Description})
+        all += list->child(i)->text(kind) + "\n";
     return all;
   };
   EXPECT_FALSE(told(participant->canvas()).contains("oak"));
@@ -412,7 +332,8 @@ TEST_F(PresentedWindow, NothingTellsMaterialsToAParticipant) {
   EXPECT_EQ(participant->currentWidget(), &participant->canvas());
   // What the window announces is not read out while a participant hears it.
   QStringList read_out;
-  QObject::connect(window->findChild<Announcement*>(), &Announcement::read_out, [&](const QString& words) { read_out << words; });
+  QObject::connect(window->findChild<Announcement*>(), &Announcement::read_out,
+                   [&](const QString& words) { read_out << words; });
   trigger("next_frame");
   EXPECT_TRUE(announced().contains("second"));
   EXPECT_TRUE(read_out.isEmpty()) << read_out.join("|").toStdString();
@@ -450,7 +371,8 @@ TEST_F(PresentedWindow, ADeviceIsRecentredAndTheMouseIsNot) {
   device.move_centre({100, -40});
   EXPECT_EQ(device.sample().counts, glm::ivec2(20, 10));
   own.counts = {std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
-  EXPECT_EQ(device.sample().counts, glm::ivec2(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));  // not around the corner
+  EXPECT_EQ(device.sample().counts,
+            glm::ivec2(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));  // not around the corner
 
   trigger("recentre");
   EXPECT_TRUE(announced().contains("mouse")) << announced().toStdString();
@@ -462,7 +384,8 @@ TEST_F(PresentedWindow, ADeviceIsRecentredAndTheMouseIsNot) {
   trigger("recentre");
   EXPECT_FALSE(window->feeling().is_on());  // all lies elsewhere under the hand now
   EXPECT_NEAR(window->feeling().centre().x, window->feeling().now().position.x, 0.005);
-  EXPECT_TRUE(std::ranges::any_of(all_of<wale::SessionNote>(log()), [](const auto& each) { return each.text.find("centre") != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::any_of(all_of<wale::SessionNote>(log()),
+                                  [](const auto& each) { return each.text.find("centre") != std::string::npos; }));
   trigger("centre_back");
   EXPECT_EQ(window->feeling().centre(), glm::dvec2(0));
 }

@@ -1,5 +1,7 @@
 // A session as a designer has one, through the real window.
 #include <QAccessible>
+#include <QDir>
+#include <QDockWidget>
 #include <QSlider>
 #include <QSpinBox>
 
@@ -74,21 +76,25 @@ TEST_F(DrivenWindow, ASliderChangesTheForceAtTheHandle) {
   wait_for_programs();
   trigger("feel");
   ASSERT_TRUE(window->feeling().is_on()) << announced().toStdString();
-  EXPECT_NEAR(rub(-40, 20, 15), 1.0, 0.1);  // of the sine's 1 N
+  // On a busy machine the hand jumps, and the passivity observer may add its damping to one look.
+  const auto pushes = [&](double newton) {
+    return wait_until([&] { return std::abs(rub(-40, 20, 15) - newton) < 0.1 * newton; });
+  };
+  EXPECT_TRUE(pushes(1.0));  // of the sine's 1 N
   ASSERT_TRUE(wait_until([&] { return canvas().touched() == placed("board").id; }));
   // The touched patch's sliders are shown after a quarter of a second.
   ASSERT_TRUE(wait_until([&] { return window->findChild<QDoubleSpinBox*>("number_size"); }));
   window->findChild<QDoubleSpinBox*>("number_size")->setValue(2.5);
   QTest::qWait(100);
-  EXPECT_NEAR(rub(-40, 20, 15), 2.5, 0.25);
+  EXPECT_TRUE(pushes(2.5));
   EXPECT_EQ(placed("board").patch.made_of, "ridges(size: 2.5 N)");
   window->findChild<QSlider*>("slider_size")->setValue(0);
   QTest::qWait(100);
-  EXPECT_LT(rub(-40, 20, 15, 1), 0.2);
+  EXPECT_TRUE(wait_until([&] { return rub(-40, 20, 15, 1) < 0.2; }));
   trigger("undo");
   EXPECT_EQ(placed("board").patch.made_of, "ridges");  // the moves of one slider are one step
   QTest::qWait(100);
-  EXPECT_NEAR(rub(-40, 20, 15), 1.0, 0.1);
+  EXPECT_TRUE(pushes(1.0));
 }
 
 TEST_F(DrivenWindow, TheSpaceBarTakesAllForceAway) {
@@ -168,12 +174,62 @@ TEST_F(DrivenWindow, MarksOfASliderAreSaved) {
   emit row->mark_wanted(false);
   window->findChild<QDoubleSpinBox*>("number_size")->setValue(1.5);
   emit row->mark_wanted(true);
+  // What it still felt like is written below the slider, by whom it felt so.
+  auto* says = window->findChild<QLineEdit*>("says_size");
+  ASSERT_TRUE(says && says->isVisible());
+  QTest::keyClicks(says, "fine \"comb\"");
+  QTest::keyClick(says, Qt::Key_Return);
   trigger("save");
-  EXPECT_NE(read(file).find("mark size, low 1 N, high 1.5 N"), std::string::npos) << read(file);
+  EXPECT_NE(read(file).find("mark size, low 1 N, high 1.5 N, \"fine \\\"comb\\\"\""), std::string::npos) << read(file);
   begin();
   ASSERT_TRUE(window->open(file));
+  wait_for_programs();
   ASSERT_EQ(placed("board").patch.marks.size(), 1u);
   EXPECT_NEAR(*placed("board").patch.marks.front().mark.high, 1.5, 1e-6);
+  window->document().choose({placed("board").id});
+  ASSERT_TRUE(wait_until([&] { return window->findChild<QLineEdit*>("says_size"); }));
+  EXPECT_EQ(window->findChild<QLineEdit*>("says_size")->text(), "fine \"comb\"");
+  emit window->findChild<SliderRow*>()->unmark_wanted();
+  EXPECT_FALSE(window->findChild<QLineEdit*>("says_size")->isVisible());
+}
+
+TEST_F(DrivenWindow, SlidersAreInTheOrderPerceptsParametersWeights) {
+  ASSERT_TRUE(window->open(
+      write("blend.wale", "wale 1\n\nworkspace w { patch p = 0.7 corduroy + 0.3 denim { at 0 mm, 0 mm } }\n")));
+  wait_for_programs();
+  window->document().choose({placed("p").id});
+  ASSERT_TRUE(wait_until([&] { return !window->findChildren<SliderRow*>().isEmpty(); }));
+  int rank = 0;
+  std::set<int> seen;
+  for (const SliderRow* row : window->findChildren<SliderRow*>()) {
+    const int own = row->is_percept() ? 0 : row->name() == "corduroy_weight" || row->name() == "denim_weight" ? 2 : 1;
+    EXPECT_GE(own, rank) << row->name();
+    seen.insert(rank = own);
+  }
+  EXPECT_TRUE(seen.contains(1) && seen.contains(2)) << testing::PrintToString(seen);
+}
+
+TEST_F(DrivenWindow, ThePreviewOfTheShownPatchHasItsSpectrum) {
+  ASSERT_TRUE(window->open(write("kitchen.wale", kitchen)));
+  wait_for_programs();
+  auto* preview = window->findChild<PreviewPanel*>();
+  window->document().choose({placed("board").id});
+  QTest::qWait(400);
+  EXPECT_TRUE(preview->pictures().empty());  // nobody sees it, and nobody draws it
+  window->findChild<QDockWidget*>("dock_preview")->raise();
+  ASSERT_TRUE(wait_until([&] { return !preview->pictures().empty(); }));
+  std::set<QString> names;
+  for (const PreviewPicture& each : preview->pictures()) {
+    EXPECT_FALSE(each.image.isNull()) << each.name.toStdString();
+    names.insert(each.name);
+  }
+  EXPECT_TRUE(names.contains("spectrum") && names.contains("force"));
+  const QImage first = preview->pictures().back().image;
+  window->findChild<QDoubleSpinBox*>("number_size")->setValue(2.5);  // it follows the sliders
+  ASSERT_TRUE(wait_until([&] { return preview->pictures().back().image != first; }));
+  const QImage second = preview->pictures().back().image;
+  window->document().choose({placed("cloth").id});
+  ASSERT_TRUE(wait_until([&] { return preview->pictures().back().image != second; }));
 }
 
 TEST_F(DrivenWindow, NumbersHideMaterialsFromAParticipantWhoListens) {
@@ -220,7 +276,8 @@ workspace odd {
   ASSERT_EQ(checked.layouts.size(), 1u);
   const wale::Layout& layout = checked.layouts.front();
   const std::string text = wale::layout_text(layout);
-  for (const char* each : {"// of a", "// behind a", "/// told of b", "// inside b", "patches from picture", "// at the end"})
+  for (const char* each :
+       {"// of a", "// behind a", "/// told of b", "// inside b", "patches from picture", "// at the end"})
     EXPECT_NE(text.find(each), std::string::npos) << each << "\n" << text;
   const std::string again = odd.substr(0, layout.begin) + text + odd.substr(layout.end);
   const auto twice = language().check(again);
@@ -246,6 +303,59 @@ TEST_F(DrivenWindow, AKilledProcessLosesNothing) {
   EXPECT_EQ(window->document().file(), QFileInfo(file).absoluteFilePath());
   EXPECT_TRUE(window->isWindowModified());
   EXPECT_FALSE(kept.exists("999999999.json"));
+}
+
+TEST_F(DrivenWindow, WhatIsTypedWithoutAPauseIsKeptToo) {
+  ASSERT_TRUE(window->open(write("kitchen.wale", kitchen)));
+  const QDir kept(qEnvironmentVariable("XDG_DATA_HOME") + "/wale/sandpaper");
+  text().moveCursor(QTextCursor::End);
+  // One key after the other, without the pause after which the text is checked.
+  for (int i = 0; i < 100 && kept.entryList({"*.json"}, QDir::Files).isEmpty(); ++i) {
+    QTest::keyClick(&text(), Qt::Key_X);
+    QTest::qWait(100);
+  }
+  ASSERT_EQ(kept.entryList({"*.json"}, QDir::Files).size(), 1);
+  EXPECT_NE(read(kept.filePath(kept.entryList({"*.json"}, QDir::Files).front())).find("xxx"), std::string::npos);
+}
+
+TEST_F(DrivenWindow, TwoWindowsOfOneProcessKeepTheirOwnWork) {
+  ASSERT_TRUE(window->open(write("kitchen.wale", kitchen)));
+  MainWindow other(library(), language());
+  other.show();
+  ASSERT_TRUE(other.open(write("other.wale", "wale 1\n\nworkspace w { patch p = oak { at 0 mm, 0 mm } }\n")));
+  for (MainWindow* each : {window.get(), &other})
+    each->document().change_placed("Move", {each->document().contents().placed.front()->id},
+                                   [](Placed& placed) { placed.patch.at.y = 0.01; });
+  const QDir kept(qEnvironmentVariable("XDG_DATA_HOME") + "/wale/sandpaper");
+  ASSERT_TRUE(wait_until([&] { return kept.entryList({"*.json"}, QDir::Files).size() == 2; }, 3000));
+  ASSERT_TRUE(window->document().save(window->document().file()));
+  EXPECT_EQ(kept.entryList({"*.json"}, QDir::Files).size(), 1);
+}
+
+TEST_F(DrivenWindow, ThumbnailsAreKeptFromOneRunToTheNext) {
+  const QDir kept(qEnvironmentVariable("XDG_CACHE_HOME") + "/wale/sandpaper");
+  for (const QString& each : kept.entryList(QDir::Files)) QFile::remove(kept.filePath(each));
+  begin();
+  auto* palette = window->findChild<QListView*>("palette");
+  const auto search = [&] { window->findChild<QLineEdit*>("search")->setText("corduroy"); };
+  search();
+  const auto look_at_all = [&] {
+    for (int row = 0; row < palette->model()->rowCount(); ++row)
+      palette->model()->index(row, 0).data(Qt::DecorationRole);
+  };
+  const int all = palette->model()->rowCount();
+  ASSERT_GT(all, 0);
+  EXPECT_TRUE(wait_until(
+      [&] {
+        look_at_all();
+        return kept.entryList({"*.png"}, QDir::Files).size() >= all;
+      },
+      60000));
+  const QImage first = palette->model()->index(0, 0).data(Qt::DecorationRole).value<QImage>();
+  begin();  // another window has it at once
+  palette = window->findChild<QListView*>("palette");
+  search();
+  EXPECT_EQ(palette->model()->index(0, 0).data(Qt::DecorationRole).value<QImage>(), first);
 }
 
 TEST_F(DrivenWindow, PatchesAreArranged) {
@@ -360,7 +470,8 @@ workspace w {
   window->document().choose({placed("mixed").id});
   ASSERT_TRUE(wait_until([&] { return !window->findChildren<SliderRow*>().empty(); }));
   SliderRow* row = window->findChildren<SliderRow*>().front();
-  const float wanted = 0.5f * (row->parameter().soft_low + row->parameter().soft_high) + 0.1f * (row->parameter().soft_high - row->parameter().soft_low);
+  const float wanted = 0.5f * (row->parameter().soft_low + row->parameter().soft_high) +
+                       0.1f * (row->parameter().soft_high - row->parameter().soft_low);
   emit row->moved(wanted, true);
   trigger("save");
   const std::string text = read(file);

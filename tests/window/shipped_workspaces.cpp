@@ -1,4 +1,5 @@
-// The workspaces that come with the window: the haptic desktop, the demonstrations of the thesis, a keypad and a kitchen.
+// The workspaces that come with the window: the haptic desktop, the demonstrations of the thesis, a keypad and a
+// kitchen.
 #include <filesystem>
 #include <wale/program.hpp>
 
@@ -72,9 +73,10 @@ TEST_P(ShippedWorkspace, OpensAndIsFeltFrameByFrame) {
 TEST(SurfaceImage, AHillIsBrightTowardsTheLight) {
   for (const int sign : {1, -1}) {
     const wale::LanguageService language;
-    const auto compiled = language.compile("wale 1\nmaterial hill { physical {\n patch 20 mm, 20 mm\n force = vector(0 N, 0 N)\n"
-                                           " show relief(" + std::string(sign > 0 ? "" : "-") +
-                                           "exp(-dot(hand, hand) / (6 mm)^2))\n} }\n");
+    const auto compiled = language.compile(
+        "wale 1\nmaterial hill { physical {\n patch 20 mm, 20 mm\n force = vector(0 N, 0 N)\n"
+        " show relief(" +
+        std::string(sign > 0 ? "" : "-") + "exp(-dot(hand, hand) / (6 mm)^2))\n} }\n");
     ASSERT_TRUE(compiled.program);
     const wale::Bank bank(*compiled.program);
     const QImage image = surface_image(bank, nullptr, {0.02f, 0.02f}, {}, {40, 40}, Look::relief, Qt::lightGray);

@@ -46,16 +46,20 @@ double least_of_three(const std::vector<glm::dvec2>& sizes, double radius, doubl
   for (int i = 0; i < 3; ++i)
     for (double x = -radius; x <= radius; x += step)
       for (double y = -radius; y <= radius; y += step)
-        if (std::hypot(std::abs(x) + sizes[i].x / 2, std::abs(y) + sizes[i].y / 2) <= radius) places[i].push_back({x, y});
+        if (std::hypot(std::abs(x) + sizes[i].x / 2, std::abs(y) + sizes[i].y / 2) <= radius)
+          places[i].push_back({x, y});
   const auto shared = [&](int a, glm::dvec2 at, int b, glm::dvec2 bt) {
-    const glm::dvec2 high{std::min(at.x + sizes[a].x / 2, bt.x + sizes[b].x / 2), std::min(at.y + sizes[a].y / 2, bt.y + sizes[b].y / 2)};
-    const glm::dvec2 low{std::max(at.x - sizes[a].x / 2, bt.x - sizes[b].x / 2), std::max(at.y - sizes[a].y / 2, bt.y - sizes[b].y / 2)};
+    const glm::dvec2 high{std::min(at.x + sizes[a].x / 2, bt.x + sizes[b].x / 2),
+                          std::min(at.y + sizes[a].y / 2, bt.y + sizes[b].y / 2)};
+    const glm::dvec2 low{std::max(at.x - sizes[a].x / 2, bt.x - sizes[b].x / 2),
+                         std::max(at.y - sizes[a].y / 2, bt.y - sizes[b].y / 2)};
     return std::max(0.0, high.x - low.x) * std::max(0.0, high.y - low.y);
   };
   double least = 1;
   for (const glm::dvec2 a : places[0])
     for (const glm::dvec2 b : places[1])
-      for (const glm::dvec2 c : places[2]) least = std::min(least, shared(0, a, 1, b) + shared(0, a, 2, c) + shared(1, b, 2, c));
+      for (const glm::dvec2 c : places[2])
+        least = std::min(least, shared(0, a, 1, b) + shared(0, a, 2, c) + shared(1, b, 2, c));
   return least;
 }
 
@@ -73,7 +77,8 @@ TEST(Shuffle, OverlapsNoMoreThanTheBestOfAllPlaces) {
       EXPECT_LE(counted, 1.02 * least + 1e-5) << seed;
       EXPECT_NEAR(*shuffled.overlap, counted, 1e-4);
       for (const PlacedRef& each : shuffled.contents.placed)
-        EXPECT_LE(std::hypot(std::abs(each->patch.at.x) + each->patch.size->x / 2, std::abs(each->patch.at.y) + each->patch.size->y / 2),
+        EXPECT_LE(std::hypot(std::abs(each->patch.at.x) + each->patch.size->x / 2,
+                             std::abs(each->patch.at.y) + each->patch.size->y / 2),
                   radius + 1e-9);
     }
 }
@@ -88,7 +93,8 @@ TEST(Shuffle, TwelvePatchesLieSideBySide) {
     for (const PlacedRef& each : shuffled.contents.placed) order.push_back(each->patch.name);
     orders.insert(order);
     const Shuffled again = shuffle(twelve, {}, seed, 0.2, given_size);
-    for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(shuffled.contents.placed[i]->patch.at, again.contents.placed[i]->patch.at);
+    for (std::size_t i = 0; i < 12; ++i)
+      EXPECT_EQ(shuffled.contents.placed[i]->patch.at, again.contents.placed[i]->patch.at);
   }
   EXPECT_EQ(orders.size(), 5u);  // from back to front
 }
@@ -105,7 +111,8 @@ TEST(Shuffle, AShapeBesideItsPlaceLiesWhereItIsSeen) {
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
     const Shuffled shuffled = shuffle(contents, {}, seed, 0.2, given_size);
     EXPECT_EQ(shuffled.overlap, 0) << seed;
-    const auto found = std::ranges::find(shuffled.contents.placed, "p1", [](const PlacedRef& each) { return each->patch.name; });
+    const auto found =
+        std::ranges::find(shuffled.contents.placed, "p1", [](const PlacedRef& each) { return each->patch.name; });
     for (const glm::vec2 corner : corners) {
       const glm::dvec2 at = (*found)->patch.at + glm::dvec2(corner);
       EXPECT_LE(std::hypot(at.x, at.y), 0.1) << seed;
@@ -130,7 +137,8 @@ TEST(Shuffle, LockedPatchesStayAndOthersKeepOffThem) {
   EXPECT_EQ(counted_overlap(shuffled.contents), 0);
   const Shuffled two = shuffle(contents, {1, 4}, 9, 0.2, given_size);  // only these
   EXPECT_EQ(two.moved, 2);
-  for (const std::size_t each : {1u, 2u, 4u, 5u}) EXPECT_EQ(two.contents.placed[each]->patch.at, contents.placed[each]->patch.at);
+  for (const std::size_t each : {1u, 2u, 4u, 5u})
+    EXPECT_EQ(two.contents.placed[each]->patch.at, contents.placed[each]->patch.at);
   EXPECT_EQ(shuffle(squares({{0.1, 0.1}}), {}, 1, 0.2, given_size).moved, 0);
 }
 

@@ -53,6 +53,26 @@ struct SessionOrder {
   friend bool operator==(const SessionOrder&, const SessionOrder&) = default;
 };
 
+/// Where one thing lies, and what of that can be felt.
+struct SessionPlace {
+  std::string name;
+  glm::dvec2 at{0};                ///< m from the workspace's centre
+  std::optional<glm::dvec2> size;  ///< m; of a patch that has not its material's own
+  std::string shape;               ///< as written; empty for a rectangle
+  std::optional<double> rim;       ///< m; of a patch that has not the usual one
+  std::uint32_t layer = 0;         ///< of a patch, from 1 for the one behind all others; 0 where nothing lies in front
+  friend bool operator==(const SessionPlace&, const SessionPlace&) = default;
+};
+
+/// Things lie elsewhere from here on, by whatever hand; the first of a workspace or of keys has all of them.
+struct SessionPlaced {
+  std::string what;                 ///< "patches", "keys"
+  std::string of;                   ///< the workspace or the keys
+  std::vector<SessionPlace> items;  ///< those that are new, or lie otherwise than the log said before
+  std::vector<std::string> gone;    ///< names of those that are there no more
+  friend bool operator==(const SessionPlaced&, const SessionPlaced&) = default;
+};
+
 /// Something is presented.
 struct SessionShown {
   std::string what;          ///< "frame", "key"
@@ -114,8 +134,9 @@ struct SessionOther {
   friend bool operator==(const SessionOther&, const SessionOther&) = default;
 };
 
-using SessionEvent = std::variant<SessionBegin, SessionProgram, SessionOrder, SessionShown, SessionAnswer, SessionTakenBack,
-                                  SessionGroups, SessionResumed, SessionNote, SessionEnd, SessionOther>;
+using SessionEvent =
+    std::variant<SessionBegin, SessionProgram, SessionOrder, SessionPlaced, SessionShown, SessionAnswer,
+                 SessionTakenBack, SessionGroups, SessionResumed, SessionNote, SessionEnd, SessionOther>;
 
 /// A line of a log.
 struct SessionEntry {
@@ -134,8 +155,8 @@ class SessionLog {
   /// overwritten; and as `append`.
   static Result<SessionLog> create(const std::string& path, const SessionBegin& begin);
   struct Resumed;
-  /// Opens the log of a session that was broken off, to go on in it. A last line that was cut off is removed: nobody was
-  /// told that it is kept. `seconds` of later lines count on by the computer's clock. Errors: those of
+  /// Opens the log of a session that was broken off, to go on in it. A last line that was cut off is removed: nobody
+  /// was told that it is kept. `seconds` of later lines count on by the computer's clock. Errors: those of
   /// `open_session_log`; `damaged_file` if any other line is wrong; `wrong_moment` if the session has ended, or another
   /// process goes on in it; `unwritable_file`.
   static Result<Resumed> resume(const std::string& path);
@@ -167,8 +188,8 @@ class SessionLog {
 /// A log as it was read.
 struct SessionRecord {
   std::vector<SessionEntry> entries;
-  /// What is wrong, with file and line: lines that are malformed or missing, a last one that was cut off when the process
-  /// or the computer died, answers taken back that nobody gave. All other lines are kept. Code: `damaged_file`.
+  /// What is wrong, with file and line: lines that are malformed or missing, a last one that was cut off when the
+  /// process or the computer died, answers taken back that nobody gave. All other lines are kept. Code: `damaged_file`.
   std::vector<Error> problems;
 
   /// Whether the session came to its end; otherwise it was broken off.

@@ -23,20 +23,6 @@ constexpr int small = 12;              // pixels: smaller patches are drawn plai
 constexpr int largest_mask = 2048;     // pixels
 constexpr double arrow_per_newton = 0.01;  // m
 
-/// The place inside a shape that is farthest from its edge, roughly; m from its centre.
-glm::dvec2 inner_place(const wale::Shape& outline, glm::dvec2 size) {
-  constexpr int places = 16;
-  const wale::Shape shape = outline.stretched(glm::vec2(size));
-  glm::dvec2 best{0};
-  float farthest = -1;
-  for (int i = 0; i < places * places; ++i) {
-    const glm::dvec2 at = size * glm::dvec2((i % places + 0.5) / places - 0.5, (i / places + 0.5) / places - 0.5);
-    const float distance = shape.edge(glm::vec2(at)).metres;
-    if (distance > farthest) farthest = distance, best = at;
-  }
-  return best;
-}
-
 }  // namespace
 
 Canvas::Canvas(Document& document, Feeling& feeling, Pictures& pictures, const Numbers& numbers, QWidget* parent)
@@ -115,7 +101,8 @@ void Canvas::zoom(double factor, std::optional<QPointF> about) {
 }
 
 void Canvas::show_all() {
-  const double across = margin * (feeling_.profile().workspace_diameter > 0 ? feeling_.profile().workspace_diameter : 0.2);
+  const double across =
+      margin * (feeling_.profile().workspace_diameter > 0 ? feeling_.profile().workspace_diameter : 0.2);
   scale_ = std::clamp(std::min(width(), height()) / across, least_scale, most_scale);
   centre_ = {0, 0};
   shows_all_ = true;
@@ -161,8 +148,9 @@ QString Canvas::label_of(const Placed& placed) const {
 }
 
 QString Canvas::told_of(const Placed& placed) const {
-  return look_.random_numbers ? label_of(placed)
-                              : tr("%1, made of %2").arg(label_of(placed), QString::fromStdString(placed.patch.made_of));
+  return look_.random_numbers
+             ? label_of(placed)
+             : tr("%1, made of %2").arg(label_of(placed), QString::fromStdString(placed.patch.made_of));
 }
 
 QImage Canvas::covered_part(const Placed& placed, QSize pixels) {
@@ -177,7 +165,8 @@ QImage Canvas::covered_part(const Placed& placed, QSize pixels) {
   for (int row = 0; row < pixels.height(); ++row) {
     uchar* line = image->scanLine(row);
     for (int column = 0; column < pixels.width(); ++column) {
-      const glm::vec2 at{((column + 0.5f) / pixels.width() - 0.5f) * size.x, (0.5f - (row + 0.5f) / pixels.height()) * size.y};
+      const glm::vec2 at{((column + 0.5f) / pixels.width() - 0.5f) * size.x,
+                         (0.5f - (row + 0.5f) / pixels.height()) * size.y};
       line[column] = static_cast<uchar>(255 * std::clamp(0.5f + outline.edge(at).metres * per_metre, 0.f, 1.f));
     }
   }
@@ -189,7 +178,8 @@ QImage Canvas::covered_part(const Placed& placed, QSize pixels) {
 std::vector<float> Canvas::parameters_of(const Placed& placed) const {
   std::vector<float> parameters;
   if (const wale::Program* program = feeling_.program(placed.id))
-    for (const wale::Parameter& each : program->description().parameters) parameters.push_back(feeling_.value(placed, each));
+    for (const wale::Parameter& each : program->description().parameters)
+      parameters.push_back(feeling_.value(placed, each));
   return parameters;
 }
 
@@ -213,13 +203,14 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
   const auto material = program ? nullptr : feeling_.material(placed.id);
   if (material) plain = QColor(230, 160, 160);
   if (program)
-    image = pictures_.find(*program, parameters_of(placed), glm::vec2(size_of(placed)), placed.patch.outline, pixels, look_.surfaces, plain,
-                           is_chosen ? 2 : 1);
+    image = pictures_.find(*program, parameters_of(placed), glm::vec2(size_of(placed)), placed.patch.outline, pixels,
+                           look_.surfaces, plain, is_chosen ? 2 : 1);
   if (is_plain) {
     if (image.isNull()) painter.fillRect(box, plain);
     else painter.drawImage(box, image);
   } else {
-    QImage shown(pixels.expandedTo({1, 1}).boundedTo(QSize(largest_mask, largest_mask)), QImage::Format_ARGB32_Premultiplied);
+    QImage shown(pixels.expandedTo({1, 1}).boundedTo(QSize(largest_mask, largest_mask)),
+                 QImage::Format_ARGB32_Premultiplied);
     shown.fill(plain);
     QPainter inside(&shown);
     inside.setRenderHint(QPainter::SmoothPixmapTransform);
@@ -231,7 +222,14 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
   }
   if (!program && box.width() > 60 && box.height() > 16) {
     painter.setPen(Qt::black);
-    painter.drawText(box, Qt::AlignCenter | Qt::TextWordWrap, material ? tr("an error in its material") : tr("compiling …"));
+    QRectF words = box;
+    if (!is_plain)  // below the name, and inside: the middle of a polygon's box can lie on another patch
+      words.moveCenter(to_pixels(placed.patch.at + inner_place(placed.patch.outline, size_of(placed))) +
+                       QPointF(0, 1.2 * fontMetrics().height()));
+    painter.drawText(words, Qt::AlignCenter | Qt::TextWordWrap,
+                     !material               ? tr("compiling …")
+                     : document_.is_stale() ? tr("an error in the text")
+                                            : tr("an error in its material"));
   }
   if (!is_blind || is_chosen) {
     painter.setPen(QPen(is_chosen ? palette().color(QPalette::Highlight) : QColor(0, 0, 0, 110), is_chosen ? 2 : 1));

@@ -73,7 +73,7 @@ class Canvas : public QWidget {
   void hovered(glm::dvec2 metres);
   void material_dropped(const QString& spelling, glm::dvec2 metres);
   void recipe_dropped(const QString& recipe, glm::dvec2 metres);
-  void picture_dropped(const QString& file, glm::dvec2 metres);
+  void others_dropped(const QStringList& files, glm::dvec2 metres);  ///< pictures, and files of the thesis's Sandpaper
   void file_dropped(const QString& file);
 
  protected:

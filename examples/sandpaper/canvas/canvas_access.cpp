@@ -14,7 +14,8 @@ constexpr double one_move = 0.001;  // m
 /// One patch.
 class PatchAccess : public ItemAccess {
  public:
-  PatchAccess(const CanvasAccess& owner, QWidget* canvas, std::uint64_t id) : ItemAccess(canvas), owner_(owner), id_(id) {}
+  PatchAccess(const CanvasAccess& owner, QWidget* canvas, std::uint64_t id)
+      : ItemAccess(canvas), owner_(owner), id_(id) {}
 
   bool isValid() const override { return has_list() && placed(); }
 

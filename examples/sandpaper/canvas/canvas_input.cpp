@@ -25,7 +25,8 @@ constexpr const char* of_recipes = "application/x-wale-recipe";
 
 std::array<QPointF, 8> Canvas::handles() const {
   std::array<QPointF, 8> places;
-  const Placed* chosen = document_.chosen().size() == 1 ? document_.contents().find(*document_.chosen().begin()) : nullptr;
+  const Placed* chosen =
+      document_.chosen().size() == 1 ? document_.contents().find(*document_.chosen().begin()) : nullptr;
   const QRectF box = chosen ? box_of(*chosen) : QRectF(-1000, -1000, 0, 0);
   // Clockwise from the upper left.
   const double x[3] = {box.left(), box.center().x(), box.right()}, y[3] = {box.top(), box.center().y(), box.bottom()};
@@ -56,7 +57,8 @@ glm::dvec2 Canvas::snapped(glm::dvec2 metres) const {
 void Canvas::mousePressEvent(QMouseEvent* event) {
   setFocus(Qt::MouseFocusReason);
   pressed_at_ = dragged_to_ = event->position();
-  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && event->modifiers() & Qt::AltModifier)) {
+  if (event->button() == Qt::MiddleButton ||
+      (event->button() == Qt::LeftButton && event->modifiers() & Qt::AltModifier)) {
     drag_ = Drag::pan;
     centre_before_ = centre_;
     return;
@@ -133,10 +135,14 @@ void Canvas::mouseMoveEvent(QMouseEvent* event) {
   const QPointF at = event->position();
   mouse_ = to_metres(at);
   emit hovered(*mouse_);
-  if (feeling_.is_mouse()) feeling_.move_mouse(glm::vec2(*mouse_), feeling_.is_on() && event->buttons() & Qt::LeftButton && drag_ == Drag::nothing);
+  if (feeling_.is_mouse())
+    feeling_.move_mouse(glm::vec2(*mouse_),
+                        feeling_.is_on() && event->buttons() & Qt::LeftButton && drag_ == Drag::nothing);
   switch (drag_) {
     case Drag::nothing:
-      setCursor(feeling_.is_on() && feeling_.is_mouse() ? Qt::BlankCursor : handle_at(at) ? Qt::SizeAllCursor : Qt::ArrowCursor);
+      setCursor(feeling_.is_on() && feeling_.is_mouse() ? Qt::BlankCursor
+                : handle_at(at)                         ? Qt::SizeAllCursor
+                                                        : Qt::ArrowCursor);
       break;
     case Drag::pan: {
       const QPointF by = at - pressed_at_;
@@ -178,7 +184,9 @@ void Canvas::nudge(glm::dvec2 by) {
 }
 
 void Canvas::keyPressEvent(QKeyEvent* event) {
-  const double step = event->modifiers() & Qt::ControlModifier ? 0.0001 : event->modifiers() & Qt::ShiftModifier ? 0.01 : 0.001;
+  const double step = event->modifiers() & Qt::ControlModifier ? 0.0001
+                      : event->modifiers() & Qt::ShiftModifier ? 0.01
+                                                               : 0.001;
   const bool can = !fixed_ && !document_.chosen().empty();
   switch (event->key()) {
     case Qt::Key_Left: if (can) return nudge({-step, 0}); break;
@@ -214,11 +222,12 @@ void Canvas::dropEvent(QDropEvent* event) {
   } else if (event->mimeData()->hasFormat(of_recipes)) {
     emit recipe_dropped(QString::fromUtf8(event->mimeData()->data(of_recipes)), at);
   } else {
-    for (const QUrl& each : event->mimeData()->urls()) {
-      const QString file = each.toLocalFile();
-      if (file.endsWith(".wale") || file.endsWith(".wws")) emit file_dropped(file);
-      else if (!file.isEmpty()) emit picture_dropped(file, at);
-    }
+    QStringList workspaces, others;
+    for (const QUrl& each : event->mimeData()->urls())
+      if (const QString file = each.toLocalFile(); !file.isEmpty())
+        (file.endsWith(".wale") || file.endsWith(".wws") ? workspaces : others) << file;
+    if (!workspaces.isEmpty()) emit file_dropped(workspaces.front());
+    else if (!others.isEmpty()) emit others_dropped(others, at);
   }
   event->acceptProposedAction();
 }

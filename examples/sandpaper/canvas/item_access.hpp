@@ -18,7 +18,9 @@ class ItemAccess : public QAccessibleInterface, public QAccessibleActionInterfac
 
   QObject* object() const override { return nullptr; }
   QWindow* window() const override { return list_ ? list_->window()->windowHandle() : nullptr; }
-  QAccessibleInterface* parent() const override { return list_ ? QAccessible::queryAccessibleInterface(list_) : nullptr; }
+  QAccessibleInterface* parent() const override {
+    return list_ ? QAccessible::queryAccessibleInterface(list_) : nullptr;
+  }
   QAccessibleInterface* child(int) const override { return nullptr; }
   QAccessibleInterface* childAt(int, int) const override { return nullptr; }
   int childCount() const override { return 0; }

@@ -10,7 +10,7 @@
 
 #include "document/placed.hpp"
 
-class QPagedPaintDevice;
+class QPrinter;
 
 namespace sandpaper {
 
@@ -29,12 +29,13 @@ struct WorkspacePage {
   std::vector<PagePatch> patches;
 };
 
-/// Draws it on A4 pages of a device that was set up for them, in a resolution of 300 dots per inch without margins. False if
-/// `progress` ended it.
-bool draw_pages(QPagedPaintDevice& device, const WorkspacePage& page, const std::function<bool(double)>& progress);
+/// Prints it on A4 pages, as `pdf_of` has them. From any thread. False if `progress` ended it, and then nothing is
+/// printed, or if the printer does not take it.
+bool print_pages(QPrinter& printer, const WorkspacePage& page, const std::function<bool(double)>& progress);
 
-/// As a PDF of A4 pages: the workspace from above with a scale bar, at true size where that fits and else scaled, and the
-/// table of its patches. From any thread. `progress` gets 0 .. 1, and ends the work by false; then nothing is returned.
+/// As a PDF of A4 pages: the workspace from above with a scale bar, at true size where that fits and else scaled, and
+/// the table of its patches. From any thread. `progress` gets 0 .. 1, and ends the work by false; then nothing is
+/// returned.
 std::optional<QByteArray> pdf_of(const WorkspacePage& page, const std::function<bool(double)>& progress);
 
 }  // namespace sandpaper

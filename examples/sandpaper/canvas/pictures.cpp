@@ -12,7 +12,8 @@ constexpr int largest_side = 768, least_side = 8;  // pixels
 
 /// The next size of a kept image: powers of two, so that zooming draws few.
 int kept_side(int pixels) {
-  return std::clamp(static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(pixels, 1)))), least_side, largest_side);
+  return std::clamp(static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(pixels, 1)))), least_side,
+                    largest_side);
 }
 
 }  // namespace
@@ -22,10 +23,14 @@ Pictures::Pictures(QObject* parent) : QObject(parent), images_(kept_kilobytes) {
 QImage Pictures::find(const wale::Program& program, const std::vector<float>& parameters, glm::vec2 size,
                       const wale::Shape& shape, QSize pixels, Look look, QColor plain, int urgency) {
   const QSize kept(kept_side(pixels.width()), kept_side(pixels.height()));
-  const QString of_program = QString("%1|%2|%3|%4").arg(reinterpret_cast<quintptr>(&program.decoded())).arg(static_cast<int>(look))
-                                 .arg(plain.rgb()).arg(reinterpret_cast<quintptr>(shape.identity()));
+  const QString of_program = QString("%1|%2|%3|%4")
+                                 .arg(reinterpret_cast<quintptr>(&program.decoded()))
+                                 .arg(static_cast<int>(look))
+                                 .arg(plain.rgb())
+                                 .arg(reinterpret_cast<quintptr>(shape.identity()));
   QStringList parts = {of_program, QString::number(kept.width()), QString::number(kept.height()),
-                       QString::number(std::bit_cast<quint32>(size.x)), QString::number(std::bit_cast<quint32>(size.y))};
+                       QString::number(std::bit_cast<quint32>(size.x)),
+                       QString::number(std::bit_cast<quint32>(size.y))};
   for (const float each : parameters) parts << QString::number(std::bit_cast<quint32>(each));
   const QString key = parts.join('|');
   if (const QImage* found = images_.object(key)) return *found;

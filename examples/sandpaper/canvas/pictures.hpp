@@ -22,8 +22,8 @@ class Pictures : public QObject {
 
   /// The surface of a program with these parameters (SI, in its order) in about so many pixels; null if it is not drawn
   /// yet: then `drawn` follows. Until then an older image of the same program is given, if there is one.
-  QImage find(const wale::Program& program, const std::vector<float>& parameters, glm::vec2 size, const wale::Shape& shape, QSize pixels,
-              Look look, QColor plain, int urgency = 0);
+  QImage find(const wale::Program& program, const std::vector<float>& parameters, glm::vec2 size,
+              const wale::Shape& shape, QSize pixels, Look look, QColor plain, int urgency = 0);
   bool is_busy() const { return thread_.waiting() > 0; }
 
  signals:

@@ -59,7 +59,9 @@ std::vector<float> slopes(const std::vector<float>& heights, QSize pixels) {
 }
 
 QRgb rgb(glm::vec3 colour, float brightness) {
-  const auto part = [&](float x) { return static_cast<int>(std::lround(255 * std::clamp(finite(x) * brightness, 0.f, 1.f))); };
+  const auto part = [&](float x) {
+    return static_cast<int>(std::lround(255 * std::clamp(finite(x) * brightness, 0.f, 1.f)));
+  };
   return qRgb(part(colour.x), part(colour.y), part(colour.z));
 }
 
@@ -71,8 +73,8 @@ QColor colour_of(const std::string& made_of) {
   return QColor::fromHsv(static_cast<int>(hash % 360), 60, 215);
 }
 
-QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::vec2 size, const wale::Shape& shape, QSize pixels, Look look,
-                     QColor plain) {
+QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::vec2 size, const wale::Shape& shape,
+                     QSize pixels, Look look, QColor plain) {
   QImage image(pixels.expandedTo({1, 1}), QImage::Format_RGB32);
   const std::vector<glm::vec2> places = places_of(size, image.size());
   std::vector<float> heights(places.size());
@@ -107,6 +109,19 @@ QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::ve
     }
   }
   return image;
+}
+
+glm::dvec2 inner_place(const wale::Shape& outline, glm::dvec2 size) {
+  constexpr int places = 16;
+  const wale::Shape shape = outline.stretched(glm::vec2(size));
+  glm::dvec2 best{0};
+  float farthest = -1;
+  for (int i = 0; i < places * places; ++i) {
+    const glm::dvec2 at = size * glm::dvec2((i % places + 0.5) / places - 0.5, (i / places + 0.5) / places - 0.5);
+    const float distance = shape.edge(glm::vec2(at)).metres;
+    if (distance > farthest) farthest = distance, best = at;
+  }
+  return best;
 }
 
 }  // namespace sandpaper

@@ -2,10 +2,11 @@
 
 #include <QFile>
 #include <QFileInfo>
-#include <QSaveFile>
 #include <QUndoCommand>
 #include <algorithm>
 #include <utility>
+
+#include "document/saving.hpp"
 
 namespace sandpaper {
 
@@ -58,6 +59,7 @@ Document::Document(const wale::LanguageService& language, QObject* parent)
 QString Document::title() const { return file_.isEmpty() ? tr("untitled") : QFileInfo(file_).fileName(); }
 
 void Document::make_new() {
+  emit unloading();
   file_.clear();
   workspaces_.clear();
   problems_.clear();
@@ -71,7 +73,8 @@ void Document::make_new() {
 }
 
 Contents Document::read(const std::string& text, const QString& workspace) {
-  const wale::CheckedText checked = language_.check(text, {.name = file_.isEmpty() ? "untitled.wale" : file_.toStdString()});
+  const wale::CheckedText checked =
+      language_.check(text, {.name = file_.isEmpty() ? "untitled.wale" : file_.toStdString()});
   problems_ = checked.problems;
   workspaces_.clear();
   for (const wale::Layout& each : checked.layouts) workspaces_ << QString::fromStdString(each.name);
@@ -126,6 +129,7 @@ wale::Result<> Document::open(const QString& path, const QString& workspace) {
                        .place = {.name = path.toStdString()}};
   const std::string text = file.readAll().toStdString();
   if (file.error() != QFile::NoError) return unreadable(file);
+  emit unloading();
   file_ = QFileInfo(path).absoluteFilePath();
   load(text, workspace);
   emit loaded();
@@ -147,6 +151,7 @@ void Document::load(const std::string& text, const QString& workspace) {
 }
 
 void Document::restore(const QString& file, const std::string& text) {
+  emit unloading();
   file_ = file;
   load(text, {});
   saved_draft_.reset();
@@ -157,12 +162,7 @@ void Document::restore(const QString& file, const std::string& text) {
 }
 
 wale::Result<> Document::save(const QString& path) {
-  QSaveFile file(path);
-  const QByteArray bytes = QByteArray::fromStdString(text());
-  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !file.commit())
-    return wale::Error{.code = wale::Code::unwritable_file,
-                       .sentence = file.errorString().toStdString(),
-                       .place = {.name = path.toStdString()}};
+  if (const auto saved = save_bytes(path, QByteArray::fromStdString(text())); !saved) return saved;
   file_ = QFileInfo(path).absoluteFilePath();
   undo_.setClean();
   saved_draft_ = draft_;
@@ -242,7 +242,8 @@ void Document::change_placed(const QString& what, const std::set<std::uint64_t>&
   change(what, std::move(next), merge);
 }
 
-void Document::set_argument(std::uint64_t id, const std::string& name, float si, const std::string& written, int merge) {
+void Document::set_argument(std::uint64_t id, const std::string& name, float si, const std::string& written,
+                            int merge) {
   const Placed* placed = contents_.find(id);
   if (!placed || !placed->is_changeable()) return;
   const QString what = tr("Set %1").arg(QString::fromStdString(name));
@@ -286,7 +287,9 @@ std::vector<std::uint64_t> Document::add(const QString& what, std::vector<wale::
 
 void Document::remove(const std::set<std::uint64_t>& ids) {
   Contents next = contents_;
-  std::erase_if(next.placed, [&](const PlacedRef& each) { return ids.contains(each->id) && each->is_changeable() && !each->locked; });
+  std::erase_if(next.placed, [&](const PlacedRef& each) {
+    return ids.contains(each->id) && each->is_changeable() && !each->locked;
+  });
   if (next.placed.size() == contents_.placed.size()) return;
   change(tr("Delete %n patch(es)", nullptr, static_cast<int>(contents_.placed.size() - next.placed.size())),
          std::move(next));

@@ -38,8 +38,8 @@ class Document : public QObject {
   /// Takes over the text of a file that was not saved, from the autosave.
   void restore(const QString& file, const std::string& text);
 
-  /// The whole file as it would be saved: what has not changed as it was written, to the byte, what is new in the standard
-  /// style.
+  /// The whole file as it would be saved: what has not changed as it was written, to the byte, what is new in the
+  /// standard style.
   std::string text() const;
   /// The same of other contents.
   std::string text_of(const Contents& contents) const;
@@ -67,13 +67,14 @@ class Document : public QObject {
   /// Lays out another workspace of the file, as one step of undo. False if there is none of that name.
   bool show_workspace(const QString& name);
 
-  // Edits, which do nothing while there is a draft but emit `refused`; each is one step of undo, named `what` ("Move oak"). Steps of the same `merge`, other than 0, that follow
-  // one another become one.
+  // Edits, which do nothing while there is a draft but emit `refused`; each is one step of undo, named `what` ("Move
+  // oak"). Steps of the same `merge`, other than 0, that follow one another become one.
   void change(const QString& what, Contents next, int merge = 0);
   void change_placed(const QString& what, const std::set<std::uint64_t>& ids,
                      const std::function<void(Placed&)>& edit, int merge = 0);
-  /// Gives a patch's material an argument, as a slider does: `denim(roughness: 0.3)`. A material that is no name or call,
-  /// as `0.5 oak + 0.5 denim`, gets a name in the file first. `si` is the value, `written` the same with its unit.
+  /// Gives a patch's material an argument, as a slider does: `denim(roughness: 0.3)`. A material that is no name or
+  /// call, as `0.5 oak + 0.5 denim`, gets a name in the file first. `si` is the value, `written` the same with its
+  /// unit.
   void set_argument(std::uint64_t id, const std::string& name, float si, const std::string& written, int merge);
   /// Puts patches of materials in front of all others and returns their ids.
   std::vector<std::uint64_t> add(const QString& what, std::vector<wale::LaidOutPatch> patches);
@@ -88,7 +89,8 @@ class Document : public QObject {
   void contents_changed();
   void chosen_changed();
   void file_changed();
-  void loaded();  ///< another file, or none, with a text of its own
+  void unloading();  ///< another file, or none, is about to take the place of this one
+  void loaded();     ///< it has
   void problems_changed();
   void refused(const QString& why);
 

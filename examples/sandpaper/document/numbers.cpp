@@ -29,7 +29,8 @@ void Numbers::follow() {
     const auto [entry, is_new] = known_.try_emplace({document_.contents().name, each->patch.name});
     if (!is_new) continue;
     // Room for ten times as many, so that a free one is soon found.
-    const auto many = std::max<std::uint32_t>(three_digits, taken_.size() < three_digits - 90 ? 0 : 10 * (taken_.size() + 1));
+    const auto many =
+        std::max<std::uint32_t>(three_digits, taken_.size() < three_digits - 90 ? 0 : 10 * (taken_.size() + 1));
     std::uint32_t number = 0;
     do number = least + random_() % many;
     while (!taken_.insert(number).second);

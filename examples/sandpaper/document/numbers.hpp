@@ -10,10 +10,10 @@
 
 namespace sandpaper {
 
-/// Random numbers for the names of patches, of three digits while there are fewer than 900: "regenerated for each patch,
-/// for each session" (Minsky 1995, Appendix B). A patch keeps its number while it is in its workspace under its name,
-/// also when other workspaces are shown in between. They follow from the seed and from the order in which patches come.
-/// In the window's thread.
+/// Random numbers for the names of patches, of three digits while there are fewer than 900: "regenerated for each
+/// patch, for each session" (Minsky 1995, Appendix B). A patch keeps its number while it is in its workspace under its
+/// name, also when other workspaces are shown in between. They follow from the seed and from the order in which patches
+/// come. In the window's thread.
 class Numbers : public QObject {
   Q_OBJECT
 

@@ -26,9 +26,12 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-bool is_of_name(char letter) { return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_' || letter == '.'; }
+bool is_of_name(char letter) {
+  return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_' || letter == '.';
+}
 
-/// Where the text in quotes or the parenthesis that begins at `at` ends, behind its last character; npos if it does not.
+/// Where the text in quotes or the parenthesis that begins at `at` ends, behind its last character; npos if it does
+/// not.
 std::size_t behind(const std::string& text, std::size_t at) {
   if (text[at] == '"') {
     for (++at; at < text.size(); ++at) {
@@ -61,7 +64,8 @@ std::optional<Parts> parts_of(const std::string& made_of) {
   std::size_t end = 0;
   if (text.front() == '"') end = behind(text, 0);
   else while (end < text.size() && is_of_name(text[end])) ++end;
-  if (end == 0 || end == std::string::npos || std::isdigit(static_cast<unsigned char>(text.front()))) return std::nullopt;
+  if (end == 0 || end == std::string::npos || std::isdigit(static_cast<unsigned char>(text.front())))
+    return std::nullopt;
   Parts parts{text.substr(0, end), {}};
   while (end < text.size() && std::isspace(static_cast<unsigned char>(text[end]))) ++end;
   if (end == text.size()) return parts;
@@ -93,7 +97,8 @@ std::string free_name(const std::string& like, const std::set<std::string>& take
   // The words of the language cannot be names, and a name does not begin with a digit.
   static const std::set<std::string> reserved = {"if", "then", "else", "in", "on", "from", "and", "or", "not"};
   while (!base.empty() && base.back() == '_') base.pop_back();
-  if (base.empty() || reserved.contains(base) || std::isdigit(static_cast<unsigned char>(base.front()))) base = "patch_" + base;
+  if (base.empty() || reserved.contains(base) || std::isdigit(static_cast<unsigned char>(base.front())))
+    base = "patch_" + base;
   while (!base.empty() && base.back() == '_') base.pop_back();
   std::string name = base;
   for (int i = 2; taken.contains(name); ++i) name = base + "_" + std::to_string(i);
@@ -102,7 +107,8 @@ std::string free_name(const std::string& like, const std::set<std::string>& take
 
 }  // namespace
 
-std::optional<std::string> with_argument(const std::string& made_of, const std::string& name, const std::string& value) {
+std::optional<std::string> with_argument(const std::string& made_of, const std::string& name,
+                                         const std::string& value) {
   auto parts = parts_of(made_of);
   if (!parts) return std::nullopt;
   const auto found = std::ranges::find(parts->arguments, name, &Argument::name);
@@ -156,7 +162,8 @@ std::set<std::string> Contents::declared() const {
     for (const wale::ColouredWord& word : wale::coloured_words(*text)) {
       if (word.kind == wale::WordKind::comment || word.kind == wale::WordKind::documentation) continue;
       const std::string each = text->substr(word.begin, word.end - word.begin);
-      static const std::set<std::string> declaring = {"material", "workspace", "movie", "keys", "groups", "function", "let", "unit", "percept", "device"};
+      static const std::set<std::string> declaring = {"material", "workspace", "movie", "keys",    "groups",
+                                                      "function", "let",       "unit",  "percept", "device"};
       if (declaring.contains(before)) taken.insert(each);
       before = each;
     }

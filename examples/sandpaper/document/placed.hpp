@@ -37,8 +37,8 @@ struct Contents {
   std::string file;                           ///< the path beside which imports and pictures are looked for
 
   const Placed* find(std::uint64_t id) const;
-  /// What the materials of the patches are compiled with: the file, with its workspace empty but for the names that movies,
-  /// keys and groups of the file may have of it. The same while patches are moved or changed.
+  /// What the materials of the patches are compiled with: the file, with its workspace empty but for the names that
+  /// movies, keys and groups of the file may have of it. The same while patches are moved or changed.
   std::string surroundings() const;
   /// A name for a new patch that no other has: "oak", "oak_2", …
   std::string new_name(const std::string& like) const;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double usual_side = 0.05;  // m, of a patch whose recipe gives no size
 
-/// A text in which words that name a material have other names: behind `material` and `like`, and on the line behind the
-/// `=` of a material, a patch or a colour. A function or an argument of that name stays.
+/// A text in which words that name a material have other names: behind `material` and `like`, and on the line behind
+/// the `=` of a material, a patch or a colour. A function or an argument of that name stays.
 std::string renamed(const std::string& text, const std::map<std::string, std::string>& names) {
   const auto words = wale::coloured_words(text);
   const auto word = [&](std::size_t i) {
@@ -37,7 +37,8 @@ std::string renamed(const std::string& text, const std::map<std::string, std::st
 }
 
 /// The declarations of a recipe without its version, its workspaces and the imports that a file already has.
-std::string declarations_of(const std::string& recipe, const std::vector<wale::Layout>& layouts, const std::string& file) {
+std::string declarations_of(const std::string& recipe, const std::vector<wale::Layout>& layouts,
+                            const std::string& file) {
   std::string text = recipe;
   for (auto each = layouts.rbegin(); each != layouts.rend(); ++each)
     text.erase(each->begin, std::min(each->end, text.size()) - each->begin);
@@ -72,7 +73,8 @@ std::vector<std::string> recipes_of(const std::string& page, const std::string& 
     if (!inside && std::regex_match(line, found, opening)) {
       inside = true, indent = found[1].length();
       recipes.emplace_back();
-    } else if (inside && line.find_first_not_of(' ') != std::string::npos && line.substr(line.find_first_not_of(' ')).starts_with("```")) {
+    } else if (inside && line.find_first_not_of(' ') != std::string::npos &&
+               line.substr(line.find_first_not_of(' ')).starts_with("```")) {
       inside = false;
     } else if (inside) {
       recipes.back() += line.substr(std::min(indent, line.size())) + "\n";
@@ -88,7 +90,8 @@ std::string with_paths(const std::string& text, const std::string& folder) {
   for (std::smatch found; std::regex_search(rest, found, picture);) {
     const std::filesystem::path path = std::filesystem::path(folder) / found[1].str();
     std::error_code ignored;
-    resolved += found.prefix().str() + (std::filesystem::exists(path, ignored) ? "\"" + path.string() + "\"" : found[0].str());
+    resolved +=
+        found.prefix().str() + (std::filesystem::exists(path, ignored) ? "\"" + path.string() + "\"" : found[0].str());
     rest = std::string(found.suffix());
   }
   return resolved + rest;

@@ -22,8 +22,8 @@ struct Box {
   glm::dvec2 at{0}, half{0};
 };
 
-/// The box around what a patch covers, from its place: a polygon need not lie around the patch's centre. For a shape that
-/// tells only distances it is up to a 64th too large on each side.
+/// The box around what a patch covers, from its place: a polygon need not lie around the patch's centre. For a shape
+/// that tells only distances it is up to a 64th too large on each side.
 Box footprint(const Placed& placed, glm::dvec2 size) {
   const wale::Shape& outline = placed.patch.outline;
   if (outline.is_rectangle() || placed.patch.shape == "ellipse") return {{0, 0}, 0.5 * size};
@@ -40,7 +40,8 @@ Box footprint(const Placed& placed, glm::dvec2 size) {
   }
   if (low.x >= high.x || low.y >= high.y) return {{0, 0}, 0.5 * size};
   // The patch's place is a multiple of the grain as its box's is.
-  const glm::dvec2 middle = 0.5 * (low + high), rounded{std::round(middle.x / grain) * grain, std::round(middle.y / grain) * grain};
+  const glm::dvec2 middle = 0.5 * (low + high),
+                   rounded{std::round(middle.x / grain) * grain, std::round(middle.y / grain) * grain};
   return {rounded, 0.5 * (high - low) + 0.5 * grain};
 }
 
@@ -63,9 +64,10 @@ class Footprints {
 
 double shared(const Box& a, const Box& b) {
   const double x = a.half.x + b.half.x - std::abs(a.at.x - b.at.x), y = a.half.y + b.half.y - std::abs(a.at.y - b.at.y);
-  // Of two where one lies within the other, no more than the smaller one is shared. What is less than a picometre is the
-  // rounding of edges that touch.
-  const double wide = std::min(x, 2 * std::min(a.half.x, b.half.x)), high = std::min(y, 2 * std::min(a.half.y, b.half.y));
+  // Of two where one lies within the other, no more than the smaller one is shared. What is less than a picometre is
+  // the rounding of edges that touch.
+  const double wide = std::min(x, 2 * std::min(a.half.x, b.half.x)),
+               high = std::min(y, 2 * std::min(a.half.y, b.half.y));
   return wide <= 1e-12 || high <= 1e-12 ? 0 : wide * high;
 }
 
@@ -114,7 +116,9 @@ class Table {
   bool fits(glm::dvec2 at, glm::dvec2 half) const {
     return std::hypot(std::abs(at.x) + half.x, std::abs(at.y) + half.y) <= radius_ + 1e-12;
   }
-  static glm::dvec2 rounded(glm::dvec2 at) { return {std::round(at.x / grain) * grain, std::round(at.y / grain) * grain}; }
+  static glm::dvec2 rounded(glm::dvec2 at) {
+    return {std::round(at.x / grain) * grain, std::round(at.y / grain) * grain};
+  }
   glm::dvec2 anywhere(glm::dvec2 half) {
     const glm::dvec2 far{std::max(0.0, radius_ - half.x), std::max(0.0, radius_ - half.y)};
     for (int i = 0; i < most_tries; ++i) {
@@ -150,7 +154,8 @@ class Table {
     std::vector<std::size_t> order = movable_;
     dice_.shuffle(order);
     // The largest ones first: it is harder to find room for them.
-    std::ranges::stable_sort(order, std::ranges::greater(), [this](std::size_t each) { return boxes_[each].half.x * boxes_[each].half.y; });
+    std::ranges::stable_sort(order, std::ranges::greater(),
+                             [this](std::size_t each) { return boxes_[each].half.x * boxes_[each].half.y; });
     for (const std::size_t each : order) {
       double least = std::numeric_limits<double>::infinity();
       glm::dvec2 best{0};
@@ -184,7 +189,8 @@ class Table {
       if (!lies_on_another) return 0;
     }
     double sum = 0;
-    for (std::size_t i = 0; i < boxes_.size(); ++i) sum += overlap_at(i, boxes_[i].at, std::numeric_limits<double>::infinity()) / 2;
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+      sum += overlap_at(i, boxes_[i].at, std::numeric_limits<double>::infinity()) / 2;
     return sum;
   }
 
@@ -203,7 +209,8 @@ Shuffled shuffle(const Contents& contents, const std::set<std::uint64_t>& chosen
   std::vector<std::size_t> spots;  // places in the order of the file
   const auto& all = contents.placed;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i]->is_changeable() && !all[i]->locked && (chosen.size() < 2 || chosen.contains(all[i]->id))) spots.push_back(i);
+    if (all[i]->is_changeable() && !all[i]->locked && (chosen.size() < 2 || chosen.contains(all[i]->id)))
+      spots.push_back(i);
   if (spots.size() < 2) return result;
   Dice dice(seed);
   std::vector<std::size_t> from = spots;

@@ -10,7 +10,9 @@ namespace {
 
 QTextCharFormat format_of(wale::WordKind kind, bool is_dark) {
   QTextCharFormat format;
-  const auto colour = [&](int light, int dark) { format.setForeground(QColor::fromRgb(static_cast<QRgb>(is_dark ? dark : light))); };
+  const auto colour = [&](int light, int dark) {
+    format.setForeground(QColor::fromRgb(static_cast<QRgb>(is_dark ? dark : light)));
+  };
   switch (kind) {
     case wale::WordKind::comment: colour(0x6a737d, 0x9aa5b1); break;
     case wale::WordKind::documentation: colour(0x22703c, 0x8ccf9e); break;
@@ -79,8 +81,8 @@ void Highlighter::highlightBlock(const QString& text) {
   auto each = std::ranges::lower_bound(words_, from, {}, [](const Word& word) { return word.begin + word.length; });
   bool in_comment = false;
   for (; each != words_.end() && each->begin < to; ++each) {
-    setFormat(std::max(each->begin, from) - from, std::min(each->begin + each->length, to) - std::max(each->begin, from),
-              format_of(each->kind, is_dark));
+    setFormat(std::max(each->begin, from) - from,
+              std::min(each->begin + each->length, to) - std::max(each->begin, from), format_of(each->kind, is_dark));
     in_comment = each->kind == wale::WordKind::comment && each->begin + each->length > to;
   }
   setCurrentBlockState(in_comment ? 1 : 0);  // the lines of a block comment follow one another

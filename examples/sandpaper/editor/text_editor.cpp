@@ -30,6 +30,7 @@ TextEditor::TextEditor(Document& document, const wale::LanguageService& language
     if (is_own_change_) return;
     is_typed_ = true;
     pause_.start(typing_pause);
+    emit typing();
   });
   connect(&pause_, &QTimer::timeout, this, &TextEditor::commit);
   connect(&following_, &QTimer::timeout, this, &TextEditor::follow);
@@ -62,6 +63,10 @@ void TextEditor::commit() {
   document_.set_text(field_->toPlainText().toStdString(), tr("Type"));
   is_typed_ = false;
   following_.stop();  // the text stays as it was typed
+}
+
+std::optional<std::string> TextEditor::typed() const {
+  return is_typed_ ? std::optional(field_->toPlainText().toStdString()) : std::nullopt;
 }
 
 void TextEditor::follow() {

@@ -63,6 +63,11 @@ class TextEditor : public QWidget {
   TextField* field() const { return field_; }
   /// Takes over what has been typed at once.
   void commit();
+  /// What has been typed and is not taken over yet; nothing where there is none.
+  std::optional<std::string> typed() const;
+
+ signals:
+  void typing();  ///< with each key
 
  private:
   void follow();

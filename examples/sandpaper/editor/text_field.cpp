@@ -15,7 +15,8 @@ constexpr int most_underlined = 300;
 QString in_words(const wale::Problem& problem) {
   QString words = QString::fromStdString(problem.error.sentence);
   if (!problem.error.mend.empty()) words += "\n" + QString::fromStdString(problem.error.mend);
-  if (!problem.fixes.empty()) words += "\n" + TextField::tr("Ctrl+.  %1").arg(QString::fromStdString(problem.fixes.front().title));
+  if (!problem.fixes.empty())
+    words += "\n" + TextField::tr("Ctrl+.  %1").arg(QString::fromStdString(problem.fixes.front().title));
   return words;
 }
 
@@ -67,11 +68,12 @@ void TextField::set_problems(const std::vector<wale::Problem>& problems) {
     selection.cursor = QTextCursor(document());
     const int begin = offsets.characters(each.begin);
     selection.cursor.setPosition(begin);
-    selection.cursor.setPosition(std::max(offsets.characters(each.end), std::min(begin + 1, offsets.characters(SIZE_MAX))),
-                                 QTextCursor::KeepAnchor);
+    selection.cursor.setPosition(
+        std::max(offsets.characters(each.end), std::min(begin + 1, offsets.characters(SIZE_MAX))),
+        QTextCursor::KeepAnchor);
     selection.format.setUnderlineStyle(QTextCharFormat::WaveUnderline);
-    selection.format.setUnderlineColor(wale::severity_of(each.error.code) == wale::Severity::error ? QColor(Qt::red)
-                                                                                                   : QColor(200, 140, 0));
+    selection.format.setUnderlineColor(
+        wale::severity_of(each.error.code) == wale::Severity::error ? QColor(Qt::red) : QColor(200, 140, 0));
     selections << selection;
   }
   setExtraSelections(selections);
@@ -139,9 +141,11 @@ void TextField::go_to(const wale::Problem& problem) {
 void TextField::complete(bool is_asked) {
   const QString text = toPlainText();
   const Offsets offsets(text);
-  const wale::Proposals found = language_.proposals(text.toStdString(), offsets.bytes(textCursor().position()), {.name = file_});
+  const wale::Proposals found =
+      language_.proposals(text.toStdString(), offsets.bytes(textCursor().position()), {.name = file_});
   const std::size_t length = found.end - found.begin;
-  if (found.words.empty() || (!is_asked && length < 2) || (found.words.size() == 1 && found.words.front().text.size() == length)) {
+  if (found.words.empty() || (!is_asked && length < 2) ||
+      (found.words.size() == 1 && found.words.front().text.size() == length)) {
     completer_->popup()->hide();
     return;
   }
@@ -149,15 +153,17 @@ void TextField::complete(bool is_asked) {
   proposals_->clear();
   for (const wale::Proposal& each : found.words) {
     auto* item = new QStandardItem(QString::fromStdString(each.text));
-    const QString says = each.documentation.empty() ? kind_name(each.kind)
-                                                    : kind_name(each.kind) + ": " + QString::fromStdString(each.documentation);
+    const QString says = each.documentation.empty()
+                             ? kind_name(each.kind)
+                             : kind_name(each.kind) + ": " + QString::fromStdString(each.documentation);
     item->setToolTip(says);
     item->setData(says, Qt::AccessibleDescriptionRole);
     proposals_->appendRow(item);
   }
   completer_->setCompletionPrefix({});
   QRect place = cursorRect();
-  place.setWidth(completer_->popup()->sizeHintForColumn(0) + completer_->popup()->verticalScrollBar()->sizeHint().width() + 20);
+  place.setWidth(completer_->popup()->sizeHintForColumn(0) +
+                 completer_->popup()->verticalScrollBar()->sizeHint().width() + 20);
   completer_->complete(place);
   completer_->popup()->setCurrentIndex(completer_->completionModel()->index(0, 0));
 }
@@ -205,7 +211,8 @@ bool TextField::event(QEvent* event) {
   }
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
-    const wale::Problem* problem = problem_at(cursorForPosition(viewport()->mapFromGlobal(help->globalPos())).position());
+    const wale::Problem* problem =
+        problem_at(cursorForPosition(viewport()->mapFromGlobal(help->globalPos())).position());
     if (problem) QToolTip::showText(help->globalPos(), in_words(*problem), this);
     else QToolTip::hideText();
     return true;

@@ -95,6 +95,7 @@ void Feeling::set_on(bool on) {
   if (on) {
     if (const auto begun = stage_->start(); !begun) {
       emit said(tr("Nothing can be felt: %1").arg(words_of(begun.error())));
+      if (is_recording()) end_recording(words_of(begun.error()));  // the next time one feels without it
       return;
     }
   } else if (const auto ended = stage_->stop(); !ended) {
@@ -102,12 +103,14 @@ void Feeling::set_on(bool on) {
     emit said(problem);
   }
   on_ = on;
-  if (!on && is_recording()) {
-    const QString file = std::exchange(record_, {});
-    renew_stage();  // a stage that records has one run
-    emit recorded(file, problem);
-  }
+  if (!on && is_recording()) end_recording(problem);
   emit on_changed();
+}
+
+void Feeling::end_recording(const QString& problem) {
+  const QString file = std::exchange(record_, {});
+  renew_stage();  // a stage that records has one run
+  emit recorded(file, problem);
 }
 
 void Feeling::record(const QString& file) {
@@ -133,7 +136,8 @@ wale::PatchOptions Feeling::options(const Felt& felt) const {
   if (patch.size) size.width = static_cast<float>(patch.size->x), size.height = static_cast<float>(patch.size->y);
   else if (!patch.outline.is_rectangle() && patch.shape != "ellipse")
     size.width = patch.outline.size().x, size.height = patch.outline.size().y;
-  size.rim = static_cast<float>(patch.rim.value_or(std::min(usual_rim, widest_rim * std::min(size.width, size.height))));
+  size.rim =
+      static_cast<float>(patch.rim.value_or(std::min(usual_rim, widest_rim * std::min(size.width, size.height))));
   return {.at = glm::vec2(patch.at), .size = size, .layer = static_cast<float>(felt.layer), .shape = patch.outline};
 }
 
@@ -141,7 +145,8 @@ void Feeling::place(Felt& felt) {
   if (!felt.program || felt.patch || felt.placed->away) return;
   auto patch = stage_->add(*felt.program, options(felt));
   if (!patch) {
-    emit said(tr("%1 cannot be felt: %2").arg(QString::fromStdString(felt.placed->patch.name), words_of(patch.error())));
+    emit said(
+        tr("%1 cannot be felt: %2").arg(QString::fromStdString(felt.placed->patch.name), words_of(patch.error())));
     return;
   }
   felt.patch = *patch;

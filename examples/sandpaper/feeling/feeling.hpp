@@ -38,7 +38,8 @@ class Feeling : public QObject {
   void set_max_force(double newton);
   double max_force() const { return max_force_; }
 
-  /// Records the next time that force is on into a file, which must not exist yet; `recorded` follows when force is off.
+  /// Records the next time that force is on into a file, which must not exist yet; `recorded` follows when force is
+  /// off.
   void record(const QString& file);
   bool is_recording() const { return !record_.isEmpty(); }
 
@@ -52,9 +53,9 @@ class Feeling : public QObject {
   void set(std::uint64_t id, const std::string& parameter, float value);
   void move_mouse(glm::vec2 to, bool pressed);
 
-  /// Makes the place where the handle is now the workspace's centre, or gives back the device's own one. Takes all force
-  /// away first, since each patch comes to lie elsewhere under the hand. Says why where it cannot: the mouse is where it is
-  /// seen. Returns whether it could.
+  /// Makes the place where the handle is now the workspace's centre, or gives back the device's own one. Takes all
+  /// force away first, since each patch comes to lie elsewhere under the hand. Says why where it cannot: the mouse is
+  /// where it is seen. Returns whether it could.
   bool recentre();
   bool centre_back();
   /// m, where the centre is from the device's own one.
@@ -91,6 +92,7 @@ class Feeling : public QObject {
   };
   void take(QString spelling, wale::Result<std::unique_ptr<wale::Device>> device, std::uint64_t attempt);
   void renew_stage();
+  void end_recording(const QString& problem);
   void place(Felt& felt);
   void update(Felt& felt, const PlacedRef& placed, std::size_t layer);
   void follow_programs();

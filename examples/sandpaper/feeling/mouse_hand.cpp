@@ -15,7 +15,8 @@ std::uint64_t packed(glm::vec2 at) {
 }
 
 glm::vec2 unpacked(std::uint64_t both) {
-  return {std::bit_cast<float>(static_cast<std::uint32_t>(both >> 32)), std::bit_cast<float>(static_cast<std::uint32_t>(both))};
+  return {std::bit_cast<float>(static_cast<std::uint32_t>(both >> 32)),
+          std::bit_cast<float>(static_cast<std::uint32_t>(both))};
 }
 
 }  // namespace

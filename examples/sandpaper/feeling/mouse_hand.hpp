@@ -12,8 +12,8 @@ class MouseHand final : public wale::Device {
  public:
   explicit MouseHand(wale::DeviceProfile profile);
 
-  /// Where the hand is, m from the workspace's centre. The handle follows smoothly, since a mouse is read far less often
-  /// than a joystick. From any thread.
+  /// Where the hand is, m from the workspace's centre. The handle follows smoothly, since a mouse is read far less
+  /// often than a joystick. From any thread.
   void move(glm::vec2 to) noexcept;
   void press(bool pressed) noexcept { pressed_.store(pressed, std::memory_order_relaxed); }
 

@@ -21,15 +21,6 @@ std::string material_name(const std::string& made_of) {
   return name.substr(0, longest_name);
 }
 
-/// The same program under another name.
-std::optional<wale::Program> renamed(const std::optional<wale::Program>& program, const std::string& name) {
-  if (!program) return std::nullopt;
-  wale::PatchProgram described = program->description();
-  described.material = name;
-  auto loaded = wale::Program::load(std::move(described));
-  return loaded ? std::optional(*std::move(loaded)) : program;
-}
-
 }  // namespace
 
 Programs::Programs(const wale::LanguageService& language, QObject* parent) : QObject(parent), language_(language) {}
@@ -42,17 +33,20 @@ void Programs::set_device(const std::string& device) {
   ++generation_;
 }
 
-MaterialProgramRef Programs::find(const std::string& surroundings, const std::string& file, const std::string& made_of, int urgency) {
+MaterialProgramRef Programs::find(const std::string& surroundings, const std::string& file, const std::string& made_of,
+                                  int urgency) {
   const std::string key = std::to_string(std::hash<std::string>()(surroundings)) + "|" + file + "|" + made_of;
   const auto [found, is_new] = known_.try_emplace(key);
   if (!is_new) return found->second;
   const std::string text = surroundings + "\nmaterial " + patch_material + " = " + made_of + "\n";
-  const wale::CompileOptions options{.device = device_, .material = patch_material, .name = file.empty() ? "untitled.wale" : file};
+  const wale::CompileOptions options{
+      .device = device_, .material = patch_material, .name = file.empty() ? "untitled.wale" : file};
   thread_.post(urgency, key, [this, key, made_of, text, options, generation = generation_] {
-    wale::CompiledText compiled = language_.compile(text, options);
+    wale::CompiledText compiled = language_.compile(text, options, material_name(made_of));
     auto program = std::make_shared<MaterialProgram>();
-    program->program = renamed(compiled.program, material_name(made_of)), program->problems = std::move(compiled.problems);
-    QMetaObject::invokeMethod(this, [this, key, made_of, program, generation] { keep(key, made_of, program, generation); });
+    program->program = std::move(compiled.program), program->problems = std::move(compiled.problems);
+    QMetaObject::invokeMethod(this,
+                              [this, key, made_of, program, generation] { keep(key, made_of, program, generation); });
   });
   return nullptr;
 }

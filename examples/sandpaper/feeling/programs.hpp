@@ -32,10 +32,11 @@ class Programs : public QObject {
   void set_device(const std::string& device);
   const std::string& device() const { return device_; }
 
-  /// The program of a material as a patch is made of it, with the declarations around it. `file` is the path beside which
-  /// imports and pictures are looked for. Null if it is not known yet: then it is compiled, and `compiled` follows.
-  /// `urgency` as for `WorkThread`.
-  MaterialProgramRef find(const std::string& surroundings, const std::string& file, const std::string& made_of, int urgency = 0);
+  /// The program of a material as a patch is made of it, with the declarations around it. `file` is the path beside
+  /// which imports and pictures are looked for. Null if it is not known yet: then it is compiled, and `compiled`
+  /// follows. `urgency` as for `WorkThread`.
+  MaterialProgramRef find(const std::string& surroundings, const std::string& file, const std::string& made_of,
+                          int urgency = 0);
   bool is_busy() const { return thread_.waiting() > 0; }
 
  signals:

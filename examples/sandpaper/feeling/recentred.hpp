@@ -7,8 +7,8 @@
 
 namespace sandpaper {
 
-/// A device whose workspace has another centre: the place where the handle was, as after the thesis's Reset Encoders. All
-/// else is the device's own. The loop's thread has it while it runs; `move_centre` is for the window's thread.
+/// A device whose workspace has another centre: the place where the handle was, as after the thesis's Reset Encoders.
+/// All else is the device's own. The loop's thread has it while it runs; `move_centre` is for the window's thread.
 class Recentred final : public wale::Device {
  public:
   explicit Recentred(std::unique_ptr<wale::Device> device) : device_(std::move(device)) {}

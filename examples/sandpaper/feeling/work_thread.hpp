@@ -10,8 +10,8 @@
 
 namespace sandpaper {
 
-/// A thread that does one piece of work after the other, the more urgent ones first. A piece of the same key as one that
-/// waits takes its place. The destructor waits for the piece that is under way; the others are dropped.
+/// A thread that does one piece of work after the other, the more urgent ones first. A piece of the same key as one
+/// that waits takes its place. The destructor waits for the piece that is under way; the others are dropped.
 class WorkThread : public QThread {
  public:
   WorkThread();

@@ -8,8 +8,8 @@
 
 namespace sandpaper {
 
-/// A page of Markdown. Below each block of Wale in it is a link that places it, by a click, by the keyboard, or by being
-/// dragged onto the workspace.
+/// A page of Markdown. Below each block of Wale in it is a link that places it, by a click, by the keyboard, or by
+/// being dragged onto the workspace.
 class PageBrowser : public QTextBrowser {
   Q_OBJECT
 

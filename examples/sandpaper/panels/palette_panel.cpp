@@ -1,7 +1,12 @@
 #include "panels/palette_panel.hpp"
 
+#include <QCoreApplication>
+#include <QCryptographicHash>
+#include <QDir>
+#include <QFile>
 #include <QMimeData>
 #include <QPushButton>
+#include <QStandardPaths>
 #include <QVBoxLayout>
 
 namespace sandpaper {
@@ -10,9 +15,19 @@ namespace {
 constexpr int thumbnail_side = 48;           // pixels
 constexpr glm::vec2 thumbnail_size{0.03f, 0.03f};  // m, of the part that is shown
 constexpr int thumbnail_urgency = -1;
+constexpr qsizetype most_kept = 2000;  // thumbnails on the disk, some kilobytes each
 constexpr const char* of_materials = "application/x-wale-material";
 /// What the thumbnails are compiled with: nothing but the library.
 const std::string nothing_around = "wale 1\n";
+
+/// The folder of kept thumbnails, with a slash. What is in it for too long, mostly of another build, is removed.
+QString thumbnail_folder() {
+  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/wale/sandpaper");
+  QDir().mkpath(folder.path());
+  const QFileInfoList old_first = folder.entryInfoList(QDir::Files, QDir::Time | QDir::Reversed);
+  for (qsizetype i = 0; i < old_first.size() - most_kept; ++i) QFile::remove(old_first[i].filePath());
+  return folder.path() + "/";
+}
 
 }  // namespace
 
@@ -32,14 +47,38 @@ void PaletteModel::search(const QString& words, const QString& kind) {
   endResetModel();
 }
 
-int PaletteModel::rowCount(const QModelIndex& parent) const { return parent.isValid() ? 0 : static_cast<int>(entries_.size()); }
+int PaletteModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(entries_.size());
+}
+
+QString PaletteModel::kept_in(const wale::CatalogueEntry& entry) const {
+  if (entry.content.empty()) return {};
+  static const QString folder = thumbnail_folder();
+  const QByteArray key = QByteArray::fromStdString(entry.content + programs_.device());
+  return folder + QString::fromLatin1(QCryptographicHash::hash(key, QCryptographicHash::Sha256).toHex().left(32)) +
+         ".png";
+}
 
 QVariant PaletteModel::thumbnail(const wale::CatalogueEntry& entry) const {
+  const QString file = kept_in(entry);
+  if (!file.isEmpty()) {
+    const auto [known, is_new] = kept_.try_emplace(file);
+    if (is_new) known->second.load(file);
+    if (!known->second.isNull()) return known->second;
+  }
   QImage image;
-  if (const auto material = programs_.find(nothing_around, {}, entry.spelling, thumbnail_urgency); material && material->program) {
+  if (const auto material = programs_.find(nothing_around, {}, entry.spelling, thumbnail_urgency);
+      material && material->program) {
     const wale::Program& program = *material->program;
-    image = pictures_.find(program, program.default_parameters(), thumbnail_size, {}, {thumbnail_side, thumbnail_side}, Look::relief,
-                           colour_of(entry.spelling), thumbnail_urgency);
+    image = pictures_.find(program, program.default_parameters(), thumbnail_size, {}, {thumbnail_side, thumbnail_side},
+                           Look::relief, colour_of(entry.spelling), thumbnail_urgency);
+    if (!image.isNull() && !file.isEmpty()) {
+      image = image.scaled(thumbnail_side, thumbnail_side, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+      kept_[file] = image;
+      // Under another name first: nobody reads half a picture. A disk that does not take it costs the picture only.
+      const QString part = file + QString(".%1").arg(QCoreApplication::applicationPid());
+      if (!image.save(part, "PNG") || !QFile::rename(part, file)) QFile::remove(part);
+    }
   }
   if (image.isNull()) {
     image = QImage(thumbnail_side, thumbnail_side, QImage::Format_RGB32);
@@ -53,15 +92,18 @@ QVariant PaletteModel::data(const QModelIndex& index, int role) const {
   const wale::CatalogueEntry& each = entry(index.row());
   const QString name = QString::fromStdString(each.name), title = QString::fromStdString(each.title);
   switch (role) {
-    case Qt::DisplayRole: return title.isEmpty() || title.compare(name, Qt::CaseInsensitive) == 0 ? name : name + "\n" + title;
+    case Qt::DisplayRole:
+      return title.isEmpty() || title.compare(name, Qt::CaseInsensitive) == 0 ? name : name + "\n" + title;
     case Qt::DecorationRole: return thumbnail(each);
-    case Qt::AccessibleTextRole: return tr("%1, %2").arg(title.isEmpty() ? name : title, QString::fromStdString(each.kind));
+    case Qt::AccessibleTextRole:
+      return tr("%1, %2").arg(title.isEmpty() ? name : title, QString::fromStdString(each.kind));
     case Qt::AccessibleDescriptionRole: return QString::fromStdString(each.documentation);
     case Qt::ToolTipRole: {
       QString tip = "<b>" + (title.isEmpty() ? name : title).toHtmlEscaped() + "</b> " +
                     QString::fromStdString(each.kind).toHtmlEscaped();
       if (!each.documentation.empty()) tip += "<br>" + QString::fromStdString(each.documentation).toHtmlEscaped();
-      for (const std::string& like : each.feels) tip += "<br><i>" + QString::fromStdString(like).toHtmlEscaped() + "</i>";
+      for (const std::string& like : each.feels)
+        tip += "<br><i>" + QString::fromStdString(like).toHtmlEscaped() + "</i>";
       return tip;
     }
     case Qt::UserRole: return QString::fromStdString(each.spelling);

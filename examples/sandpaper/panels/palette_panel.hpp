@@ -14,7 +14,8 @@
 
 namespace sandpaper {
 
-/// The materials that were found, with thumbnails that come as they are drawn.
+/// The materials that were found, with thumbnails that come as they are drawn. Those of the shipped library are kept
+/// from one run to the next, so that nothing is compiled for them again.
 class PaletteModel : public QAbstractListModel {
   Q_OBJECT
 
@@ -32,11 +33,13 @@ class PaletteModel : public QAbstractListModel {
 
  private:
   QVariant thumbnail(const wale::CatalogueEntry& entry) const;
+  QString kept_in(const wale::CatalogueEntry& entry) const;
 
   const wale::Catalogue& catalogue_;
   Programs& programs_;
   Pictures& pictures_;
   std::vector<wale::CatalogueEntry> entries_;
+  mutable std::map<QString, QImage> kept_;  // by the files that they are kept in
 };
 
 /// The whole library, to search and to drag from. In the window's thread.

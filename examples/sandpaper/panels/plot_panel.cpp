@@ -64,7 +64,8 @@ void PlotPanel::paintEvent(QPaintEvent*) {
       for (const Sample& each : samples_) {
         const float value = each.*rows[i].of[j];
         if (std::isfinite(value))
-          line << QPointF(width() * (1 - (end - each.time) / shown_seconds), box.center().y() - value / most * (high / 2 - 2));
+          line << QPointF(width() * (1 - (end - each.time) / shown_seconds),
+                          box.center().y() - value / most * (high / 2 - 2));
       }
       painter.setPen(QPen(colours[j], 1.5));
       painter.drawPolyline(line);

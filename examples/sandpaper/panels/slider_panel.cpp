@@ -1,7 +1,7 @@
 #include "panels/slider_panel.hpp"
 
-#include <QInputDialog>
 #include <algorithm>
+#include <cctype>
 #include <set>
 
 namespace sandpaper {
@@ -9,7 +9,17 @@ namespace {
 
 constexpr int before_following = 250;  // ms
 
-int merge_of(const std::string& slider) { return 100000 + static_cast<int>(std::hash<std::string>()(slider) % 1000000); }
+int merge_of(const std::string& slider) {
+  return 100000 + static_cast<int>(std::hash<std::string>()(slider) % 1000000);
+}
+
+/// Whether a parameter is a weight of a blend: `denim_weight`, or `denim_weight_2` of the second denim (LANGUAGE.md,
+/// Blends).
+bool is_weight(std::string name) {
+  while (!name.empty() && std::isdigit(static_cast<unsigned char>(name.back()))) name.pop_back();
+  if (name.ends_with('_')) name.pop_back();
+  return name.ends_with("_weight");
+}
 
 }  // namespace
 
@@ -57,8 +67,9 @@ void SliderPanel::rebuild() {
   const wale::Program* program = placed ? feeling_.program(placed->id) : nullptr;
   program_ = program ? &program->decoded() : nullptr;
   if (!placed) {
-    title_->setText(document_.chosen().size() > 1 ? tr("%n patches are chosen", nullptr, static_cast<int>(document_.chosen().size()))
-                                                  : tr("Touch or choose a patch to see its sliders."));
+    title_->setText(document_.chosen().size() > 1
+                        ? tr("%n patches are chosen", nullptr, static_cast<int>(document_.chosen().size()))
+                        : tr("Touch or choose a patch to see its sliders."));
   } else if (!program) {
     const auto material = feeling_.material(placed->id);
     title_->setText(tr("%1: %2").arg(QString::fromStdString(placed->patch.name),
@@ -66,20 +77,25 @@ void SliderPanel::rebuild() {
                                          ? QString::fromStdString(wale::in_words(material->problems.front().error))
                                          : tr("compiling …")));
   } else {
-    title_->setText(tr("%1 = %2").arg(QString::fromStdString(placed->patch.name), QString::fromStdString(placed->patch.made_of)));
+    title_->setText(
+        tr("%1 = %2").arg(QString::fromStdString(placed->patch.name), QString::fromStdString(placed->patch.made_of)));
     const wale::PatchProgram& described = program->description();
     std::set<std::size_t> percepts;
     for (const wale::PerceptRecord& each : described.percepts)
       if (each.parameter) percepts.insert(*each.parameter);
-    for (const bool of_percepts : {true, false})
+    // Percepts first, then parameters, then the weights of a blend.
+    for (const int rank : {0, 1, 2})
       for (std::size_t i = 0; i < described.parameters.size(); ++i) {
-        if (percepts.contains(i) != of_percepts) continue;
         const wale::Parameter& parameter = described.parameters[i];
-        auto* row = new SliderRow(parameter, of_percepts, feeling_.value(*placed, parameter), parameter.value);
-        connect(row, &SliderRow::moved, this, [this, row](float value, bool is_final) { moved(*row, value, is_final); });
+        const bool is_percept = percepts.contains(i);
+        if (rank != (is_percept ? 0 : is_weight(parameter.name) ? 2 : 1)) continue;
+        auto* row = new SliderRow(parameter, is_percept, feeling_.value(*placed, parameter), parameter.value);
+        connect(row, &SliderRow::moved, this,
+                [this, row](float value, bool is_final) { moved(*row, value, is_final); });
         connect(row, &SliderRow::reset_wanted, this, [this, row] { reset(*row); });
         connect(row, &SliderRow::mark_wanted, this, [this, row](bool high) { mark(*row, high); });
         connect(row, &SliderRow::unmark_wanted, this, [this, row] { mark(*row, std::nullopt); });
+        connect(row, &SliderRow::says_wanted, this, [this, row](const QString& says) { say(*row, says); });
         layout->addWidget(row);
         rows_.push_back(row);
       }
@@ -98,10 +114,12 @@ void SliderPanel::refresh() {
     return rebuild();
   }
   if (!program) return;
-  title_->setText(tr("%1 = %2").arg(QString::fromStdString(placed->patch.name), QString::fromStdString(placed->patch.made_of)));
+  title_->setText(
+      tr("%1 = %2").arg(QString::fromStdString(placed->patch.name), QString::fromStdString(placed->patch.made_of)));
   for (SliderRow* row : rows_) {
     row->set_value(feeling_.value(*placed, row->parameter()));
-    const auto mark = std::ranges::find_if(placed->patch.marks, [&](const wale::LaidOutMark& each) { return each.mark.slider == row->name(); });
+    const auto mark = std::ranges::find_if(
+        placed->patch.marks, [&](const wale::LaidOutMark& each) { return each.mark.slider == row->name(); });
     if (mark == placed->patch.marks.end()) row->set_marks({}, {}, {});
     else row->set_marks(mark->mark.low, mark->mark.high, QString::fromStdString(mark->mark.says));
   }
@@ -129,28 +147,36 @@ void SliderPanel::reset(const SliderRow& row) {
 
 void SliderPanel::mark(const SliderRow& row, std::optional<bool> high) {
   if (!shown_) return;
-  const Placed* before = document_.contents().find(*shown_);
-  if (!before) return;
-  QString says;
-  const auto old = std::ranges::find_if(before->patch.marks, [&](const wale::LaidOutMark& each) { return each.mark.slider == row.name(); });
-  if (old != before->patch.marks.end()) says = QString::fromStdString(old->mark.says);
-  document_.change_placed(high ? tr("Mark %1").arg(QString::fromStdString(row.name())) : tr("Remove a mark"), {*shown_}, [&](Placed& placed) {
-    auto& marks = placed.patch.marks;
-    auto found = std::ranges::find_if(marks, [&](const wale::LaidOutMark& each) { return each.mark.slider == row.name(); });
-    if (!high) {
-      if (found != marks.end()) marks.erase(found);
-      return;
-    }
-    if (found == marks.end()) {
-      const wale::Parameter& parameter = row.parameter();
-      marks.push_back({.mark = {.slider = row.name(), .is_percept = row.is_percept()}, .unit = parameter.unit, .unit_in_si = parameter.unit_in_si});
-      found = marks.end() - 1;
-    }
-    auto& mark = found->mark;
-    (*high ? mark.high : mark.low) = row.value();
-    // The end that was marked last counts.
-    if (mark.low && mark.high && *mark.low > *mark.high) (*high ? mark.low : mark.high).reset();
-  });
+  document_.change_placed(high ? tr("Mark %1").arg(QString::fromStdString(row.name())) : tr("Remove a mark"), {*shown_},
+                          [&](Placed& placed) {
+                            auto& marks = placed.patch.marks;
+                            auto found = std::ranges::find_if(
+                                marks, [&](const wale::LaidOutMark& each) { return each.mark.slider == row.name(); });
+                            if (!high) {
+                              if (found != marks.end()) marks.erase(found);
+                              return;
+                            }
+                            if (found == marks.end()) {
+                              const wale::Parameter& parameter = row.parameter();
+                              marks.push_back({.mark = {.slider = row.name(), .is_percept = row.is_percept()},
+                                               .unit = parameter.unit,
+                                               .unit_in_si = parameter.unit_in_si});
+                              found = marks.end() - 1;
+                            }
+                            auto& mark = found->mark;
+                            (*high ? mark.high : mark.low) = row.value();
+                            // The end that was marked last counts.
+                            if (mark.low && mark.high && *mark.low > *mark.high) (*high ? mark.low : mark.high).reset();
+                          });
+}
+
+void SliderPanel::say(const SliderRow& row, const QString& says) {
+  if (!shown_) return;
+  document_.change_placed(tr("Say what %1 feels like").arg(QString::fromStdString(row.name())), {*shown_},
+                          [&](Placed& placed) {
+                            for (wale::LaidOutMark& each : placed.patch.marks)
+                              if (each.mark.slider == row.name()) each.mark.says = says.simplified().toStdString();
+                          });
 }
 
 }  // namespace sandpaper

@@ -12,15 +12,16 @@
 
 namespace sandpaper {
 
-/// The sliders of the chosen patch, or else of the touched one: percepts first, then parameters. In the window's thread.
+/// The sliders of the chosen patch, or else of the touched one: percepts first, then parameters, then weights. In the
+/// window's thread.
 class SliderPanel : public QWidget {
   Q_OBJECT
 
  public:
   SliderPanel(Document& document, Feeling& feeling, QWidget* parent = nullptr);
 
-  /// The hand is on another patch, or on none. The panel waits for a quarter of a second before it follows (Minsky 1995,
-  /// Appendix B), so that a hand that passes over a patch does not change it.
+  /// The hand is on another patch, or on none. The panel waits for a quarter of a second before it follows (Minsky
+  /// 1995, Appendix B), so that a hand that passes over a patch does not change it.
   void set_touched(std::optional<std::uint64_t> id);
   /// The patch whose sliders are shown.
   std::optional<std::uint64_t> shown() const { return shown_; }
@@ -35,6 +36,7 @@ class SliderPanel : public QWidget {
   void moved(const SliderRow& row, float value, bool is_final);
   void reset(const SliderRow& row);
   void mark(const SliderRow& row, std::optional<bool> high);
+  void say(const SliderRow& row, const QString& says);
 
   Document& document_;
   Feeling& feeling_;

@@ -10,6 +10,11 @@
 #include <cmath>
 
 namespace sandpaper {
+namespace {
+
+constexpr int longest_words = 200;
+
+}  // namespace
 
 MarkedSlider::MarkedSlider(QWidget* parent) : QSlider(Qt::Horizontal, parent) {
   setRange(0, steps);
@@ -39,7 +44,8 @@ void MarkedSlider::paintEvent(QPaintEvent* event) {
   QSlider::paintEvent(event);
 }
 
-SliderRow::SliderRow(const wale::Parameter& parameter, bool is_percept, float value, float default_value, QWidget* parent)
+SliderRow::SliderRow(const wale::Parameter& parameter, bool is_percept, float value, float default_value,
+                     QWidget* parent)
     : QWidget(parent),
       parameter_(parameter),
       is_percept_(is_percept),
@@ -49,7 +55,8 @@ SliderRow::SliderRow(const wale::Parameter& parameter, bool is_percept, float va
       slider_(new MarkedSlider),
       number_(new QDoubleSpinBox),
       reset_(new QToolButton),
-      mark_(new QToolButton) {
+      mark_(new QToolButton),
+      says_(new QLineEdit) {
   const QString name = QString::fromStdString(parameter.name), unit = QString::fromStdString(parameter.unit);
   const QString says = QString::fromStdString(parameter.description);
   if (is_percept) {
@@ -83,6 +90,11 @@ SliderRow::SliderRow(const wale::Parameter& parameter, bool is_percept, float va
   menu->addAction(tr("Up to here"), this, [this] { emit mark_wanted(true); });
   menu->addAction(tr("Remove the mark"), this, [this] { emit unmark_wanted(); });
   mark_->setMenu(menu);
+  says_->setObjectName("says_" + name);
+  says_->setPlaceholderText(tr("it still feels like …"));
+  says_->setAccessibleName(tr("What %1 still feels like within its marks").arg(name));
+  says_->setMaxLength(longest_words);
+  says_->hide();
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(2, 2, 2, 2);
   layout->setVerticalSpacing(0);
@@ -91,6 +103,7 @@ SliderRow::SliderRow(const wale::Parameter& parameter, bool is_percept, float va
   layout->addWidget(mark_, 0, 2);
   layout->addWidget(reset_, 0, 3);
   layout->addWidget(slider_, 1, 0, 1, 4);
+  layout->addWidget(says_, 2, 0, 1, 4);
   layout->setColumnStretch(0, 1);
   connect(slider_, &QSlider::valueChanged, this, [this](int step) {
     const double share = static_cast<double>(step) / MarkedSlider::steps;
@@ -109,13 +122,18 @@ SliderRow::SliderRow(const wale::Parameter& parameter, bool is_percept, float va
     emit moved(value_, true);
   });
   connect(reset_, &QToolButton::clicked, this, &SliderRow::reset_wanted);
+  connect(says_, &QLineEdit::editingFinished, this, [this] {
+    if (says_->isModified()) emit says_wanted(says_->text());
+    says_->setModified(false);
+  });
   show_value();
 }
 
 int SliderRow::step_of(float value) const {
   const double span = parameter_.soft_high - parameter_.soft_low;
   if (span <= 0) return 0;
-  return static_cast<int>(std::lround(std::clamp((value - parameter_.soft_low) / span, 0.0, 1.0) * MarkedSlider::steps));
+  return static_cast<int>(
+      std::lround(std::clamp((value - parameter_.soft_low) / span, 0.0, 1.0) * MarkedSlider::steps));
 }
 
 void SliderRow::set_value(float value) {
@@ -138,7 +156,10 @@ void SliderRow::set_marks(std::optional<float> low, std::optional<float> high, c
     return (*end - parameter_.soft_low) / span;
   };
   slider_->set_marks(share(low), share(high));
-  slider_->setToolTip(low || high ? tr("marked: %1").arg(says.isEmpty() ? tr("it still feels like this") : says) : QString());
+  says_->setVisible(low || high);
+  if (!says_->hasFocus() || !says_->isModified()) says_->setText(says);
+  slider_->setToolTip(low || high ? tr("marked: %1").arg(says.isEmpty() ? tr("it still feels like this") : says)
+                                  : QString());
 }
 
 }  // namespace sandpaper

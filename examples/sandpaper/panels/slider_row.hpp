@@ -2,6 +2,7 @@
 
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QSlider>
 #include <QToolButton>
 #include <QWidget>
@@ -35,7 +36,8 @@ class SliderRow : public QWidget {
 
  public:
   /// `default_value` is what the reset gives.
-  SliderRow(const wale::Parameter& parameter, bool is_percept, float value, float default_value, QWidget* parent = nullptr);
+  SliderRow(const wale::Parameter& parameter, bool is_percept, float value, float default_value,
+            QWidget* parent = nullptr);
 
   const std::string& name() const { return parameter_.name; }
   const wale::Parameter& parameter() const { return parameter_; }
@@ -52,6 +54,8 @@ class SliderRow : public QWidget {
   /// Marks the present value as the low or the high end.
   void mark_wanted(bool high);
   void unmark_wanted();
+  /// Someone wrote what it still feels like within the marks.
+  void says_wanted(const QString& says);
 
  private:
   int step_of(float value) const;
@@ -65,6 +69,7 @@ class SliderRow : public QWidget {
   QDoubleSpinBox* number_;
   QToolButton* reset_;
   QToolButton* mark_;
+  QLineEdit* says_;  // only where there is a mark
 };
 
 }  // namespace sandpaper

@@ -4,9 +4,11 @@
 
 namespace sandpaper {
 
-ParticipantWindow::ParticipantWindow(Document& document, Feeling& feeling, Pictures& pictures, const Numbers& numbers, Sorting& sorting,
-                                     QWidget* parent)
-    : QStackedWidget(parent), canvas_(new Canvas(document, feeling, pictures, numbers)), page_(new SortingPage(sorting, feeling)) {
+ParticipantWindow::ParticipantWindow(Document& document, Feeling& feeling, Pictures& pictures, const Numbers& numbers,
+                                     Sorting& sorting, QWidget* parent)
+    : QStackedWidget(parent),
+      canvas_(new Canvas(document, feeling, pictures, numbers)),
+      page_(new SortingPage(sorting, feeling)) {
   setParent(parent, Qt::Window);
   setObjectName("participant_window");
   setWindowTitle(tr("Sandpaper"));

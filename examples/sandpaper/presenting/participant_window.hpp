@@ -13,7 +13,8 @@ class ParticipantWindow : public QStackedWidget {
   Q_OBJECT
 
  public:
-  ParticipantWindow(Document& document, Feeling& feeling, Pictures& pictures, const Numbers& numbers, Sorting& sorting, QWidget* parent);
+  ParticipantWindow(Document& document, Feeling& feeling, Pictures& pictures, const Numbers& numbers, Sorting& sorting,
+                    QWidget* parent);
 
   /// As the other window looks, but for the numbers.
   void set_look(const CanvasLook& look);

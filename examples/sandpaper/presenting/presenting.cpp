@@ -7,9 +7,44 @@
 #include <utility>
 
 namespace sandpaper {
+namespace {
 
-Presenting::Presenting(const wale::Library& library, Document& document, Numbers& numbers, Feeling& feeling, QObject* parent)
-    : QObject(parent), library_(library), document_(document), numbers_(numbers), feeling_(feeling), sorting_(session_) {
+constexpr std::size_t numbers_in_a_line = 5000;  // far from the longest line of a log
+constexpr std::size_t longest_shape = 1000;      // bytes; of a longer one the file tells the rest
+
+/// At most so many bytes of a text, without half a letter at its end.
+std::string beginning_of(const std::string& text, std::size_t most) {
+  std::size_t length = std::min(most, text.size());
+  while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
+  return text.substr(0, length);
+}
+
+/// The patches as the log tells where they lie.
+std::vector<wale::SessionPlace> places_of(const Contents& contents) {
+  std::vector<wale::SessionPlace> places;
+  for (const PlacedRef& each : contents.placed) {
+    if (!each->is_laid_out()) continue;
+    const wale::LaidOutPatch& patch = each->patch;
+    places.push_back({.name = patch.name,
+                      .at = patch.at,
+                      .size = patch.size,
+                      .shape = beginning_of(patch.shape, longest_shape),
+                      .rim = patch.rim,
+                      .layer = static_cast<std::uint32_t>(places.size() + 1)});
+  }
+  return places;
+}
+
+}  // namespace
+
+Presenting::Presenting(const wale::Library& library, Document& document, Numbers& numbers, Feeling& feeling,
+                       QObject* parent)
+    : QObject(parent),
+      library_(library),
+      document_(document),
+      numbers_(numbers),
+      feeling_(feeling),
+      sorting_(session_) {
   connect(&session_, &Session::said, this, &Presenting::said);
   // Nobody feels what cannot be logged.
   connect(&session_, &Session::failed, this, [this] { feeling_.set_on(false); });
@@ -18,10 +53,13 @@ Presenting::Presenting(const wale::Library& library, Document& document, Numbers
     log_programs();
     start_if_ready();
   });
-  connect(&feeling_, &Feeling::on_changed, this, [this] { session_.log(wale::SessionNote{feeling_.is_on() ? "force on" : "force off"}); });
-  connect(&feeling_, &Feeling::device_changed, this,
-          [this] { session_.log(wale::SessionNote{"device " + feeling_.profile().name + " (" + feeling_.spelling().toStdString() + ")"}); });
-  connect(&document_, &Document::loaded, this, [this] {
+  connect(&feeling_, &Feeling::on_changed, this,
+          [this] { session_.log(wale::SessionNote{feeling_.is_on() ? "force on" : "force off"}); });
+  connect(&feeling_, &Feeling::device_changed, this, [this] {
+    session_.log(
+        wale::SessionNote{"device " + feeling_.profile().name + " (" + feeling_.spelling().toStdString() + ")"});
+  });
+  connect(&document_, &Document::unloading, this, [this] {
     end("another file was opened");
     movie_.clear(), order_.clear();
     frame_ = -1;
@@ -45,7 +83,13 @@ void Presenting::follow_contents() {
     session_.log(wale::SessionShown{"frame", shown_, "", 0});
   }
   log_numbers();
+  lay_out();
   log_programs();
+}
+
+void Presenting::lay_out() {
+  if (!session_.runs()) return;
+  session_.lay_out("patches", shown_, [contents = document_.contents()] { return places_of(contents); });
 }
 
 Contents Presenting::felt() const {
@@ -67,7 +111,8 @@ Contents Presenting::felt() const {
 
 void Presenting::begin_session(const QString& participant, std::uint32_t seed) {
   if (sorting_.runs()) return emit said(tr("Finish the sort first, or break it off: a session begins before it"));
-  if (document_.is_stale()) return emit said(tr("The text has errors: mend them first, so that all is felt that is logged"));
+  if (document_.is_stale())
+    return emit said(tr("The text has errors: mend them first, so that all is felt that is logged"));
   const QString device = QString::fromStdString(feeling_.profile().name);
   if (const auto begun = session_.begin(participant, seed, document_.file(), device); !begun)
     return emit said(tr("The session did not begin: %1").arg(QString::fromStdString(wale::in_words(begun.error()))));
@@ -78,31 +123,43 @@ void Presenting::begin_session(const QString& participant, std::uint32_t seed) {
   shown_ = document_.contents().name;
   numbers_.renew(session_.next_seed());
   if (!session_.log(wale::SessionShown{"frame", shown_, "", 0}) || !log_numbers()) return;
+  lay_out();
   if (feeling_.is_on()) session_.log(wale::SessionNote{"force on"});
   log_programs();
-  if (session_.trouble().isEmpty()) emit said(tr("The session of %1 is logged in %2").arg(session_.participant(), session_.path()));
+  if (session_.trouble().isEmpty())
+    emit said(tr("The session of %1 is logged in %2").arg(session_.participant(), session_.path()));
 }
 
 bool Presenting::log_numbers() {
-  if (!session_.runs() || numbered_.contains(shown_)) return true;
+  if (!session_.runs()) return true;
+  std::set<std::string>& known = numbered_[shown_];
   wale::SessionOrder order{.what = "numbers", .of = shown_, .seed = numbers_.seed()};
-  for (const PlacedRef& each : document_.contents().placed)
-    if (each->is_laid_out()) order.items.push_back({each->patch.name, numbers_.of(*each).toStdString(), each->patch.at});
-  if (!session_.log(order)) return false;
-  numbered_.insert(shown_);
-  return true;
+  const auto log_order = [&] {
+    if (order.items.empty()) return true;
+    if (!session_.log(order)) return false;
+    for (const wale::SessionItem& each : std::exchange(order.items, {})) known.insert(each.name);
+    return true;
+  };
+  for (const PlacedRef& each : document_.contents().placed) {
+    if (!each->is_laid_out() || known.contains(each->patch.name)) continue;
+    order.items.push_back({each->patch.name, numbers_.of(*each).toStdString(), each->patch.at});
+    if (order.items.size() == numbers_in_a_line && !log_order()) return false;
+  }
+  return log_order();
 }
 
 void Presenting::log_programs() {
   if (!session_.runs()) return;
   std::vector<PatchToLog> patches;
   for (const PlacedRef& each : document_.contents().placed)
-    if (const wale::Program* program = feeling_.program(each->id)) patches.push_back({each->patch.name, each->patch.made_of, program});
+    if (const wale::Program* program = feeling_.program(each->id))
+      patches.push_back({each->patch.name, each->patch.made_of, program});
   session_.log_programs(patches);
 }
 
 std::optional<wale::Presentation> Presenting::presentation() const {
-  auto found = library_.presentation(document_.text(), document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString());
+  auto found = library_.presentation(document_.text(),
+                                     document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString());
   return found ? std::optional(*std::move(found)) : std::nullopt;
 }
 
@@ -157,9 +214,11 @@ void Presenting::step(int by) {
   const qsizetype next = at < 0 ? (by > 0 ? 0 : all.size() - 1) : (at + by + all.size()) % all.size();
   if (document_.is_stale() || !document_.workspaces().contains(all[next]))
     return emit said(tr("%1 cannot be shown: mend the text first").arg(all[next]));
-  if (!session_.log(wale::SessionShown{"frame", all[next].toStdString(), "", static_cast<std::uint32_t>(next + 1)})) return;
+  if (!session_.log(wale::SessionShown{"frame", all[next].toStdString(), "", static_cast<std::uint32_t>(next + 1)}))
+    return;
   shown_ = all[next].toStdString();
-  if (all[next] != now && !document_.show_workspace(all[next])) return emit said(tr("%1 cannot be shown").arg(all[next]));
+  if (all[next] != now && !document_.show_workspace(all[next]))
+    return emit said(tr("%1 cannot be shown").arg(all[next]));
   frame_ = next;
   begins_anew_ = false;
   QApplication::beep();
@@ -187,7 +246,8 @@ void Presenting::shuffle_places(const SizeOf& size_of) {
   if (sorting_.runs()) return emit said(tr("Finish the sort first, or break it off"));
   if (document_.is_stale()) return document_.change(tr("Shuffle"), document_.contents());  // says why not
   const std::uint32_t seed = session_.next_seed();
-  Shuffled shuffled = shuffle(document_.contents(), document_.chosen(), seed, feeling_.profile().workspace_diameter, size_of);
+  Shuffled shuffled =
+      shuffle(document_.contents(), document_.chosen(), seed, feeling_.profile().workspace_diameter, size_of);
   if (shuffled.moved == 0) return emit said(tr("Two unlocked patches are needed to shuffle"));
   wale::SessionOrder order{.what = "places", .of = document_.contents().name, .seed = seed};
   for (const PlacedRef& each : shuffled.contents.placed)
@@ -201,15 +261,17 @@ void Presenting::shuffle_places(const SizeOf& size_of) {
 
 void Presenting::start_sorting(const QString& name) {
   if (sorting_.runs()) return emit said(tr("Finish the sort first, or break it off"));
-  if (document_.is_stale()) return emit said(tr("The text has errors: mend them first, then there is something to sort"));
+  if (document_.is_stale())
+    return emit said(tr("The text has errors: mend them first, then there is something to sort"));
   const auto all = presentation();
   const auto found = !all              ? decltype(all->keys.begin()){}
                      : name.isEmpty() ? all->keys.begin()
                                       : std::ranges::find(all->keys, name.toStdString(), &wale::MiniKeys::name);
   if (!all || found == all->keys.end())
-    return emit said(name.isEmpty() ? tr("This file has no keys: keys sorting { of %1; area 80 mm, 80 mm; labels random }")
-                                          .arg(QString::fromStdString(document_.contents().name))
-                                    : tr("This file has no keys %1").arg(name));
+    return emit said(name.isEmpty()
+                         ? tr("This file has no keys: keys sorting { of %1; area 80 mm, 80 mm; labels random }")
+                               .arg(QString::fromStdString(document_.contents().name))
+                         : tr("This file has no keys %1").arg(name));
   waiting_ = *found;
   if (hides_names_) waiting_->numbered_at_random = true;
   if (waiting_->workspace != document_.contents().name) {
@@ -231,19 +293,22 @@ void Presenting::start_if_ready() {
     if (!each->is_laid_out() || feeling_.program(each->id)) continue;
     if (feeling_.material(each->id)) {
       waiting_.reset();
-      return emit said(tr("%1 has an error in its material: mend it first").arg(QString::fromStdString(each->patch.name)));
+      return emit said(
+          tr("%1 has an error in its material: mend it first").arg(QString::fromStdString(each->patch.name)));
     }
     return;
   }
   const wale::MiniKeys declared = *std::exchange(waiting_, std::nullopt);
   log_programs();
   if (!sorting_.start(declared, document_.contents(), session_.next_seed())) {
-    if (session_.trouble().isEmpty()) emit said(tr("%1 has no patch that can be a key").arg(QString::fromStdString(declared.workspace)));
+    if (session_.trouble().isEmpty())
+      emit said(tr("%1 has no patch that can be a key").arg(QString::fromStdString(declared.workspace)));
     return;
   }
   emit felt_changed();
   emit said(session_.runs() ? tr("%n key(s) to sort", nullptr, static_cast<int>(sorting_.keys().size()))
-                            : tr("%n key(s) to sort. There is no session: nothing is logged", nullptr, static_cast<int>(sorting_.keys().size())));
+                            : tr("%n key(s) to sort. There is no session: nothing is logged", nullptr,
+                                 static_cast<int>(sorting_.keys().size())));
 }
 
 void Presenting::finish_sorting() {
@@ -251,7 +316,8 @@ void Presenting::finish_sorting() {
   wale::SortedGroups groups{.workspace = sorting_.declared().workspace, .groups = sorting_.groups()};
   if (groups.groups.empty()) return emit said(tr("No pile was made: drag a key onto another one, or press +"));
   const auto all = presentation();
-  if (!all || document_.is_stale()) return emit said(tr("The text has errors: mend them first, then the groups can be saved"));
+  if (!all || document_.is_stale())
+    return emit said(tr("The text has errors: mend them first, then the groups can be saved"));
   std::string base = "sorted";
   if (session_.runs()) base += "_" + session_.participant().toStdString();
   groups.name = free_name(base, *all);
@@ -269,7 +335,8 @@ void Presenting::finish_sorting() {
   next.tail += "\n\n" + groups_text(groups) + "\n";
   document_.change(tr("Save groups %1").arg(QString::fromStdString(groups.name)), std::move(next));
   emit felt_changed();
-  QString words = tr("Sorted into %n group(s), %1", nullptr, static_cast<int>(groups.groups.size())).arg(QString::fromStdString(groups.name));
+  QString words = tr("Sorted into %n group(s), %1", nullptr, static_cast<int>(groups.groups.size()))
+                      .arg(QString::fromStdString(groups.name));
   if (alone > 0) words += tr("; %n key(s) lay alone", nullptr, static_cast<int>(alone));
   emit said(words);
 }
@@ -280,8 +347,10 @@ std::string Presenting::free_name(const std::string& base, const wale::Presentat
   const std::string plain = name, text = document_.text();
   const auto is_taken = [&] {
     const auto has_it = [&](const auto& each) { return each.name == name; };
-    return std::ranges::any_of(taken.groups, has_it) || std::ranges::any_of(taken.keys, has_it) || std::ranges::any_of(taken.movies, has_it) ||
-           std::ranges::find(taken.workspaces, name) != taken.workspaces.end() || text.find(" " + name + " ") != std::string::npos;
+    return std::ranges::any_of(taken.groups, has_it) || std::ranges::any_of(taken.keys, has_it) ||
+           std::ranges::any_of(taken.movies, has_it) ||
+           std::ranges::find(taken.workspaces, name) != taken.workspaces.end() ||
+           text.find(" " + name + " ") != std::string::npos;
   };
   for (int i = 2; is_taken(); ++i) name = plain + "_" + std::to_string(i);
   return name;
@@ -304,7 +373,8 @@ void Presenting::recentre() {
 
 void Presenting::centre_back() {
   if (!feeling_.centre_back()) return emit said(tr("The centre is the device's own"));
-  if (session_.log(wale::SessionNote{"the centre is the device's own"})) emit said(tr("All force is taken away; the centre is the device's own"));
+  if (session_.log(wale::SessionNote{"the centre is the device's own"}))
+    emit said(tr("All force is taken away; the centre is the device's own"));
 }
 
 void Presenting::end(const char* why) {

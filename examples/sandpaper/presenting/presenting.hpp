@@ -19,7 +19,8 @@ class Presenting : public QObject {
   Q_OBJECT
 
  public:
-  Presenting(const wale::Library& library, Document& document, Numbers& numbers, Feeling& feeling, QObject* parent = nullptr);
+  Presenting(const wale::Library& library, Document& document, Numbers& numbers, Feeling& feeling,
+             QObject* parent = nullptr);
 
   Session& session() { return session_; }
   Sorting& sorting() { return sorting_; }
@@ -61,6 +62,7 @@ class Presenting : public QObject {
   void follow_contents();
   bool log_numbers();
   void log_programs();
+  void lay_out();
   void start_if_ready();
   std::string free_name(const std::string& base, const wale::Presentation& taken) const;
 
@@ -76,7 +78,7 @@ class Presenting : public QObject {
   bool begins_anew_ = false;  // the next frame is the first one
   bool hides_names_ = false;
   std::string shown_;                       // the workspace that was logged last
-  std::set<std::string> numbered_;          // workspaces whose numbers were logged
+  std::map<std::string, std::set<std::string>> numbered_;  // patches whose numbers were logged, by workspaces
   std::optional<wale::MiniKeys> waiting_;  // keys whose materials are still compiled
 };
 

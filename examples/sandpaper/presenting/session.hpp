@@ -1,6 +1,8 @@
 #pragma once
 
 #include <QObject>
+#include <QTimer>
+#include <functional>
 #include <map>
 #include <optional>
 #include <random>
@@ -22,7 +24,7 @@ class Session : public QObject {
   Q_OBJECT
 
  public:
-  using QObject::QObject;
+  explicit Session(QObject* parent = nullptr);
 
   /// Begins a log beside the file that is presented: `kitchen-S48-1.session`, or the next number that is free. Error:
   /// as `wale::SessionLog::create`, or that the file is not saved yet. Then a session that ran before goes on.
@@ -38,10 +40,14 @@ class Session : public QObject {
   /// Brings an event to the disk and gives the number of its line, 0 without a session. If it cannot be written, that
   /// is said and nothing is given: then what it announces must not be presented.
   std::optional<std::uint64_t> log(const wale::SessionEvent& event);
-  /// Logs the programs that are not what was logged of these patches before: one line for each material, with all patches
-  /// that are made of it, so that a workspace of thousands waits for the disk some times and not thousands of times.
-  /// False if one cannot be written.
+  /// Logs the programs that are not what was logged of these patches before: one line for each material, with all
+  /// patches that are made of it, so that a workspace of thousands waits for the disk some times and not thousands of
+  /// times. False if one cannot be written.
   bool log_programs(const std::vector<PatchToLog>& patches);
+  /// Says where things lie now: the `what` ("patches", "keys") of `of`. What lies otherwise than the log says is logged
+  /// before the next event, and a quarter of a second from now at most, so that a drag is some lines and not a hundred.
+  /// `places` is called then and not later, and must give what is so now.
+  void lay_out(const std::string& what, const std::string& of, std::function<std::vector<wale::SessionPlace>()> places);
   /// A seed for what is random next: of the session's own sequence, or any without a session.
   std::uint32_t next_seed();
 
@@ -56,11 +62,20 @@ class Session : public QObject {
     std::uint64_t hash = 0;
   };
 
+  using Layout = std::pair<std::string, std::string>;  // what, of
+
+  std::optional<std::uint64_t> append(const wale::SessionEvent& event);
+  bool log_places();
+  bool log_places_of(const Layout& layout, const std::vector<wale::SessionPlace>& places);
+
   std::optional<wale::SessionLog> log_;
   QString participant_, trouble_;
   std::uint32_t seed_ = 0;
   std::mt19937 random_;
   std::map<std::string, Logged> programs_;  // by patches
+  std::map<Layout, std::map<std::string, wale::SessionPlace>> places_;  // as they are in the log
+  std::map<Layout, std::function<std::vector<wale::SessionPlace>()>> changed_places_;
+  QTimer placing_;
 };
 
 }  // namespace sandpaper

@@ -7,7 +7,12 @@
 namespace sandpaper {
 
 SessionPanel::SessionPanel(Session& session, QWidget* parent)
-    : QWidget(parent), session_(session), participant_(new QLineEdit), seed_(new QLineEdit), button_(new QPushButton), state_(new QLabel) {
+    : QWidget(parent),
+      session_(session),
+      participant_(new QLineEdit),
+      seed_(new QLineEdit),
+      button_(new QPushButton),
+      state_(new QLabel) {
   participant_->setObjectName("participant_id");
   participant_->setPlaceholderText(tr("an identifier, as S48"));
   participant_->setMaxLength(60);
@@ -42,9 +47,10 @@ SessionPanel::SessionPanel(Session& session, QWidget* parent)
 void SessionPanel::update_state() {
   button_->setText(session_.runs() ? tr("End the session") : tr("Begin a session"));
   for (QLineEdit* each : {participant_, seed_}) each->setEnabled(!session_.runs());
-  state_->setText(!session_.runs()                ? tr("No session: nothing is logged.")
-                  : session_.trouble().isEmpty() ? tr("Seed %1. Logged in %2").arg(session_.seed()).arg(session_.path())
-                                                 : tr("%1 cannot be written: %2").arg(session_.path(), session_.trouble()));
+  state_->setText(!session_.runs() ? tr("No session: nothing is logged.")
+                  : session_.trouble().isEmpty()
+                      ? tr("Seed %1. Logged in %2").arg(session_.seed()).arg(session_.path())
+                      : tr("%1 cannot be written: %2").arg(session_.path(), session_.trouble()));
 }
 
 }  // namespace sandpaper

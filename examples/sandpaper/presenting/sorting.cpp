@@ -53,13 +53,15 @@ bool Sorting::start(const wale::MiniKeys& declared, const Contents& contents, st
   if (keys.empty()) return false;
   declared_ = declared;
   std::mt19937 random(seed);
-  table_ = 2.0 * glm::dvec2(std::abs(area_at().x) + area_size().x / 2, std::abs(area_at().y) + area_size().y / 2) + 4 * pitch * side();
+  table_ = 2.0 * glm::dvec2(std::abs(area_at().x) + area_size().x / 2, std::abs(area_at().y) + area_size().y / 2) +
+           4 * pitch * side();
   if (table_.x < 1.4 * table_.y) table_.x = 1.4 * table_.y;
   std::vector<glm::dvec2> places;
   while ((places = free_places(table_, side(), area_at(), area_size())).size() < room * keys.size()) table_ *= growth;
   shuffle_list(places, random);
   std::set<std::uint32_t> numbers;
-  const auto many = static_cast<std::uint32_t>(std::max<std::size_t>(900, 10 * keys.size()));  // three digits for 90 keys and more
+  const auto many =
+      static_cast<std::uint32_t>(std::max<std::size_t>(900, 10 * keys.size()));  // three digits for 90 keys and more
   wale::SessionOrder order{.what = "keys", .of = declared.name, .seed = seed};
   for (std::size_t i = 0; i < keys.size(); ++i) {
     std::uint32_t number = 0;
@@ -73,6 +75,7 @@ bool Sorting::start(const wale::MiniKeys& declared, const Contents& contents, st
   for (const SortingKey& each : keys) order.items.push_back({each.name, each.label.toStdString(), each.at});
   if (!session_.log(order)) return false;
   keys_ = std::move(keys);
+  lay_out();
   emit changed();
   return true;
 }
@@ -81,6 +84,14 @@ void Sorting::stop() {
   keys_.clear(), says_.clear(), steps_.clear();
   chosen_.reset();
   emit changed();
+}
+
+void Sorting::lay_out() {
+  session_.lay_out("keys", declared_.name, [keys = keys_] {
+    std::vector<wale::SessionPlace> places;
+    for (const SortingKey& each : keys) places.push_back({.name = each.name, .at = each.at});
+    return places;
+  });
 }
 
 std::vector<int> Sorting::piles() const {
@@ -110,7 +121,9 @@ std::optional<std::size_t> Sorting::key_at(glm::dvec2 metres) const {
 
 void Sorting::choose(std::size_t key) {
   if (key >= keys_.size() || chosen_ == key) return;
-  if (!session_.log(wale::SessionShown{"key", keys_[key].name, keys_[key].label.toStdString(), static_cast<std::uint32_t>(key + 1)})) return;
+  if (!session_.log(wale::SessionShown{"key", keys_[key].name, keys_[key].label.toStdString(),
+                                       static_cast<std::uint32_t>(key + 1)}))
+    return;
   chosen_ = key;
   emit chosen_changed();
   emit changed();
@@ -120,6 +133,7 @@ void Sorting::move(std::size_t key, glm::dvec2 to) {
   if (key >= keys_.size()) return;
   const glm::dvec2 most = 0.5 * (table_ - side());
   keys_[key].at = {std::clamp(to.x, -most.x, most.x), std::clamp(to.y, -most.y, most.y)};
+  lay_out();
   emit changed();
 }
 
@@ -162,11 +176,13 @@ void Sorting::tidy(int pile) {
       const glm::dvec2 least = at - 0.5 * whole, most = at + 0.5 * whole;
       return from.x < most.x && to.x > least.x && from.y < most.y && to.y > least.y;
     };
-    return !lies_on(area_at(), area_size()) &&
-           std::ranges::none_of(keys_, [&](const SortingKey& each) { return each.pile != pile && lies_on(each.at, glm::dvec2(side())); });
+    return !lies_on(area_at(), area_size()) && std::ranges::none_of(keys_, [&](const SortingKey& each) {
+      return each.pile != pile && lies_on(each.at, glm::dvec2(side()));
+    });
   };
   const auto within = [&](glm::dvec2 corner) {
-    return glm::dvec2(std::clamp(corner.x, low.x, std::max(low.x, high.x)), std::clamp(corner.y, low.y, std::max(low.y, high.y)));
+    return glm::dvec2(std::clamp(corner.x, low.x, std::max(low.x, high.x)),
+                      std::clamp(corner.y, low.y, std::max(low.y, high.y)));
   };
   const glm::dvec2 wanted = within(first - 0.5 * gap * side());
   glm::dvec2 corner = wanted;
@@ -174,10 +190,13 @@ void Sorting::tidy(int pile) {
     double nearest = std::numeric_limits<double>::infinity();
     for (double x = low.x; x <= high.x; x += side() / 4)
       for (double y = low.y; y <= high.y; y += side() / 4)
-        if (const double way = std::hypot(x - wanted.x, y - wanted.y); way < nearest && is_free({x, y})) nearest = way, corner = {x, y};
+        if (const double way = std::hypot(x - wanted.x, y - wanted.y); way < nearest && is_free({x, y}))
+          nearest = way, corner = {x, y};
   }
   for (std::size_t i = 0; i < of_it.size(); ++i)
-    of_it[i]->at = corner + gap * side() * glm::dvec2(static_cast<double>(i % in_a_row) + 0.5, static_cast<double>(i / in_a_row) + 0.5);
+    of_it[i]->at =
+        corner +
+        gap * side() * glm::dvec2(static_cast<double>(i % in_a_row) + 0.5, static_cast<double>(i / in_a_row) + 0.5);
 }
 
 void Sorting::put(std::size_t key, int pile) {
@@ -192,6 +211,7 @@ void Sorting::put(std::size_t key, int pile) {
     tidy(pile);
   }
   if (before != 0) tidy(before);
+  lay_out();
   emit changed();
 }
 
@@ -204,6 +224,7 @@ void Sorting::put_on(std::size_t key, std::size_t other) {
   keys_[key].pile = keys_[other].pile = pile;
   tidy(pile);
   if (before != 0) tidy(before);
+  lay_out();
   emit changed();
 }
 
@@ -219,6 +240,7 @@ void Sorting::join(int pile, int into) {
     if (each.pile == pile) each.pile = into, each.at = where;
   std::ranges::find(keys_, into, &SortingKey::pile)->at = where;
   tidy(into);
+  lay_out();
   emit changed();
 }
 
@@ -236,6 +258,7 @@ void Sorting::take_back() {
   if (!last.answers.empty() && !session_.log(wale::SessionTakenBack{last.answers})) return;
   keys_ = std::move(last.keys), says_ = std::move(last.says);
   steps_.pop_back();
+  lay_out();
   emit changed();
 }
 
@@ -258,7 +281,8 @@ std::string groups_text(const wale::SortedGroups& groups) {
     for (std::size_t i = 0; i < group.patches.size(); ++i) text += (i ? ", " : "") + group.patches[i];
     if (!group.says.empty()) {
       text += ", \"";
-      for (const char letter : group.says) text += letter == '"' || letter == '\\' ? std::string("\\") + letter : std::string(1, letter);
+      for (const char letter : group.says)
+        text += letter == '"' || letter == '\\' ? std::string("\\") + letter : std::string(1, letter);
       text += "\"";
     }
     text += "\n";

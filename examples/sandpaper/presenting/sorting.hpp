@@ -80,6 +80,7 @@ class Sorting : public QObject {
   bool answer(std::vector<wale::SessionAnswer> answers, int begun = 0);
   wale::SessionAnswer in_pile(std::size_t key, int pile) const;
   void tidy(int pile);  ///< lays its keys side by side
+  void lay_out();       ///< tells the session where the keys lie
 
   Session& session_;
   wale::MiniKeys declared_;

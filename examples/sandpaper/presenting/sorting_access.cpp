@@ -1,5 +1,5 @@
-// What a screen reader meets on the sorting table: each key is an item with a label, its pile and actions. The patch's name
-// is told only where it is the label.
+// What a screen reader meets on the sorting table: each key is an item with a label, its pile and actions. The patch's
+// name is told only where it is the label.
 #include <QAccessibleWidget>
 #include <QPointer>
 #include <map>
@@ -25,7 +25,8 @@ class KeyAccess : public ItemAccess {
       case QAccessible::Description: {
         if (it->pile == 0) return SortingTable::tr("in no pile");
         const QString says = table_->sorting().says(it->pile);
-        return says.isEmpty() ? SortingTable::tr("in pile %1").arg(it->pile) : SortingTable::tr("in pile %1, %2").arg(it->pile).arg(says);
+        return says.isEmpty() ? SortingTable::tr("in pile %1").arg(it->pile)
+                              : SortingTable::tr("in pile %1, %2").arg(it->pile).arg(says);
       }
       default: return {};
     }
@@ -47,9 +48,11 @@ class KeyAccess : public ItemAccess {
         {SortingTable::tr("new pile"), [&sorting, index] { sorting.put(index, sorting.new_pile()); }},
         {SortingTable::tr("take out"), [&sorting, index] { sorting.put(index, 0); }}};
     for (const int pile : sorting.piles()) {
-      all.emplace_back(SortingTable::tr("into pile %1").arg(pile), [&sorting, index, pile] { sorting.put(index, pile); });
+      all.emplace_back(SortingTable::tr("into pile %1").arg(pile),
+                       [&sorting, index, pile] { sorting.put(index, pile); });
       if (const int own = key()->pile; own != 0 && own != pile)
-        all.emplace_back(SortingTable::tr("join its pile to pile %1").arg(pile), [&sorting, own, pile] { sorting.join(own, pile); });
+        all.emplace_back(SortingTable::tr("join its pile to pile %1").arg(pile),
+                         [&sorting, own, pile] { sorting.join(own, pile); });
     }
     return all;
   }

@@ -57,7 +57,8 @@ void SortingPage::update_bar() {
   if (pile != shown_ || !label_->hasFocus()) label_->setText(sorting_.says(pile));
   shown_ = pile;
   label_->setEnabled(pile != 0);
-  label_->setPlaceholderText(pile != 0 ? tr("What is alike in pile %1?").arg(pile) : tr("The chosen key is in no pile"));
+  label_->setPlaceholderText(pile != 0 ? tr("What is alike in pile %1?").arg(pile)
+                                       : tr("The chosen key is in no pile"));
   new_pile_->setEnabled(chosen);
   take_out_->setEnabled(pile != 0);
   take_back_->setEnabled(sorting_.can_take_back());

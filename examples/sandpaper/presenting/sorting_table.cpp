@@ -16,7 +16,8 @@ constexpr double least_drag = 4;  // pixels
 
 }  // namespace
 
-SortingTable::SortingTable(Sorting& sorting, Feeling& feeling, QWidget* parent) : QWidget(parent), sorting_(sorting), feeling_(feeling) {
+SortingTable::SortingTable(Sorting& sorting, Feeling& feeling, QWidget* parent)
+    : QWidget(parent), sorting_(sorting), feeling_(feeling) {
   use_sorting_access();
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
@@ -43,7 +44,8 @@ glm::dvec2 SortingTable::to_metres(QPointF pixels) const {
 }
 
 QRectF SortingTable::rectangle(glm::dvec2 centre, glm::dvec2 size) const {
-  return QRectF(to_pixels({centre.x - size.x / 2, centre.y + size.y / 2}), to_pixels({centre.x + size.x / 2, centre.y - size.y / 2}));
+  return QRectF(to_pixels({centre.x - size.x / 2, centre.y + size.y / 2}),
+                to_pixels({centre.x + size.x / 2, centre.y - size.y / 2}));
 }
 
 QRectF SortingTable::box_of(const SortingKey& key) const { return rectangle(key.at, glm::dvec2(sorting_.side())); }
@@ -87,8 +89,10 @@ void SortingTable::paintEvent(QPaintEvent*) {
     painter.drawRoundedRect(box_of_pile(pile), 5, 5);
     painter.setPen(ink);
     const QRectF place = label_of(pile).adjusted(5, 0, -3, 0);
-    const QString words = sorting_.says(pile).isEmpty() ? QString::number(pile) : QString("%1 %2").arg(pile).arg(sorting_.says(pile));
-    painter.drawText(place, Qt::AlignVCenter, fontMetrics().elidedText(words, Qt::ElideRight, static_cast<int>(place.width())));
+    const QString words =
+        sorting_.says(pile).isEmpty() ? QString::number(pile) : QString("%1 %2").arg(pile).arg(sorting_.says(pile));
+    painter.drawText(place, Qt::AlignVCenter,
+                     fontMetrics().elidedText(words, Qt::ElideRight, static_cast<int>(place.width())));
   }
   for (std::size_t i = 0; i < sorting_.keys().size(); ++i) {
     const SortingKey& key = sorting_.keys()[i];
@@ -98,7 +102,8 @@ void SortingTable::paintEvent(QPaintEvent*) {
     painter.setBrush(Qt::black);
     painter.drawRect(box);
     painter.setPen(Qt::white);
-    painter.drawText(box, Qt::AlignCenter, fontMetrics().elidedText(key.label, Qt::ElideRight, static_cast<int>(box.width()) - 4));
+    painter.drawText(box, Qt::AlignCenter,
+                     fontMetrics().elidedText(key.label, Qt::ElideRight, static_cast<int>(box.width()) - 4));
   }
   if (dragged_pile_ != 0) {
     painter.setPen(QPen(highlight, 2, Qt::DashLine));
@@ -134,7 +139,8 @@ void SortingTable::mousePressEvent(QMouseEvent* event) {
 void SortingTable::mouseMoveEvent(QMouseEvent* event) {
   dragged_to_ = event->position();
   if (feeling_.is_mouse()) feeling_.move_mouse(glm::vec2(to_metres(dragged_to_)), false);
-  if (dragged_ && (dragged_to_ - pressed_at_).manhattanLength() > least_drag) sorting_.move(*dragged_, to_metres(dragged_to_) - grip_);
+  if (dragged_ && (dragged_to_ - pressed_at_).manhattanLength() > least_drag)
+    sorting_.move(*dragged_, to_metres(dragged_to_) - grip_);
   if (dragged_pile_ != 0) update();
 }
 

@@ -9,8 +9,8 @@
 namespace sandpaper {
 
 /// The keys, the piles and the touching area from above. Keys are chosen with a click, not by moving over them, and
-/// dragged into piles: onto another key, which joins it or makes a pile of both; onto free ground, which takes it out. A
-/// pile is dragged by its label. In the window's thread.
+/// dragged into piles: onto another key, which joins it or makes a pile of both; onto free ground, which takes it out.
+/// A pile is dragged by its label. In the window's thread.
 class SortingTable : public QWidget {
   Q_OBJECT
 

@@ -1,4 +1,5 @@
 // The menus: every command, with its key.
+#include <QAccessible>
 #include <QActionGroup>
 #include <QApplication>
 #include <QDesktopServices>
@@ -7,12 +8,18 @@
 #include <QMenuBar>
 #include <QProcess>
 #include <QSettings>
+#include <QStatusBar>
 #include <QUrl>
 
 #include "document/arranging.hpp"
 #include "window/main_window.hpp"
 
 namespace sandpaper {
+namespace {
+
+constexpr int said_milliseconds = 10000;
+
+}  // namespace
 
 QAction* MainWindow::add(QMenu* menu, const QString& name, const QString& text, const QKeySequence& key,
                          const std::function<void()>& act) {
@@ -80,7 +87,8 @@ void MainWindow::make_edit_menu() {
     action->setShortcutContext(Qt::WidgetShortcut);
     canvas_->addAction(action);
   };
-  auto* remove = add(menu, "delete", tr("De&lete"), QKeySequence::Delete, [this] { document_.remove(document_.chosen()); });
+  auto* remove =
+      add(menu, "delete", tr("De&lete"), QKeySequence::Delete, [this] { document_.remove(document_.chosen()); });
   on_canvas(remove);
   auto* all = add(menu, "choose_all", tr("Choose &all"), QKeySequence::SelectAll, [this] {
     std::set<std::uint64_t> ids;
@@ -98,20 +106,24 @@ void MainWindow::make_edit_menu() {
     if (!ok || name.toStdString() == chosen->patch.name) return;
     const std::string free = document_.contents().new_name(name.toStdString());
     document_.change_placed(tr("Rename"), {chosen->id}, [&](Placed& placed) { placed.patch.name = free; });
-    if (free != name.toStdString()) announcement_->say(tr("It is called %1: a name has letters, digits and _, and is there once")
-                                                           .arg(QString::fromStdString(free)));
+    if (free != name.toStdString())
+      announcement_->say(
+          tr("It is called %1: a name has letters, digits and _, and is there once").arg(QString::fromStdString(free)));
   });
   menu->addSeparator();
   const int far = 1 << 30;
   on_canvas(add(menu, "raise", tr("R&aise"), tr("PgUp"), [this] { document_.raise(document_.chosen(), 1); }));
   on_canvas(add(menu, "lower", tr("&Lower"), tr("PgDown"), [this] { document_.raise(document_.chosen(), -1); }));
-  on_canvas(add(menu, "front", tr("To the &front"), tr("Ctrl+PgUp"), [this, far] { document_.raise(document_.chosen(), far); }));
-  on_canvas(add(menu, "back", tr("To the &back"), tr("Ctrl+PgDown"), [this, far] { document_.raise(document_.chosen(), -far); }));
+  on_canvas(add(menu, "front", tr("To the &front"), tr("Ctrl+PgUp"),
+                [this, far] { document_.raise(document_.chosen(), far); }));
+  on_canvas(add(menu, "back", tr("To the &back"), tr("Ctrl+PgDown"),
+                [this, far] { document_.raise(document_.chosen(), -far); }));
   add(menu, "lock", tr("Loc&k or unlock"), tr("Ctrl+L"), [this] {
     bool all = true;
     for (const auto id : document_.chosen())
       if (const Placed* each = document_.contents().find(id)) all = all && each->locked;
-    document_.change_placed(all ? tr("Unlock") : tr("Lock"), document_.chosen(), [all](Placed& placed) { placed.locked = !all; });
+    document_.change_placed(all ? tr("Unlock") : tr("Lock"), document_.chosen(),
+                            [all](Placed& placed) { placed.locked = !all; });
   });
   QMenu* alignment = menu->addMenu(tr("Al&ign"));
   const auto size_of = [this](const Placed& placed) { return canvas_->size_of(placed); };
@@ -124,7 +136,8 @@ void MainWindow::make_edit_menu() {
       {"align_y", tr("centres, &side by side"), Alignment::centre_y, "Ctrl+Shift+M"}};
   for (const auto& [name, text, alignment_of, key] : ways) {
     const Alignment wanted = alignment_of;
-    on_canvas(add(alignment, name, text, QKeySequence(key), [this, wanted, size_of] { align(document_, wanted, size_of); }));
+    on_canvas(
+        add(alignment, name, text, QKeySequence(key), [this, wanted, size_of] { align(document_, wanted, size_of); }));
   }
   add(menu, "fit", tr("Fit into the device's &reach"), tr("Ctrl+R"), [this, size_of] {
     const int moved = fit(document_, feeling_.profile().workspace_diameter, size_of);
@@ -167,18 +180,21 @@ void MainWindow::make_view_menu() {
       {"look_force", tr("&Force field"), Look::force_field, "Ctrl+4"}};
   for (const auto& [name, text, look, key] : surfaces) {
     const Look wanted = look;
-    look_group->addAction(add_toggle(looks, name, text, QKeySequence(key), wanted == Look::relief,
-                                     [change, wanted](bool) { change([=](CanvasLook& each) { each.surfaces = wanted; }); }));
+    look_group->addAction(
+        add_toggle(looks, name, text, QKeySequence(key), wanted == Look::relief,
+                   [change, wanted](bool) { change([=](CanvasLook& each) { each.surfaces = wanted; }); }));
   }
   QMenu* cursors = menu->addMenu(tr("&Cursor"));
   auto* cursor_group = new QActionGroup(this);
-  const std::pair<QString, Cursor> kinds[] = {{tr("&Ring"), Cursor::ring}, {tr("&Square"), Cursor::square},
-                                              {tr("With a &drop shadow"), Cursor::drop_shadow}, {tr("&Hidden"), Cursor::hidden}};
+  const std::pair<QString, Cursor> kinds[] = {{tr("&Ring"), Cursor::ring},
+                                              {tr("&Square"), Cursor::square},
+                                              {tr("With a &drop shadow"), Cursor::drop_shadow},
+                                              {tr("&Hidden"), Cursor::hidden}};
   for (const auto& [text, kind] : kinds) {
     const Cursor wanted = kind;
-    cursor_group->addAction(add_toggle(cursors, "cursor_" + QString::number(static_cast<int>(wanted)), text, {},
-                                       wanted == Cursor::ring,
-                                       [change, wanted](bool) { change([=](CanvasLook& each) { each.cursor = wanted; }); }));
+    cursor_group->addAction(
+        add_toggle(cursors, "cursor_" + QString::number(static_cast<int>(wanted)), text, {}, wanted == Cursor::ring,
+                   [change, wanted](bool) { change([=](CanvasLook& each) { each.cursor = wanted; }); }));
   }
   cursors->addSeparator();
   add_toggle(cursors, "cursor_behind", tr("&Behind the marks"), {}, false,
@@ -195,7 +211,8 @@ void MainWindow::make_view_menu() {
              [change](bool on) { change([=](CanvasLook& each) { each.black = on; }); });
   QMenu* snapping = menu->addMenu(tr("Sna&p to"));
   auto* snap_group = new QActionGroup(this);
-  const std::pair<QString, double> steps[] = {{tr("nothing"), 0}, {tr("0.1 mm"), 1e-4}, {tr("1 mm"), 1e-3}, {tr("5 mm"), 5e-3}};
+  const std::pair<QString, double> steps[] = {
+      {tr("nothing"), 0}, {tr("0.1 mm"), 1e-4}, {tr("1 mm"), 1e-3}, {tr("5 mm"), 5e-3}};
   for (const auto& [text, step] : steps) {
     const double wanted = step;
     snap_group->addAction(add_toggle(snapping, "snap_" + QString::number(wanted * 1000), text, {}, wanted == 1e-3,
@@ -208,13 +225,16 @@ void MainWindow::make_view_menu() {
     toggle->setShortcut(QKeySequence(QString("Alt+%1").arg(++number)));
     menu->addAction(toggle);
   }
-  add_toggle(menu, "participant", tr("Participant's &window"), tr("Ctrl+Shift+P"), false, [this](bool on) { show_participant(on); });
+  add_toggle(menu, "participant", tr("Participant's &window"), tr("Ctrl+Shift+P"), false,
+             [this](bool on) { show_participant(on); });
 }
 
 void MainWindow::make_feel_menu() {
   QMenu* menu = menuBar()->addMenu(tr("F&eel"));
-  add_toggle(menu, "feel", tr("&Feel it"), tr("Ctrl+Space"), false, [this](bool on) { feeling_.set_on(on); })
-      ->setShortcutContext(Qt::WindowShortcut);
+  add_toggle(menu, "feel", tr("&Feel it"), tr("Ctrl+Space"), false, [this](bool on) {
+    feeling_.set_on(on);
+    update_safety();  // a run that could not begin has changed nothing, but the mark of this command
+  })->setShortcutContext(Qt::WindowShortcut);
   add(menu, "no_force", tr("&Take all force away (Space)"), {}, [this] { feeling_.set_on(false); });
   add_toggle(menu, "feel_when_opened", tr("Feel this file as soon as it is &opened"), {}, false, [this](bool on) {
     QSettings settings;
@@ -238,7 +258,9 @@ void MainWindow::make_feel_menu() {
                           : placed                     ? told.told_of(*placed)
                                                        : tr("nothing is touched");
     announcement_->say(words);
-    QProcess::startDetached("spd-say", {words});  // if there is a speech dispatcher
+    if (!QProcess::startDetached("spd-say", {words}) && !QAccessible::isActive())
+      statusBar()->showMessage(tr("Nothing speaks here: install speech-dispatcher, or use a screen reader"),
+                               said_milliseconds);
   });
   add(menu, "devices", tr("Look for &devices again"), tr("F5"), [this] {
     device_->clear();
@@ -256,9 +278,10 @@ void MainWindow::make_help_menu() {
   add(menu, "language", tr("The &language"), {}, [this] { show_page("schema/LANGUAGE.md"); });
   menu->addSeparator();
   add(menu, "keys", tr("&Keys"), tr("F1"), [this] {
-    announcement_->say(tr("Space or Esc takes all force away. On the canvas: arrows move by 1 mm (with Shift 10, with Ctrl 0.1), "
-                          "N and P choose the next and the previous patch, the wheel zooms, the middle button pans, Alt moves "
-                          "without snapping. In the text: Ctrl+Space proposes words, Ctrl+. mends."));
+    announcement_->say(
+        tr("Space or Esc takes all force away. On the canvas: arrows move by 1 mm (with Shift 10, with Ctrl 0.1), "
+           "N and P choose the next and the previous patch, the wheel zooms, the middle button pans, Alt moves "
+           "without snapping. In the text: Ctrl+Space proposes words, Ctrl+. mends."));
   });
   add(menu, "about", tr("&About"), {}, [this] {
     announcement_->say(tr("Sandpaper: a workspace for materials that are felt, after Margaret Minsky's of 1995."));

@@ -10,13 +10,14 @@
 #include "canvas/canvas.hpp"
 #include "canvas/page.hpp"
 #include "editor/text_editor.hpp"
+#include "panels/preview_panel.hpp"
 #include "window/long_work.hpp"
 #include "window/question.hpp"
 
 namespace sandpaper {
 
-/// Takes what other programs and other workspaces made into the document, and gives it away in other formats. What fails is
-/// said (`said`), and leaves neither half a file nor a changed document. In the window's thread.
+/// Takes what other programs and other workspaces made into the document, and gives it away in other formats. What
+/// fails is said (`said`), and leaves neither half a file nor a changed document. In the window's thread.
 class Exchange : public QObject {
   Q_OBJECT
 
@@ -27,22 +28,26 @@ class Exchange : public QObject {
 
   /// The commands with file dialogs, in the File menu.
   void add_to(QMenu& menu, QWidget& window);
-  /// The patch whose program and surface are exported: chosen or touched.
+  /// What is felt of a patch.
+  Previewed previewed(const Placed& placed, const wale::Program& program) const;
+  /// The patch whose preview, program and surface are exported: chosen or touched.
   void set_shown(const std::function<std::optional<std::uint64_t>()>& shown) { shown_ = shown; }
 
   /// Arrays, movies and shuffles of the thesis's Sandpaper, or waves. The figures that arrays do not say are asked for.
   void import_files(QStringList files, bool waves = false);
-  /// Puts the first workspace of a Wale file, and all that it declares, into the open one: one step of undo. Names that are
-  /// taken get new ones.
+  /// Puts the first workspace of a Wale file, and all that it declares, into the open one: one step of undo. Names that
+  /// are taken get new ones.
   void merge(const QString& file);
 
   void export_picture(const QString& file);
+  /// The page of `wale preview` of the shown patch, in the format that the ending says.
+  void export_preview(const QString& file);
   void export_program(const QString& file);
   /// The relief of the shown patch; its colours for a name that ends in ".shade". Asks how wide a cell is.
   void export_array(const QString& file);
   void export_movie(const QString& file, const QString& movie);
-  /// Writes as which shuffle of a movie another one was shown.
-  void export_shuffle(const QString& file, const QString& movie, const QString& shuffled);
+  /// Writes as which shuffle of a movie another one was shown. False if it is not written, which is said.
+  bool export_shuffle(const QString& file, const QString& movie, const QString& shuffled);
   /// Declares a new order of a movie's frames, drawn by `seed`, and writes it.
   void shuffle_movie(const QString& file, const QString& movie, std::uint32_t seed);
   void export_pdf(const QString& file);

@@ -12,6 +12,8 @@ namespace sandpaper {
 namespace {
 
 const char* const wale_files = QT_TRANSLATE_NOOP("sandpaper", "Wale files (*.wale)");
+const QStringList of_1995 = {"depth", "shade", "wave", "movie", "shuffle"};  // names of the thesis's files end so
+constexpr double beside = 0.01;                                              // m, from one dropped picture to the next
 const char* const trusted_key = "felt_when_opened";
 
 }  // namespace
@@ -41,13 +43,15 @@ bool MainWindow::save_as() {
 
 void MainWindow::when_saved(const QString& what, const std::function<void()>& then) {
   if (!document_.is_modified()) return then();
-  announcement_->offer(tr("%1 has changes that are not saved. Save it first (Ctrl+S), or %2 without them.").arg(document_.title(), what),
-                       tr("Discard the changes and %1").arg(what), then);
+  announcement_->offer(
+      tr("%1 has changes that are not saved. Save it first (Ctrl+S), or %2 without them.").arg(document_.title(), what),
+      tr("Discard the changes and %1").arg(what), then);
 }
 
 void MainWindow::open_asked() {
   when_saved(tr("open another file"), [this] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Open a workspace"), QFileInfo(document_.file()).path(), tr(wale_files));
+    const QString file =
+        QFileDialog::getOpenFileName(this, tr("Open a workspace"), QFileInfo(document_.file()).path(), tr(wale_files));
     if (!file.isEmpty()) open(file);
   });
 }
@@ -68,13 +72,15 @@ void MainWindow::place_material(const QString& spelling, glm::dvec2 at) {
 
 void MainWindow::place_recipe(const QString& recipe, glm::dvec2 at) {
   editor_->commit();
-  if (document_.is_stale()) return announcement_->say(tr("The text has errors: mend them first, then this can be placed"));
+  if (document_.is_stale())
+    return announcement_->say(tr("The text has errors: mend them first, then this can be placed"));
   const WithRecipe placed = with_recipe(language_, document_.contents(), recipe.toStdString(), at);
   const std::string text = document_.text_of(placed.contents);
   const std::string name = document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString();
   for (const wale::Problem& each : language_.check(text, {.name = name}).problems)
     if (wale::severity_of(each.error.code) == wale::Severity::error)
-      return announcement_->say(tr("This cannot be placed here: %1").arg(QString::fromStdString(wale::in_words(each.error))));
+      return announcement_->say(
+          tr("This cannot be placed here: %1").arg(QString::fromStdString(wale::in_words(each.error))));
   document_.set_text(text, tr("Place a recipe"));
   std::set<std::uint64_t> ids;
   for (const PlacedRef& each : document_.contents().placed)
@@ -83,15 +89,45 @@ void MainWindow::place_recipe(const QString& recipe, glm::dvec2 at) {
   canvas_->setFocus();
 }
 
-void MainWindow::place_picture(const QString& path, glm::dvec2 at) {
-  // The picture itself is not opened here: only the compiler's decoder, which has no rights, reads a stranger's file.
-  question_->ask(tr("%1\nHow many millimetres is one of its pixels?").arg(QFileInfo(path).fileName()),
-                 {{tr("&pixel"), tr("mm"), 0.2, 0.001, 10, 3}}, tr("Place it"),
-                 [this, path, at](const std::vector<double>& answers) { place_picture(path, at, answers.front()); });
+void MainWindow::take_dropped(const QStringList& files, glm::dvec2 at) {
+  editor_->commit();
+  if (document_.is_stale())
+    return announcement_->say(tr("The text has errors: mend them first, then this can be placed"));
+  QStringList of_thesis, pictures;
+  for (const QString& each : files)
+    (of_1995.contains(QFileInfo(each).suffix().toLower()) ? of_thesis : pictures) << each;
+  if (!of_thesis.isEmpty()) exchange_->import_files(of_thesis);
+  if (pictures.isEmpty()) return;
+  if (!of_thesis.isEmpty()) return announcement_->say(tr("Drop the pictures again, without the other files"));
+  QStringList names;
+  for (const QString& each : pictures) names << QFileInfo(each).fileName();
+  // No picture is opened here: only the compiler's decoder, which has no rights, reads a stranger's file.
+  question_->ask(
+      pictures.size() == 1 ? tr("%1\nHow many millimetres is one of its pixels?").arg(names.front())
+                           : tr("%1\nHow many millimetres is one of their pixels?").arg(names.join(", ")),
+      {{tr("&pixel"), tr("mm"), 0.2, 0.001, 10, 3}}, pictures.size() == 1 ? tr("Place it") : tr("Place them"),
+      [this, pictures, at](const std::vector<double>& answers) { place_pictures(pictures, at, answers.front()); });
 }
 
-void MainWindow::place_picture(const QString& path, glm::dvec2 at, double scale) {
-  const QString file = document_.file().isEmpty() ? path : QDir(QFileInfo(document_.file()).path()).relativeFilePath(path);
+void MainWindow::place_pictures(const QStringList& files, glm::dvec2 at, double scale) {
+  editor_->commit();
+  if (document_.is_stale())
+    return announcement_->say(tr("The text has errors: mend them first, then this can be placed"));
+  document_.undo_stack().beginMacro(files.size() == 1
+                                        ? tr("Import %1").arg(QFileInfo(files.front()).fileName())
+                                        : tr("Import %n picture(s)", nullptr, static_cast<int>(files.size())));
+  std::set<std::uint64_t> ids;
+  for (const QString& each : files) {
+    ids.insert(place_picture(each, at, scale));
+    at += glm::dvec2(beside, -beside);
+  }
+  document_.undo_stack().endMacro();
+  document_.choose(ids);
+}
+
+std::uint64_t MainWindow::place_picture(const QString& path, glm::dvec2 at, double scale) {
+  const QString file =
+      document_.file().isEmpty() ? path : QDir(QFileInfo(document_.file()).path()).relativeFilePath(path);
   QString quoted = file;
   quoted.replace('\\', "\\\\").replace('"', "\\\"");
   Contents next = document_.contents();
@@ -101,12 +137,10 @@ void MainWindow::place_picture(const QString& path, glm::dvec2 at, double scale)
                        "    show relief(surface)\n  }\n}\n\n")
                    .arg(name, quoted, QString::number(scale, 'g', 5))
                    .toStdString();
-  document_.undo_stack().beginMacro(tr("Import %1").arg(name));
   document_.change(tr("Import %1").arg(name), std::move(next));
   wale::LaidOutPatch patch{.name = name.toStdString() + "_patch", .made_of = name.toStdString(), .at = at};
   const auto ids = document_.add(tr("Place %1").arg(name), {std::move(patch)});
-  document_.undo_stack().endMacro();
-  document_.choose({ids.begin(), ids.end()});
+  return ids.front();
 }
 
 }  // namespace sandpaper

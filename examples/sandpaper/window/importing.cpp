@@ -6,7 +6,7 @@
 
 #include "document/recipe.hpp"
 #include "window/exchange.hpp"
-#include "window/saving.hpp"
+#include "document/saving.hpp"
 
 namespace sandpaper {
 namespace {
@@ -16,7 +16,8 @@ constexpr qint64 largest_file = 1 << 28, largest_text = 4 << 20;  // bytes
 wale::Result<QByteArray> bytes_of(const QString& path, qint64 largest) {
   QFile file(path);
   const auto unreadable = [&](const QString& why) {
-    return wale::Error{.code = wale::Code::unreadable_file, .sentence = why.toStdString(), .place = {.name = path.toStdString()}};
+    return wale::Error{
+        .code = wale::Code::unreadable_file, .sentence = why.toStdString(), .place = {.name = path.toStdString()}};
   };
   if (QFileInfo::exists(path) && !QFileInfo(path).isFile()) return unreadable("this is no regular file");
   if (!file.open(QIODevice::ReadOnly)) return unreadable(file.errorString());
@@ -108,10 +109,15 @@ void Exchange::import_array(const QString& path, const wale::ThesisArray& array,
   const QString name = QFileInfo(path).fileName();
   if (document_.file().isEmpty())
     return emit said(tr("Save the workspace first (Ctrl+S): the picture of %1 comes beside its file").arg(name));
-  const QString words = wave ? tr("%1 is a wave of %2 cells. How long is one wave, and how hard does it push?").arg(name).arg(array.width)
-                             : tr("%1 has %2 by %3 cells. How wide is it, and how hard does it push?").arg(name).arg(array.width).arg(array.height);
+  const QString words =
+      wave ? tr("%1 is a wave of %2 cells. How long is one wave, and how hard does it push?").arg(name).arg(array.width)
+           : tr("%1 has %2 by %3 cells. How wide is it, and how hard does it push?")
+                 .arg(name)
+                 .arg(array.width)
+                 .arg(array.height);
   const std::vector<Question::Field> fields = {
-      {tr("&width"), tr("mm"), wave ? 2.5 : 1000 * wale::thesis_cell * array.width, 0.01, 10000, 2}, {tr("&at most"), tr("N"), 1, 0.01, 100, 2}};
+      {tr("&width"), tr("mm"), wave ? 2.5 : 1000 * wale::thesis_cell * array.width, 0.01, 10000, 2},
+      {tr("&at most"), tr("N"), 1, 0.01, 100, 2}};
   question_.ask(words, fields, tr("Import"), [this, path, array, wave, others](const std::vector<double>& answers) {
     const std::string file = QFileInfo(path).fileName().toStdString();
     const QString folder = QFileInfo(document_.file()).path() + "/";
@@ -119,13 +125,18 @@ void Exchange::import_array(const QString& path, const wale::ThesisArray& array,
     std::optional<wale::ThesisArray> shading;
     if (!wave && path.endsWith(".depth"))
       if (const auto bytes = bytes_of(path.chopped(6) + ".shade", largest_file))
-        if (auto read = wale::read_thesis_array(std::as_bytes(std::span(bytes->constData(), static_cast<std::size_t>(bytes->size()))), file))
+        if (auto read = wale::read_thesis_array(
+                std::as_bytes(std::span(bytes->constData(), static_cast<std::size_t>(bytes->size()))), file))
           if (read->width == array.width && read->height == array.height) shading = *std::move(read);
     std::set<std::string> taken = document_.contents().declared();
     for (;;) {
-      const wale::ThesisSurfaceOptions options{
-          .name = wale::wale_name(file, taken), .file = file, .amplitude = answers[1], .cell = width / array.width, .period = width};
-      auto made = wave ? wale::wave_in_wale(array, options) : wale::surface_in_wale(array, options, shading ? &*shading : nullptr);
+      const wale::ThesisSurfaceOptions options{.name = wale::wale_name(file, taken),
+                                               .file = file,
+                                               .amplitude = answers[1],
+                                               .cell = width / array.width,
+                                               .period = width};
+      auto made = wave ? wale::wave_in_wale(array, options)
+                       : wale::surface_in_wale(array, options, shading ? &*shading : nullptr);
       if (!made) {
         made.error().place.name = path.toStdString();
         emit refused(made.error());
@@ -169,8 +180,12 @@ bool Exchange::put(const wale::ThesisInWale& made, bool as_patch) {
   if (as_patch) {
     next.head += made.text + "\n";
     const glm::dvec2 middle = canvas_.to_metres(QPointF(canvas_.width() / 2.0, canvas_.height() / 2.0));
-    wale::LaidOutPatch patch{.name = next.new_name(made.name), .made_of = made.name, .at = {std::round(middle.x * 1000) / 1000, std::round(middle.y * 1000) / 1000}, .size = {}};
-    next.placed.push_back(std::make_shared<const Placed>(Placed{.patch = std::move(patch), .compiled_from = made.name}));
+    wale::LaidOutPatch patch{.name = next.new_name(made.name),
+                             .made_of = made.name,
+                             .at = {std::round(middle.x * 1000) / 1000, std::round(middle.y * 1000) / 1000},
+                             .size = {}};
+    next.placed.push_back(
+        std::make_shared<const Placed>(Placed{.patch = std::move(patch), .compiled_from = made.name}));
   } else {
     while (next.tail.ends_with("\n")) next.tail.pop_back();
     next.tail += "\n\n" + made.text;
@@ -186,7 +201,8 @@ void Exchange::merge(const QString& path) {
   const auto shown = library_.presentation(text, path.toStdString());
   if (!shown) return emit refused(shown.error());
   if (shown->workspaces.empty()) return emit said(tr("%1 has no workspace to merge").arg(path));
-  const bool leaves_out = shown->workspaces.size() > 1 || !shown->movies.empty() || !shown->keys.empty() || !shown->groups.empty();
+  const bool leaves_out =
+      shown->workspaces.size() > 1 || !shown->movies.empty() || !shown->keys.empty() || !shown->groups.empty();
   text = with_paths(without_presentation(std::move(text), *shown), QFileInfo(path).absolutePath().toStdString());
   const WithRecipe merged = with_recipe(language_, document_.contents(), text, glm::dvec2(0));
   const QString name = QString::fromStdString(shown->workspaces.front());
@@ -195,7 +211,8 @@ void Exchange::merge(const QString& path) {
   for (const PlacedRef& each : document_.contents().placed)
     if (std::ranges::count(merged.patches, each->patch.name) > 0) ids.insert(each->id);
   document_.choose(ids);
-  emit said(leaves_out ? tr("Merged %1. Its other workspaces, movies, keys and groups stay in their file").arg(name) : tr("Merged %1").arg(name));
+  emit said(leaves_out ? tr("Merged %1. Its other workspaces, movies, keys and groups stay in their file").arg(name)
+                       : tr("Merged %1").arg(name));
 }
 
 }  // namespace sandpaper

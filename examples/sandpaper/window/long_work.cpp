@@ -44,7 +44,8 @@ bool LongWork::begin(const QString& what, const std::function<QString(const Prog
   const auto shown = std::make_shared<std::atomic<int>>(0);
   const Progress progress = [this, cancelled, shown](double share) {
     const int percent = static_cast<int>(std::lround(100 * share));
-    if (shown->exchange(percent) != percent) QMetaObject::invokeMethod(this, [this, percent] { bar_->setValue(percent); });
+    if (shown->exchange(percent) != percent)
+      QMetaObject::invokeMethod(this, [this, percent] { bar_->setValue(percent); });
     return !*cancelled;
   };
   thread_->post(0, "work", [this, work, progress, cancelled] {

@@ -11,7 +11,8 @@
 
 namespace sandpaper {
 
-/// A line that shows how far long work is, with a button that ends it. One piece of work at a time, on a thread of its own.
+/// A line that shows how far long work is, with a button that ends it. One piece of work at a time, on a thread of its
+/// own.
 class LongWork : public QFrame {
   Q_OBJECT
 

@@ -75,6 +75,7 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   connect(&document_, &Document::contents_changed, this, [this] {
     feeling_.follow(presenting_.felt());
     update_actions();
+    update_preview();
     advising_.start(before_advice);
   });
   advising_.setSingleShot(true);
@@ -82,6 +83,9 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   connect(&document_, &Document::file_changed, this, &MainWindow::update_title);
   connect(&document_, &Document::chosen_changed, this, &MainWindow::update_actions);
   connect(&document_, &Document::refused, announcement_, &Announcement::say);
+  autosave_.set_typed([this] { return editor_->typed(); });
+  connect(editor_, &TextEditor::typing, &autosave_, &Autosave::changed);
+  connect(&autosave_, &Autosave::failed, announcement_, &Announcement::say);
   connect(&document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::update_title);
   connect(&feeling_, &Feeling::said, announcement_, &Announcement::say);
   connect(&feeling_, &Feeling::on_changed, this, &MainWindow::update_safety);
@@ -93,7 +97,7 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   });
   connect(canvas_, &Canvas::material_dropped, this, &MainWindow::place_material);
   connect(canvas_, &Canvas::recipe_dropped, this, &MainWindow::place_recipe);
-  connect(canvas_, &Canvas::picture_dropped, this, qOverload<const QString&, glm::dvec2>(&MainWindow::place_picture));
+  connect(canvas_, &Canvas::others_dropped, this, &MainWindow::take_dropped);
   connect(canvas_, &Canvas::file_dropped, this, [this](const QString& file) {
     when_saved(tr("open another file"), [this, file] { open(file); });
   });
@@ -109,7 +113,8 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
     if (!feeling_.is_on()) return;
     const wale::Now& now = canvas_->now();
     plots_->add(now);
-    if (now.guards.lost > 0 && lost_ == 0) announcement_->say(tr("The device is gone: there is no force until it is back."));
+    if (now.guards.lost > 0 && lost_ == 0)
+      announcement_->say(tr("The device is gone: there is no force until it is back."));
     lost_ = now.guards.lost;
   });
   plotting_.start(16);
@@ -156,6 +161,8 @@ void MainWindow::make_panels() {
   session_panel_ = new SessionPanel(presenting_.session());
   auto* plots = dock("plots", tr("Run"), plots_, Qt::BottomDockWidgetArea);
   tabifyDockWidget(text, plots);
+  preview_ = new PreviewPanel(language_);
+  tabifyDockWidget(plots, dock("preview", tr("Preview"), preview_, Qt::BottomDockWidgetArea));
   dock("session", tr("Session"), session_panel_, Qt::RightDockWidgetArea)->hide();
   text->raise();
   resizeDocks({findChild<QDockWidget*>("dock_palette"), sliders}, {230, 330}, Qt::Horizontal);
@@ -227,7 +234,8 @@ void MainWindow::update_title() {
 
 void MainWindow::update_actions() {
   const bool some = !document_.chosen().empty(), many = document_.chosen().size() > 1;
-  for (const char* name : {"delete", "duplicate", "raise", "lower", "front", "back", "lock", "rename", "rectangle", "ellipse"})
+  for (const char* name :
+       {"delete", "duplicate", "raise", "lower", "front", "back", "lock", "rename", "rectangle", "ellipse"})
     if (QAction* each = action(name)) each->setEnabled(some);
   for (const char* name : {"align_left", "align_right", "align_top", "align_bottom", "align_x", "align_y"})
     if (QAction* each = action(name)) each->setEnabled(many);
@@ -235,6 +243,7 @@ void MainWindow::update_actions() {
 }
 
 void MainWindow::update_description() {
+  update_preview();
   const auto shown = sliders_->shown();
   const Placed* placed = shown ? document_.contents().find(*shown) : nullptr;
   if (!placed) return description_->show(tr("Choose or touch a patch."), nullptr);
@@ -242,9 +251,20 @@ void MainWindow::update_description() {
   QString why = tr("compiling …");
   if (material && !material->program) {
     why.clear();
-    for (const wale::Problem& each : material->problems) why += QString::fromStdString(wale::in_words(each.error)) + "\n";
+    for (const wale::Problem& each : material->problems)
+      why += QString::fromStdString(wale::in_words(each.error)) + "\n";
   }
-  description_->show(QString::fromStdString(placed->patch.name + " = " + placed->compiled_from), feeling_.program(placed->id), why);
+  description_->show(QString::fromStdString(placed->patch.name + " = " + placed->compiled_from),
+                     feeling_.program(placed->id), why);
+}
+
+void MainWindow::update_preview() {
+  const auto shown = sliders_->shown();
+  const Placed* placed = shown ? document_.contents().find(*shown) : nullptr;
+  const wale::Program* program = placed ? feeling_.program(placed->id) : nullptr;
+  if (!program) return preview_->show({}, std::nullopt);
+  preview_->show(QString::fromStdString(placed->patch.name + " = " + placed->patch.made_of),
+                 exchange_->previewed(*placed, *program));
 }
 
 void MainWindow::touched_changed() {
@@ -253,8 +273,9 @@ void MainWindow::touched_changed() {
   const Placed* placed = touched ? document_.contents().find(*touched) : nullptr;
   palette_->set_touched(placed ? QString::fromStdString(placed->patch.made_of) : QString());
   if (!document_.is_stale() && panels_before_.isEmpty())
-    statusBar()->showMessage(placed ? tr("on %1 = %2").arg(canvas_->label_of(*placed), QString::fromStdString(placed->patch.made_of))
-                                    : QString());
+    statusBar()->showMessage(
+        placed ? tr("on %1 = %2").arg(canvas_->label_of(*placed), QString::fromStdString(placed->patch.made_of))
+               : QString());
 }
 
 void MainWindow::announce(const wale::Error& error) {
@@ -271,11 +292,16 @@ void MainWindow::offer_left_behind() {
   announcement_->offer(tr("A window was closed by force. Its work on %1 from %2 was kept.")
                            .arg(name, left->time.toString(Qt::ISODate)),
                        tr("Restore it"), [this, left = *left] {
-                         document_.restore(left.file, left.text.toStdString());
-                         autosave_.save_now();
-                         Autosave::forget(left);
-                         announcement_->say(tr("Restored what was not saved, from %1. It is not saved yet.")
-                                                .arg(left.time.toString(Qt::ISODate)));
+                         editor_->commit();
+                         when_saved(tr("restore what was kept"), [this, left] {
+                           if (!QFile::exists(left.kept_in))  // another window was faster
+                             return announcement_->say(tr("It was restored already."));
+                           document_.restore(left.file, left.text.toStdString());
+                           autosave_.save_now();
+                           Autosave::forget(left);
+                           announcement_->say(tr("Restored what was not saved, from %1. It is not saved yet.")
+                                                  .arg(left.time.toString(Qt::ISODate)));
+                         });
                        });
 }
 
@@ -295,9 +321,10 @@ void MainWindow::show_page(const QString& page) {
 void MainWindow::seek_advice() {
   if (document_.is_stale() || document_.contents().placed.empty()) return;
   const std::string text = document_.text();
-  const wale::WorkspaceOptions options{.device = programs_.device(),
-                                       .workspace = document_.contents().name,
-                                       .name = document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString()};
+  const wale::WorkspaceOptions options{
+      .device = programs_.device(),
+      .workspace = document_.contents().name,
+      .name = document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString()};
   advisor_.post(0, "advice", [this, text, options] {
     auto problems = language_.legibility(text, options);
     QMetaObject::invokeMethod(this, [this, text, problems] { document_.set_advice({text, problems}); });

@@ -15,6 +15,7 @@
 #include "panels/pages_panel.hpp"
 #include "panels/palette_panel.hpp"
 #include "panels/plot_panel.hpp"
+#include "panels/preview_panel.hpp"
 #include "panels/slider_panel.hpp"
 #include "presenting/participant_window.hpp"
 #include "presenting/presenting.hpp"
@@ -42,8 +43,10 @@ class MainWindow : public QMainWindow {
   Presenting& presenting() { return presenting_; }
   Canvas& canvas() { return *canvas_; }
   Exchange& exchange() { return *exchange_; }
-  bool is_busy() const { return work_->is_busy() || programs_.is_busy() || pictures_.is_busy() || description_->is_busy() ||
-                                advising_.isActive() || advisor_.waiting() > 0; }
+  bool is_busy() const {
+    return work_->is_busy() || programs_.is_busy() || pictures_.is_busy() || description_->is_busy() ||
+           preview_->is_busy() || advising_.isActive() || advisor_.waiting() > 0;
+  }
   /// The action with that object name; null if there is none.
   QAction* action(const QString& name) const { return findChild<QAction*>(name); }
 
@@ -53,7 +56,8 @@ class MainWindow : public QMainWindow {
 
  private:
   // actions.cpp
-  QAction* add(QMenu* menu, const QString& name, const QString& text, const QKeySequence& key, const std::function<void()>& act);
+  QAction* add(QMenu* menu, const QString& name, const QString& text, const QKeySequence& key,
+               const std::function<void()>& act);
   QAction* add_toggle(QMenu* menu, const QString& name, const QString& text, const QKeySequence& key, bool on,
                       const std::function<void(bool)>& act);
   void make_file_menu();
@@ -75,6 +79,7 @@ class MainWindow : public QMainWindow {
   void update_safety();
   void update_actions();
   void update_description();
+  void update_preview();
   void touched_changed();
   void announce(const wale::Error& error);
   void offer_left_behind();
@@ -89,8 +94,9 @@ class MainWindow : public QMainWindow {
   void open_asked();
   void place_material(const QString& spelling, glm::dvec2 at);
   void place_recipe(const QString& recipe, glm::dvec2 at);
-  void place_picture(const QString& file, glm::dvec2 at);  ///< asks for its scale
-  void place_picture(const QString& file, glm::dvec2 at, double millimetres_per_pixel);
+  void take_dropped(const QStringList& files, glm::dvec2 at);
+  void place_pictures(const QStringList& files, glm::dvec2 at, double millimetres_per_pixel);
+  std::uint64_t place_picture(const QString& file, glm::dvec2 at, double millimetres_per_pixel);
   void feel_if_trusted();
 
   const wale::Library& library_;
@@ -113,6 +119,7 @@ class MainWindow : public QMainWindow {
   DescriptionPanel* description_ = nullptr;
   TextEditor* editor_ = nullptr;
   PlotPanel* plots_ = nullptr;
+  PreviewPanel* preview_ = nullptr;
   PagesPanel* pages_ = nullptr;
   QPushButton* force_button_ = nullptr;
   QComboBox* device_ = nullptr;

@@ -69,11 +69,16 @@ void MainWindow::make_present_menu() {
       announcement_->say(tr("No key is chosen: there is one when a sort runs and a key was clicked"));
     };
   };
-  add(piles, "new_pile", tr("Into a &new pile (+)"), {}, of_chosen([](Sorting& sorting, std::size_t key) { sorting.put(key, sorting.new_pile()); }));
-  add(piles, "take_out", tr("&Out of its pile (0)"), {}, of_chosen([](Sorting& sorting, std::size_t key) { sorting.put(key, 0); }));
-  add(piles, "label_pile", tr("&Label its pile (L)"), {}, of_chosen([this](Sorting&, std::size_t) { sorting_page_->ask_label(); }));
-  add(piles, "take_back", tr("Take the last answer &back (Backspace)"), {}, [this] { presenting_.sorting().take_back(); });
-  add(menu, "finish_sorting", tr("&Finish the sort and save its groups"), tr("Ctrl+Return"), [this] { presenting_.finish_sorting(); });
+  add(piles, "new_pile", tr("Into a &new pile (+)"), {},
+      of_chosen([](Sorting& sorting, std::size_t key) { sorting.put(key, sorting.new_pile()); }));
+  add(piles, "take_out", tr("&Out of its pile (0)"), {},
+      of_chosen([](Sorting& sorting, std::size_t key) { sorting.put(key, 0); }));
+  add(piles, "label_pile", tr("&Label its pile (L)"), {},
+      of_chosen([this](Sorting&, std::size_t) { sorting_page_->ask_label(); }));
+  add(piles, "take_back", tr("Take the last answer &back (Backspace)"), {},
+      [this] { presenting_.sorting().take_back(); });
+  add(menu, "finish_sorting", tr("&Finish the sort and save its groups"), tr("Ctrl+Return"),
+      [this] { presenting_.finish_sorting(); });
   add(menu, "cancel_sorting", tr("Break the sort o&ff"), tr("Shift+F6"), [this] {
     presenting_.cancel_sorting("by the experimenter");
     announcement_->say(tr("The sort was broken off; no groups are saved"));
@@ -132,7 +137,8 @@ void MainWindow::show_participant(bool shown) {
       announcement_->set_quiet(visible);
     });
     // The keys of the session work while this window is the active one, too.
-    for (const char* name : {"next_frame", "previous_frame", "finish_sorting", "feel"}) participant_->addAction(action(name));
+    for (const char* name : {"next_frame", "previous_frame", "finish_sorting", "feel"})
+      participant_->addAction(action(name));
   }
   const Sorting& sorting = presenting_.sorting();
   if (shown && sorting.runs() && !sorting.declared().numbered_at_random) {

@@ -9,7 +9,8 @@
 
 namespace sandpaper {
 
-Question::Question(QWidget* parent) : QFrame(parent), words_(new QLabel), row_(new QHBoxLayout), button_(new QPushButton) {
+Question::Question(QWidget* parent)
+    : QFrame(parent), words_(new QLabel), row_(new QHBoxLayout), button_(new QPushButton) {
   setFrameShape(QFrame::StyledPanel);
   setObjectName("question");
   words_->setWordWrap(true);

@@ -19,6 +19,10 @@ struct CatalogueEntry {
   std::vector<std::string> called, feels;  ///< other names; comparisons such as "like ball bearings"
   std::string documentation;               ///< may be empty
   bool shipped = false;                    ///< it comes with Wale; otherwise it is the user's own
+  /// Of a shipped material: 64 hexadecimal digits that are the same as long as it compiles to the same, for what is
+  /// kept of it from one run to the next, as a thumbnail is. Empty for the user's own, whose imports change at any
+  /// time.
+  std::string content;
 };
 
 /// Materials to choose from. All calls are safe from any thread.
@@ -26,8 +30,8 @@ class Catalogue {
  public:
   virtual ~Catalogue() = default;
 
-  /// Error: `unreadable_file` about the first of `LibraryOptions::folders` that is no folder; the materials of the others
-  /// are there.
+  /// Error: `unreadable_file` about the first of `LibraryOptions::folders` that is no folder; the materials of the
+  /// others are there.
   virtual Result<> folders_exist() const = 0;
 
   /// The materials that contain every word of `words` at the beginning of one of theirs, as `wale find` gives them; all

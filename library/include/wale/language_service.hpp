@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,8 +77,8 @@ struct LaidOutPatch {
   glm::dvec2 at{0};                ///< m from the workspace's centre, of the patch's centre
   bool at_is_written = false;      ///< also where it is the workspace's centre, which needs not be written
   std::optional<glm::dvec2> size;  ///< m, if it is written
-  std::string shape;               ///< as written: "ellipse", "mask(\"river.png\", scale: 0.5 mm/px)"; empty without one
-  Shape outline;                   ///< what that is; `outline.size()` is its own size, of an ellipse that of a circle of 1 m
+  std::string shape;  ///< as written: "ellipse", "mask(\"river.png\", scale: 0.5 mm/px)"; empty without one
+  Shape outline;      ///< what that is; `outline.size()` is its own size, of an ellipse that of a circle of 1 m
   std::optional<double> rim;       ///< m, if it is written
   std::vector<LaidOutMark> marks;
   bool on_one_line = false;  ///< its braces are on the line of its name
@@ -86,7 +87,8 @@ struct LaidOutPatch {
   /// A statement that is kept as it is written, such as `patches from picture(…) { … }` or a patch with an error; then
   /// of the others only `before` counts, and `name` may be empty.
   std::string verbatim;
-  /// It is an area of a picture, laid out by the statement that is kept before it: it is felt, and is not written itself.
+  /// It is an area of a picture, laid out by the statement that is kept before it: it is felt, and is not written
+  /// itself.
   bool is_of_picture = false;
   std::shared_ptr<const WrittenPatch> written = {};  ///< where it was read; null for a new one
 };
@@ -136,10 +138,17 @@ struct ToldMaterial {
   std::string text;  ///< what `wale describe` prints, several lines
 };
 
+/// A picture of a material, or a plot of its force.
+struct PreviewPart {
+  std::string name;   ///< "surface" or "field"; "height", "force", "velocity", "hand", "time", "spectrum"; each once
+  std::string title;  ///< "Force along x"; empty for the surface and the field
+  std::vector<std::byte> png;
+};
+
 /// What an editor of Wale texts needs. The answers are those of the command line.
 ///
-/// All calls are safe from any thread, also at the same time; none is for a real-time thread. They need a stack of 8 MB.
-/// `check`, `words` and `proposals` take some milliseconds for a usual file, `compile` and `tell` up to a second.
+/// All calls are safe from any thread, also at the same time; none is for a real-time thread. They need a stack of 8
+/// MB. `check`, `words` and `proposals` take some milliseconds for a usual file, `compile` and `tell` up to a second.
 class LanguageService {
  public:
   explicit LanguageService(const LibraryOptions& options = {});
@@ -155,16 +164,28 @@ class LanguageService {
   /// first, and have its name as `error.place.name`.
   CheckedText check(std::string_view text, const CompileOptions& options = {}) const;
 
-  /// Compiles one material of a text, by default the first.
-  CompiledText compile(std::string_view text, const CompileOptions& options = {}) const;
+  /// Compiles one material of a text, by default the first. `called`: how the program and the problems call it, as for
+  /// a text with a material that only its caller knows; empty: by its name.
+  CompiledText compile(std::string_view text, const CompileOptions& options = {}, const std::string& called = {}) const;
 
-  /// What a hand cannot tell on a workspace of the text, and what it does not reach, as `wale check` warns of it; and the
-  /// errors of its materials; `unknown_device`, `unknown_workspace`. Reads every program: up to a second each.
+  /// What a hand cannot tell on a workspace of the text, and what it does not reach, as `wale check` warns of it; and
+  /// the errors of its materials; `unknown_device`, `unknown_workspace`. Reads every program: up to a second each.
   std::vector<Problem> legibility(std::string_view text, const WorkspaceOptions& options = {}) const;
 
   /// Reads what a program feels like. Without a percept that the author asked for, the program's force is read too,
   /// which takes longer. Error: `unknown_device` if nothing declares the program's device.
   Result<ToldMaterial> tell(const Program& program) const;
+
+  /// The page that `wale preview` draws of a program with these parameters (SI, in the order of its description) in a
+  /// patch of this size: relief or field, profile, force, and the spectrum of the force on a stroking hand. The bytes
+  /// of a picture in the format that the extension of `name` says: png, svg and others. Takes up to some seconds.
+  /// Errors: `unknown_device`; `missing_library` without the drawing library; `malformed_value` for another extension.
+  Result<std::vector<std::byte>> preview(const Program& program, std::span<const float> parameters, PatchSize size,
+                                         const std::string& name) const;
+  /// What such a page is made of, for a window with a layout of its own: the surface or the field in 320 x 320 pixels,
+  /// and then the plots in 560 x 280. Errors: `unknown_device`, `missing_library`.
+  Result<std::vector<PreviewPart>> preview_parts(const Program& program, std::span<const float> parameters,
+                                                 PatchSize size) const;
 
   /// The text in the standard style. Error: the first one in the text.
   Result<std::string> format(std::string_view text) const;

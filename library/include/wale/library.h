@@ -61,18 +61,21 @@ WALE_API void wale_library_free(WaleLibrary* library);
    in the current folder of the process take precedence over the shipped ones, and so do those of the whole project if a file
    wale.project lies in that folder or above it, and those of `folders`: `taken` of WaleProgramDetails says so. The name thus
    may mean another material in another folder; wale_library_open does not depend on it.
-   Errors: unknown_name, for a kind ("fabric") with three of its materials as nearest; ambiguous_material. */
+   Titles and other names are found in any case of letters ("OAK"), names of materials and modules as they are written ("Fractal").
+   Errors: unknown_name, for a kind ("fabric") with three of its materials as nearest; ambiguous_material; unknown_material for an
+   option `material` that is not in the text of the one that was found. */
 WALE_API WaleCode wale_library_find(WaleLibrary* library, WaleText name, const WaleCompileOptions* options,
                                     WaleProgram** program, WaleError** error);
 /* A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6").
    Errors: unknown_name, level_out_of_range, malformed_value, percept_unrealised if the device cannot render it. */
 WALE_API WaleCode wale_library_level(WaleLibrary* library, WaleText percept, WaleText level,
                                      const WaleCompileOptions* options, WaleProgram** program, WaleError** error);
-/* The text of a Wale file. Errors: those in the text. */
+/* The text of a Wale file. Errors: those in the text; unknown_material for an option `material` that is not in it. */
 WALE_API WaleCode wale_library_compile(WaleLibrary* library, WaleText text, const WaleCompileOptions* options,
                                        WaleProgram** program, WaleError** error);
 /* A Wale file (.wale) or a patch program (.wpp). The path is any bytes but zero.
-   Errors: unreadable_file, damaged_file, other_device, those in the text, and those of wale_program_load. */
+   Errors: unreadable_file; damaged_file for binary data that is neither; other_device; those in the text (any text is read as
+   Wale: `hello` gives missing_version), and unknown_material; those of wale_program_load. */
 WALE_API WaleCode wale_library_open(WaleLibrary* library, WaleText path, const WaleCompileOptions* options,
                                     WaleProgram** program, WaleError** error);
 /* The same for the bytes of such a file. */

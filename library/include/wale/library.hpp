@@ -92,7 +92,7 @@ class Library {
   /// A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL, by
   /// the rule of the command line: of the project in the process's current folder, of `LibraryOptions::folders`, or of
   /// the shipped library. Never a file of that name. Errors: `unknown_name`; `ambiguous_material` if several materials
-  /// have that name; `malformed_value` for a text that is no name.
+  /// have that name; `malformed_value` for a text that is no name; `unknown_material` for an `options.material`.
   Result<Compiled> find(const std::string& name, const CompileOptions& options = {}) const;
 
   /// A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6"). Errors:
@@ -102,11 +102,11 @@ class Library {
   Result<Compiled> level(const std::string& percept, const std::string& level,
                          const CompileOptions& options = {}) const;
 
-  /// Compiles the text of a Wale file. Errors: those in the text, such as `invalid_encoding` and `too_long` (4 MiB).
+  /// Compiles a Wale text. Errors: those in it, as `invalid_encoding` and `too_long` (4 MiB); `unknown_material`.
   Result<Compiled> compile(std::string_view text, const CompileOptions& options = {}) const;
 
   /// A Wale file (.wale) or a patch program (.wpp). Errors: `unreadable_file` for a file that is missing, a folder or
-  /// no regular file; `damaged_file` for one that holds something else; those in the text; those of `Program::load`;
+  /// no regular file; `damaged_file` for other binary data; those of `compile` (of any text) and `Program::load`;
   /// `other_device` for a patch program that is built for another device than `options.device`.
   Result<Compiled> open(const std::string& path, const CompileOptions& options = {}) const;
   /// The same for the bytes of such a file; which of the two they are is seen by how they begin.

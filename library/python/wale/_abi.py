@@ -5,7 +5,7 @@ import os
 import sysconfig
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, NoReturn, Self, SupportsIndex
 
 import cffi  # type: ignore[import]
 import numpy as np
@@ -61,7 +61,10 @@ class Arguments:
         """A WaleText. Paths may hold bytes that are no UTF-8. TypeError for what is no text; `name` is its argument's."""
         if not isinstance(text, (str, bytes, os.PathLike)):
             raise TypeError(f"{name}: expected a text, found {text!r}")
-        data = os.fsencode(text) if not isinstance(text, str) else text.encode("utf-8", "surrogateescape")
+        try:
+            data = os.fsencode(text) if not isinstance(text, str) else text.encode("utf-8", "surrogateescape")
+        except UnicodeEncodeError as why:
+            raise ValueError(f"{name}: expected a text, found half a character, {text!r}") from why
         buffer = ffi.from_buffer(data)
         made = ffi.new("WaleText*", (buffer, len(data)))
         self._kept += [data, buffer, made]
@@ -117,14 +120,20 @@ def number(value: Any, name: str) -> float:
         raise ValueError(f"{name}: expected a smaller number, found {value!r}") from why
 
 
-def whole(value: Any, name: str) -> int:
-    """A whole number, or a yes or no, that is an argument. TypeError for anything else."""
+def whole(value: Any, name: str, bits: int = 0) -> int:
+    """A whole number, or a yes or no, that is an argument. TypeError for anything else.
+
+    With `bits` ValueError for one that a signed number of so many bits cannot hold.
+    """
     if isinstance(value, np.bool_):
         return int(value)
     try:
-        return operator.index(value)
+        number = operator.index(value)
     except TypeError as why:
         raise TypeError(f"{name}: expected a whole number, found {value!r}") from why
+    if bits and not -(2 ** (bits - 1)) <= number < 2 ** (bits - 1):
+        raise ValueError(f"{name}: expected a number of {bits} bits, found {value!r}")
+    return number
 
 
 def two(values: Any, name: str, of: str) -> tuple[Any, Any]:
@@ -192,24 +201,38 @@ def described(error: Any) -> Error:
 
 def call(function: Any, *arguments: Any) -> None:
     """Calls a function whose last argument takes an error, and raises it."""
-    place = ffi.new("WaleError**")
-    if function(*arguments, place) != 0:
-        raised = described(place[0])
-        lib.wale_error_free(place[0])
-        raise raised
+    given = list(arguments)
+    del arguments
+    _call(function, given)
 
 
 def made(function: Any, kind: str, *arguments: Any) -> Any:
     """Calls a function that gives a handle by its last argument but the error."""
     place = ffi.new(kind + "**")
-    call(function, *arguments, place)
+    given = [*arguments, place]
+    del arguments
+    _call(function, given)
     return place[0]
+
+
+def _call(function: Any, given: list[Any]) -> None:
+    """Empties the list: the frames of what it raises, which somebody may keep, hold no handle that is closed then."""
+    place = ffi.new("WaleError**")
+    try:
+        failed = function(*given, place) != 0
+    finally:
+        given.clear()
+    if failed:
+        raised = described(place[0])
+        lib.wale_error_free(place[0])
+        raise raised
 
 
 class Handle:
     """Something of the library that is freed by `close`, at the end of a `with`, or when nobody uses it any more.
 
-    After that its calls raise ValueError.
+    After that its calls raise ValueError. Calls of other threads that are under way then end as usual: the last one
+    frees it. It cannot be copied or pickled.
     """
 
     def __init__(self, pointer: Any, free: Any) -> None:
@@ -217,18 +240,28 @@ class Handle:
 
     @property
     def _pointer(self) -> Any:
-        if self._held is None:
+        """What a call has as its argument. Whoever has it keeps it from being freed: use it up within one expression, or
+        keep it in a variable while what the library lends is read."""
+        held = self._held
+        if held is None:
             raise ValueError(f"the {type(self).__name__} is closed")
-        return self._held
+        return held
 
     def close(self) -> None:
-        """Frees it. Doing so again does nothing."""
-        held, self._held = self._held, None
-        if held is not None:
-            ffi.release(held)
+        """Frees it, as soon as no call of another thread uses it. Doing so again does nothing."""
+        self._held = None
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+    def __reduce_ex__(self, _: SupportsIndex) -> NoReturn:
+        raise TypeError(f"a {type(self).__name__} cannot be copied or pickled: it is freed once")
+
+    def __copy__(self) -> NoReturn:
+        self.__reduce_ex__(4)
+
+    def __deepcopy__(self, _: dict[int, Any]) -> NoReturn:
+        self.__reduce_ex__(4)

@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from wale._abi import ffi, number
 
-_plain = {"float": np.float32, "double": np.float64, "int32_t": np.int32, "uint32_t": np.uint32, "int64_t": np.int64}
+_plain = {"float": np.float32, "double": np.float64, "int32_t": np.int32, "uint32_t": np.uint32, "int64_t": np.int64,
+          "uint64_t": np.uint64}
 
 
 def dtype_of(kind: str) -> np.dtype[np.void]:

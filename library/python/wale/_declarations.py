@@ -154,6 +154,7 @@ WaleCode wale_program_bytes(const WaleProgram* program, void* to, size_t capacit
 WaleCode wale_program_details(const WaleProgram* program, WaleProgramDetails* details, WaleError** error);
 WaleCode wale_program_parameter(const WaleProgram* program, size_t index, WaleParameter* parameter, WaleError** error);
 WaleCode wale_program_percept(const WaleProgram* program, size_t index, WalePercept* percept, WaleError** error);
+WaleCode wale_program_profile(const WaleProgram* program, WaleProfile* profile, WaleError** error);
 const WaleError* wale_program_warning(const WaleProgram* program, size_t index);
 typedef struct WaleRun WaleRun;
 typedef struct WaleFelt WaleFelt;
@@ -223,6 +224,8 @@ typedef struct WaleTick {
   uint32_t skipped;
   int32_t inside;
   int32_t reserved;
+  uint64_t patch;
+  uint64_t change;
 } WaleTick;
 void wale_run_free(WaleRun* run);
 WaleCode wale_run_figures(const WaleRun* run, WaleRunFigures* figures, WaleError** error);
@@ -316,6 +319,7 @@ WaleCode wale_patch_bring(WalePatch* patch, float layer, WaleError** error);
 WaleCode wale_patch_remove(WalePatch* patch, WaleError** error);
 int32_t wale_patch_exists(const WalePatch* patch);
 uint64_t wale_patch_id(const WalePatch* patch);
+uint32_t wale_patch_number(const WalePatch* patch);
 void wale_patch_free(WalePatch* patch);
 WaleCode wale_stage_edit(WaleStage* stage, WaleEdit** edit, WaleError** error);
 WaleCode wale_edit_add(WaleEdit* edit, const WaleProgram* program, const WalePatchOptions* options, WalePatch** patch, WaleError** error);

@@ -166,8 +166,8 @@ class Device(Handle):
 
     @property
     def profile(self) -> Profile:
-        of = sized("WaleProfile")
-        call(lib.wale_device_profile, self._pointer, of)
+        of, held = sized("WaleProfile"), self._pointer  # whose texts are read
+        call(lib.wale_device_profile, held, of)
         return profile_of(of)
 
 

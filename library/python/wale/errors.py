@@ -53,7 +53,8 @@ class Error(Exception):
     def of_file(path: str, why: OSError) -> "Error":
         """For a file that this package reads itself."""
         sentence, mend = f"cannot be read: {why.strerror or why}", "name a file that this user may read"
-        return Error(f"{path}: {sentence}; {mend}", code=Code.unreadable_file, severity="error", sentence=sentence, mend=mend,
+        shown = "".join(each if each.isprintable() else f"\\u{ord(each):04x}" for each in path)  # as the library does
+        return Error(f"{shown}: {sentence}; {mend}", code=Code.unreadable_file, severity="error", sentence=sentence, mend=mend,
                      expected="", found="", argument=path, text="", span=None, nearest=(), others=())
 
     @property

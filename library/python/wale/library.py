@@ -121,8 +121,8 @@ class Library(Handle):
 
     def profile(self, name: str) -> Profile:
         """As `wale.profile`, also of a device that the owner declares."""
-        arguments, of = Arguments(), sized("WaleProfile")
-        call(lib.wale_library_profile, self._pointer, arguments.text(name, "name"), of)
+        arguments, of, library = Arguments(), sized("WaleProfile"), self._pointer  # whose texts are read
+        call(lib.wale_library_profile, library, arguments.text(name, "name"), of)
         return profile_of(of)
 
     def open_device(self, spelling: str = "auto", *, built_for: str = "", transport: str = "",

@@ -24,10 +24,10 @@ class Loop(Handle):
         of = self._reading
         x, y = two(counts, "counts", "whole numbers")
         of.counts_x, of.counts_y = _count(x), _count(y)
-        of.button, of.contact = whole(button, "button"), whole(contact, "contact")
+        of.button, of.contact = whole(button, "button", 32), whole(contact, "contact", 32)
         of.measures_interaction = int(interaction is not None)
         of.interaction_x, of.interaction_y = pair((0.0, 0.0) if interaction is None else interaction, "interaction")
-        return vector_of(lib.wale_loop_step(self._pointer, of, min(whole(periods, "periods"), 2**62)))
+        return vector_of(lib.wale_loop_step(self._pointer, of, max(-1, min(whole(periods, "periods"), 2**62))))
 
     def exerted(self, force: Vector) -> None:
         """The force that the actuator really exerts since the last step, where the device tells it."""

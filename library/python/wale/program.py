@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wale._abi import Handle, bytes_of, call, described, ffi, lib, made, read, sized
+from wale.device import Profile, profile_of
 from wale.errors import Error
 
 
@@ -80,10 +81,11 @@ class Program(Handle):
     def parameters(self) -> Sequence[Parameter]:
         def one(index: int) -> Parameter:
             of = sized("WaleParameter")
-            call(lib.wale_program_parameter, self._pointer, index, of)
+            call(lib.wale_program_parameter, held, index, of)
             return Parameter(read(of.name), read(of.description), read(of.unit), read(of.si_unit), of.unit_in_si, of.value,
                              of.low, of.high, of.soft_low, of.soft_high)
 
+        held = self._pointer  # whose texts are read
         return [one(i) for i in range(self._counts[0])]
 
     @property
@@ -92,14 +94,23 @@ class Program(Handle):
 
         def one(index: int) -> Percept:
             of = sized("WalePercept")
-            call(lib.wale_program_percept, self._pointer, index, of)
+            call(lib.wale_program_percept, held, index, of)
             parameter = names[of.parameter] if of.parameter >= 0 else None
             return Percept(read(of.name), read(of.carrier), read(of.unit), read(of.map), read(of.source), parameter,
                            of.amplitude, of.level, (of.valid_low, of.valid_high))
 
+        held = self._pointer
         return [one(i) for i in range(self._counts[1])]
+
+    @property
+    def profile(self) -> Profile:
+        """The figures of the device that it is built for, also of one that only its text declares."""
+        of, held = sized("WaleProfile"), self._pointer  # whose texts are read
+        call(lib.wale_program_profile, held, of)
+        return profile_of(of)
 
     @property
     def warnings(self) -> Sequence[Error]:
         """About its text, in the order of their places."""
-        return [described(lib.wale_program_warning(self._pointer, i)) for i in range(self._counts[2])]
+        held = self._pointer
+        return [described(lib.wale_program_warning(held, i)) for i in range(self._counts[2])]

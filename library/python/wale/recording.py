@@ -53,7 +53,10 @@ class Recording(Handle):
 
     @property
     def ticks(self) -> NDArray[np.void]:
-        """An array with the fields of WaleRecordedTick: counts, velocity, wanted, commanded, force, guards, …"""
+        """An array with the fields of WaleRecordedTick: counts, velocity, wanted, commanded, force, guards, …
+
+        `patch` is the `Patch.number` of the one that the hand was on, 0xffffffff for none.
+        """
         ticks: NDArray[np.void] = np.zeros(self._count, dtype=dtype_of("WaleRecordedTick"))
         call(lib.wale_recording_ticks, self._pointer, 0, len(ticks), ticks.itemsize, pointer(ticks, "WaleRecordedTick"))
         return ticks

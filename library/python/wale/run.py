@@ -101,7 +101,11 @@ class Run(Handle):
 
     @property
     def ticks(self) -> NDArray[np.void]:
-        """The record: an array with the fields of WaleTick (time, position, velocity, force, interaction, lateness, …)."""
+        """The record: an array with the fields of WaleTick (time, position, velocity, force, interaction, lateness, …).
+
+        `patch` is the `Patch.id` of the one that the hand was on, 0 for none; `change` another number after each change of
+        that patch's program, parameters or size.
+        """
         ticks: NDArray[np.void] = np.zeros(self._recorded, dtype=dtype_of("WaleTick"))
         call(lib.wale_run_ticks, self._pointer, 0, len(ticks), ticks.itemsize, pointer(ticks, "WaleTick"))
         return ticks

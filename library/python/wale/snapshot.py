@@ -30,16 +30,16 @@ class Snapshot(Handle):
     @property
     def states(self) -> dict[str, float]:
         """The states' values by their names, SI."""
-        count = ffi.new("size_t*")
-        values = lib.wale_snapshot_states(self._pointer, count)
-        return {read(lib.wale_snapshot_state_name(self._pointer, i)): values[i] for i in range(count[0])}
+        count, held = ffi.new("size_t*"), self._pointer
+        values = lib.wale_snapshot_states(held, count)
+        return {read(lib.wale_snapshot_state_name(held, i)): values[i] for i in range(count[0])}
 
     @property
     def grids(self) -> dict[str, NDArray[np.float32]]:
         """The grids by their names: rows from the bottom, SI."""
         grids: dict[str, NDArray[np.float32]] = {}
-        of, error = sized("WaleGrid"), ffi.NULL
-        while lib.wale_snapshot_grid(self._pointer, len(grids), of, error) == 0:
+        of, error, held = sized("WaleGrid"), ffi.NULL, self._pointer
+        while lib.wale_snapshot_grid(held, len(grids), of, error) == 0:
             cells = np.frombuffer(ffi.buffer(of.cells, of.rows * of.columns * 4), dtype=np.float32)
             grids[read(of.name)] = cells.reshape(of.rows, of.columns).copy()
         return grids

@@ -36,11 +36,12 @@ class Contact:
     force: Vector
 
 
-def _placed(at: Vector, size: Size | None, layer: float, shape: Shape | None) -> Any:
+def _placed(at: Vector, size: Size | None, layer: float, shape: Shape | None) -> tuple[Any, Any]:
+    """The options, and what keeps the shape that they point to."""
     width, height, rim = size_in_full(size) if size is not None else (0.0, 0.0, 0.0)
     x, y = pair(at, "at")
-    return Arguments().struct("WalePatchOptions", x=x, y=y, width=width, height=height, rim=rim, layer=layer,
-                              shape=None if shape is None else held(shape, Shape, "shape"))
+    kept = None if shape is None else held(shape, Shape, "shape")
+    return Arguments().struct("WalePatchOptions", x=x, y=y, width=width, height=height, rim=rim, layer=layer, shape=kept), kept
 
 
 class Patch(Handle):
@@ -54,8 +55,13 @@ class Patch(Handle):
 
     @property
     def id(self) -> int:
-        """What `Now` and `Contact` call it; never 0."""
+        """What `Now`, `Contact` and `Run.ticks` call it; never 0."""
         return int(lib.wale_patch_id(self._pointer))
+
+    @property
+    def number(self) -> int:
+        """What `Recording.ticks` call it. A later patch may get the number of a removed one."""
+        return int(lib.wale_patch_number(self._pointer))
 
     @property
     def exists(self) -> bool:
@@ -81,7 +87,7 @@ class Patch(Handle):
 
     def enable(self, enabled: bool = True) -> None:
         """A patch that is not enabled is not felt, and keeps its memory."""
-        call(lib.wale_patch_enable, self._pointer, whole(enabled, "enabled"))
+        call(lib.wale_patch_enable, self._pointer, whole(enabled, "enabled", 32))
 
     def bring(self, layer: float = 0.0) -> None:
         """Puts it in front of all patches of a layer."""
@@ -104,7 +110,7 @@ class Edit(Handle):
 
     def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0,
             shape: Shape | None = None) -> Patch:
-        placed = _placed(at, size, layer, shape)
+        placed, _kept = _placed(at, size, layer, shape)
         return Patch(made(lib.wale_edit_add, "WalePatch", self._pointer, held(program, Program, "program"), placed))
 
     def set(self, patch: Patch, parameter: str, value: float) -> None:
@@ -121,7 +127,7 @@ class Edit(Handle):
         call(lib.wale_edit_replace, self._pointer, held(patch, Patch, "patch"), held(program, Program, "program"))
 
     def enable(self, patch: Patch, enabled: bool = True) -> None:
-        call(lib.wale_edit_enable, self._pointer, held(patch, Patch, "patch"), whole(enabled, "enabled"))
+        call(lib.wale_edit_enable, self._pointer, held(patch, Patch, "patch"), whole(enabled, "enabled", 32))
 
     def bring(self, patch: Patch, layer: float = 0.0) -> None:
         call(lib.wale_edit_bring, self._pointer, held(patch, Patch, "patch"), number(layer, "layer"))
@@ -164,13 +170,13 @@ def _interrupts_later() -> Iterator[list[int]]:
         usual(heard[0], None)
 
 
-def _wait_for_end(over: threading.Event, heard: list[int], pointer: Any) -> None:
+def _wait_for_end(over: threading.Event, heard: list[int], interrupt: Callable[[], None]) -> None:
     """Waits for the end of a run, and ends it when an interrupt is heard or another signal's handler raises."""
     raised: BaseException | None = None
     while not over.is_set():
         try:
             if heard or raised is not None:  # again and again, since the run may not have begun
-                lib.wale_stage_interrupt(pointer)
+                interrupt()
             over.wait(0.05)
         except BaseException as other:
             raised = other
@@ -178,12 +184,10 @@ def _wait_for_end(over: threading.Event, heard: list[int], pointer: Any) -> None
         raise raised
 
 
-def _created(function: Any, of: Any, options: Any) -> Any:
-    return made(function, "WaleStage", of, options)
-
-
 class Stage(Handle):
     """Patches on a device's workspace, and the loop that lets the hand feel the front-most one under it.
+
+    Closing it ends its run, also a `run` on another thread, and waits for that.
 
     `priority`: 1 .. 99, SCHED_FIFO for the loop if it is permitted. `max_force`: N, 0: only the device's own limit.
     `record`: a file for the run's recording; it must not exist yet. Its path counts from the current folder now.
@@ -197,19 +201,27 @@ class Stage(Handle):
                                    low_latency=low_latency, max_force=max_force, record=record,
                                    record_hand=record_hand)
         if isinstance(device, Device):
-            stage = _created(lib.wale_stage_create, device._pointer, options)
+            stage = made(lib.wale_stage_create, "WaleStage", device._pointer, options)
         elif not isinstance(device, Profile):
             raise TypeError(f"device: expected a Device or a Profile, found {device!r}")
         else:
             figures = {name: value for name, value in vars(device).items() if not isinstance(value, bool)}
             given = arguments.struct("WaleProfile", vibrates=int(device.vibrates), has_position=int(device.has_position),
                                      **figures)
-            stage = _created(lib.wale_stage_create_for, given, options)
+            stage = made(lib.wale_stage_create_for, "WaleStage", given, options)
         super().__init__(stage, lib.wale_stage_free)
         self._heard: deque[Contact] = deque()
         self._hears: Any = ffi.new_handle(self._heard)
         self._receive: Callable[[Contact], None] | None = None
         self._dropped = 0  # not told yet, since a receiver raised
+        self._runs: list[threading.Event] = []  # one for each `run` that is under way
+
+    def close(self) -> None:
+        held = self._held
+        super().close()
+        while held is not None and self._runs:
+            lib.wale_stage_interrupt(held)
+            self._runs[-1].wait(0.01)
 
     def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0,
             shape: Shape | None = None) -> Patch:
@@ -217,14 +229,14 @@ class Stage(Handle):
 
         `shape`: the part of its rectangle that it covers, stretched to its size.
         """
-        placed = _placed(at, size, layer, shape)
+        placed, _kept = _placed(at, size, layer, shape)
         return Patch(made(lib.wale_stage_add, "WalePatch", self._pointer, held(program, Program, "program"), placed))
 
     def add_workspace(self, workspace: Workspace) -> list[Patch]:
         """Puts all patches of a workspace on the stage at once, the last in front, and gives them in their order."""
-        pointer = held(workspace, Workspace, "workspace")
+        held(workspace, Workspace, "workspace")
         places = ffi.new("WalePatch*[]", max(1, len(workspace)))
-        call(lib.wale_stage_add_workspace, self._pointer, pointer, places)
+        call(lib.wale_stage_add_workspace, self._pointer, workspace._pointer, places)
         return [Patch(places[i]) for i in range(len(workspace))]
 
     def edit(self) -> Edit:
@@ -242,21 +254,27 @@ class Stage(Handle):
         """Runs for so many seconds, in real time or as fast as possible. An interrupt (Ctrl-C) ends it."""
         options = Arguments().struct("WaleRunOptions", seconds=seconds, kept_seconds=kept_seconds,
                                      virtual_time=virtual_time)
-        pointer, done, over = self._pointer, list[Any](), threading.Event()
+        done, over = list[Any](), threading.Event()
 
         def serve() -> None:
+            self._runs.append(over)  # before it looks whether the stage is closed: `close` looks in the other order
             try:
-                done.append(Run(made(lib.wale_stage_run, "WaleRun", pointer, options)))
+                done.append(Run(made(lib.wale_stage_run, "WaleRun", self._pointer, options)))
             except BaseException as raised:
                 done.append(raised)
             finally:
+                self._runs.remove(over)
                 over.set()
+
+        def interrupt() -> None:
+            if (pointer := self._held) is not None:  # else `close` does it
+                lib.wale_stage_interrupt(pointer)
 
         # On a thread of its own, since this one must hear an interrupt. Meanwhile an interrupt raises nothing, since
         # it might do so anywhere here: it ends the run, and is handed on afterwards.
         with _interrupts_later() as heard:
             threading.Thread(target=serve).start()
-            _wait_for_end(over, heard, pointer)
+            _wait_for_end(over, heard, interrupt)
         if isinstance(done[0], BaseException):
             raise done[0]
         run: Run = done[0]

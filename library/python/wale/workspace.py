@@ -75,26 +75,30 @@ class Workspace(Handle):
     @property
     def patches(self) -> Sequence[WorkspacePatch]:
         """The last lies in front."""
-        return [self._patch(i) for i in range(len(self))]
+        held = self._pointer  # whose texts are read
+        return [_patch_of(held, i) for i in range(len(self))]
 
     @property
     def warnings(self) -> Sequence[Error]:
         """About its text, in the order of their places."""
-        return [described(lib.wale_workspace_warning(self._pointer, i)) for i in range(self._counts[1])]
+        held = self._pointer
+        return [described(lib.wale_workspace_warning(held, i)) for i in range(self._counts[1])]
 
-    def _patch(self, index: int) -> WorkspacePatch:
-        of = sized("WaleWorkspacePatch")
-        call(lib.wale_workspace_patch, self._pointer, index, of)
-        program = Program(made(lib.wale_workspace_program, "WaleProgram", self._pointer, index))
-        shape = Shape(made(lib.wale_workspace_shape, "WaleShape", self._pointer, index)) if of.has_shape else None
-        marks = [self._mark(index, i) for i in range(of.marks)]
-        return WorkspacePatch(read(of.name), read(of.made_of), program, (of.x, of.y), (of.width, of.height, of.rim), shape,
-                              marks, (of.text_begin, of.text_end))
 
-    def _mark(self, patch: int, index: int) -> SliderMark:
-        of = sized("WaleWorkspaceMark")
-        call(lib.wale_workspace_mark, self._pointer, patch, index, of)
-        return SliderMark(read(of.slider), bool(of.is_percept), or_none(of.low), or_none(of.high), read(of.says))
+def _patch_of(workspace: Any, index: int) -> WorkspacePatch:
+    of = sized("WaleWorkspacePatch")
+    call(lib.wale_workspace_patch, workspace, index, of)
+    program = Program(made(lib.wale_workspace_program, "WaleProgram", workspace, index))
+    shape = Shape(made(lib.wale_workspace_shape, "WaleShape", workspace, index)) if of.has_shape else None
+    marks = [_mark_of(workspace, index, i) for i in range(of.marks)]
+    return WorkspacePatch(read(of.name), read(of.made_of), program, (of.x, of.y), (of.width, of.height, of.rim), shape,
+                          marks, (of.text_begin, of.text_end))
+
+
+def _mark_of(workspace: Any, patch: int, index: int) -> SliderMark:
+    of = sized("WaleWorkspaceMark")
+    call(lib.wale_workspace_mark, workspace, patch, index, of)
+    return SliderMark(read(of.slider), bool(of.is_percept), or_none(of.low), or_none(of.high), read(of.says))
 
 
 def load_workspace(path: str | os.PathLike[str]) -> Workspace:

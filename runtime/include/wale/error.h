@@ -76,7 +76,7 @@ typedef struct WaleErrorDetails {
   int64_t number;          /* of its row (from 1), byte or instruction (from 0); -1 if there is none */
   int64_t column;          /* in a Wale file, from 1, in characters; -1 if there is none */
   uint64_t length;         /* bytes of the file from there on; 0 if that is not known */
-  WaleText in_words;       /* all in one line, for a person; its place comes first: "my.wale:2:9: expected …" */
+  WaleText in_words;       /* for a person, in one line but for lines to copy; its place first: "my.wale:2:9: expected …" */
   WaleText explained;      /* the same with the causes, one per line */
   size_t nearest;          /* how many names may have been meant: wale_error_nearest */
   size_t others;           /* how many other errors and warnings the same text has: wale_error_other */

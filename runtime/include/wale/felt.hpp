@@ -21,7 +21,7 @@ struct ForceSize {
 /// How a record is measured.
 struct MeasureOptions {
   double position_step = 0;       ///< m per encoder count
-  float predicted_amplitude = 0;  ///< N; crossings swing beyond half of it. 0: beyond half of the force's own P99
+  float predicted_amplitude = 0;  ///< N; less than half of it crosses nothing. 0: the force's own P99
   double settling = 0;            ///< s, left out at the beginning: forces slew in and the hand comes up to speed
   double stuck_seconds = 0.05;    ///< the hand counts as stuck if within this time it moves by no more than
   double stuck_counts = 2;        ///< this many encoder counts on each axis
@@ -56,8 +56,8 @@ struct Felt {
   ForceSize force_rubbing;                       ///< the actuator's, while rubbing
   std::optional<ForceSize> interaction;          ///< between hand and handle; empty if the device does not measure it
   std::optional<ForceSize> interaction_rubbing;  ///< the same while rubbing
-  /// All swings of the force from more than half the amplitude on one side to more than half on the other, along the
-  /// axis with more force.
+  /// All swings of the force along the axis with more force, from the upper quarter of its range to the lower one or
+  /// back. The range goes as far as the amplitude to either side, and a force below half of that has no swings.
   long alternations = 0;
   /// The alternations during which the hand keeps its direction: the flanks of a texture. A limit cycle at one place, a
   /// spring and oil have none.

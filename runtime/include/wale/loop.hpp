@@ -26,14 +26,14 @@ class Loop {
   Loop& operator=(Loop&&) noexcept;
 
   /// Serves one tick: the force (N; of a pad its amplitude and frequency) to command for this reading. `periods` have
-  /// passed since the last step, 1 unless some were missed; less counts as 1. The loop looks at no clock: where
+  /// passed since the last step, 1 unless some were missed; less counts as 1, more than 2^31 - 1 as so many. Where
   /// `periods` says that more than 20 ms were missed, the force is 0 once and slews back. Readings that make no sense
   /// count as for `Device::sample`. A loop that was moved from gives 0, and so does one in a child of `fork`, whose
   /// parent has made it. One thread at a time.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   Force step(const Reading& reading, long periods = 1) noexcept;
-  /// The force that the actuator really exerts since the last step, where the device tells it; otherwise the commanded
-  /// force counts, also in place of one that is not finite. Real-time as `step`.
+  /// The force that the actuator really exerts since the last step, where the device tells it, also for `now` and the
+  /// recording; otherwise the commanded one counts, also for one that is not finite. Real-time as `step`.
   void exerted(Force force) noexcept;
 
  private:

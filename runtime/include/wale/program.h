@@ -1,6 +1,7 @@
 #ifndef WALE_PROGRAM_H
 #define WALE_PROGRAM_H
 
+#include "wale/device.h"
 #include "wale/error.h"
 
 #ifdef __cplusplus
@@ -68,6 +69,10 @@ WALE_API WaleCode wale_program_details(const WaleProgram* program, WaleProgramDe
 WALE_API WaleCode wale_program_parameter(const WaleProgram* program, size_t index, WaleParameter* parameter,
                                          WaleError** error);
 WALE_API WaleCode wale_program_percept(const WaleProgram* program, size_t index, WalePercept* percept, WaleError** error);
+
+/* The figures of the device that it is built for, also of one that only its text declares: for wale_stage_create_for. The text
+   belongs to the program. Errors: malformed_value for NULL or a wrong size. */
+WALE_API WaleCode wale_program_profile(const WaleProgram* program, WaleProfile* profile, WaleError** error);
 
 /* A warning about its text, in the order of their places; it belongs to the program. NULL beyond the last. */
 WALE_API const WaleError* wale_program_warning(const WaleProgram* program, size_t index);

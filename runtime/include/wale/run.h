@@ -33,7 +33,8 @@ typedef struct WaleRunOptions {
   double seconds;       /* how long; positive, may be fractional or infinite */
   double kept_seconds;  /* how much of the run's end the record keeps, 2^24 ticks at most (4.6 hours at 1000 Hz); 0: all,
                            so that a run without it is no longer than that */
-  int32_t virtual_time; /* 1: as fast as possible on the calling thread; every run gives the same bits */
+  int32_t virtual_time; /* 1: as fast as possible on the calling thread; a run of the same stage on a newly
+                           opened device gives the same bits; a second one goes on with the person where the first ended */
   int32_t reserved;     /* 0 */
 } WaleRunOptions;
 
@@ -90,6 +91,8 @@ typedef struct WaleTick {
   uint32_t skipped;       /* periods that were not served just before this tick */
   int32_t inside;         /* 1: the hand was within the patch */
   int32_t reserved;       /* 0 */
+  uint64_t patch;         /* wale_patch_id of the one that the hand was on; 0: none */
+  uint64_t change;        /* another number after each change of that patch's program, parameters or size */
 } WaleTick;
 
 WALE_API void wale_run_free(WaleRun* run);

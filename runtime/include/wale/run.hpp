@@ -67,7 +67,7 @@ inline constexpr std::size_t most_contacts_waiting = 1024;
 
 struct RunOptions {
   double seconds = 0;         ///< how long; positive, may be fractional; as many as `kept_seconds` lets be kept
-  bool virtual_time = false;  ///< as fast as possible on the calling thread; every run gives the same bits
+  bool virtual_time = false;  ///< as fast as possible on the calling thread; the same bits on each new device
   /// Called about ten times a second, never on the real-time thread; changes of the stage are not handed over while it
   /// runs, so it should return soon. In virtual time it is called between two ticks, ten times per second of the run; a
   /// change that it makes to the stage takes effect at the next tick.

@@ -121,6 +121,8 @@ WALE_API WaleCode wale_patch_remove(WalePatch* patch, WaleError** error);
 WALE_API int32_t wale_patch_exists(const WalePatch* patch);
 /* What WaleNow and WaleContact call it; never 0, and on its stage unique for ever. 0 for NULL. */
 WALE_API uint64_t wale_patch_id(const WalePatch* patch);
+/* What WaleRecordedTick calls it. A later patch may get the number of a removed one. 0xffffffff for NULL. */
+WALE_API uint32_t wale_patch_number(const WalePatch* patch);
 WALE_API void wale_patch_free(WalePatch* patch);
 
 /* Begins an edit. Its calls are those of a stage and of its patches; an error of a change comes from wale_edit_commit. A patch

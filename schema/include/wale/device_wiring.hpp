@@ -1,11 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "wale/force_response.hpp"
 
 namespace wale {
 
@@ -43,6 +46,17 @@ struct DeviceWiring {
   std::array<SignedAxis, 2> motors{{{0}, {1}}};  ///< of its forces: those that push to the right, and away
   /// N at the handle for each commanded N, to the right and away; least_gain .. most_gain.
   std::array<double, 2> gain{1, 1};
+  /// How the force departs from that gain, by `Way`; and N without a command, to the right and away. Only a declaration
+  /// of one single device has these: files of devices that others share cannot hold them.
+  std::array<ForceResponse, 4> response{};
+  std::array<double, 2> offset{};
+
+  /// Whether a force is commanded otherwise than by gains.
+  bool is_corrected() const { return response != std::array<ForceResponse, 4>{} || offset != std::array<double, 2>{}; }
+  /// The force of an axis, 0 or 1, of a device whose force is `peak` N, above zero.
+  AxisResponse response_of(std::size_t axis, double peak) const;
+  /// The same hardware whose motors push where `turned` says. Each motor keeps its gain and its response.
+  DeviceWiring with_motors(const std::array<SignedAxis, 2>& turned) const;
 
   friend bool operator==(const DeviceWiring&, const DeviceWiring&) = default;
 };

@@ -35,7 +35,8 @@ struct Error {
   std::vector<Error> others = {};  ///< the other errors and warnings of the same text, in the order of their places
 };
 
-/// The error in one line for a person, its place first: "my.wale:2:9: expected a number, found a vector; divide by …".
+/// The error in one line for a person, its place first: "my.wale:2:9: expected a number, found a vector; divide by …". A
+/// mend may have lines to copy.
 std::string in_words(const Error& error);
 
 /// The error for a person in several lines: the line of `in_words`, then the causes, one per line.

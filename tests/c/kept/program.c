@@ -51,7 +51,7 @@ int main(void) {
   EXPECT(wale_stage_now(stage, &now) == 0 && now.ticks_run == (int64_t)(2 * profile.rate + 0.5));
   WaleTick last;
   TRY(wale_run_ticks(run, (size_t)now.ticks_run - 1, 1, sizeof last, &last, &error));
-  EXPECT(last.force.x == now.force.x);
+  EXPECT(last.force.x == now.force.x && last.inside == now.inside);
   WaleMeasureOptions measure = {.size = sizeof measure, .settling = 0.5, .least_crossings = 5};
   TRY(wale_felt_measure(run, patch, &measure, &felt, &error));
   WaleFeltLevel level = {.size = sizeof level};

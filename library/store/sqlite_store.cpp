@@ -1,13 +1,10 @@
-#include "library/store/library_store.hpp"
+#include "library/store/stores.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <map>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 
 #include "library/index/content_hash.hpp"
@@ -69,7 +66,7 @@ class SqliteStore final : public LibraryStore, MaterialIndex, WordTable {
   }
 
   Result<StoreReport> bring_up_to_date(const std::vector<LibraryFile>& files, const FileRequest& request,
-                                       const StoreProgress& tell) override;
+                                       const StoreProgress& tell, const Shelf& shelf) override;
   const MaterialIndex& index() const override { return *this; }
   bool is_of_this_wale() const override { return fact("build") == compiler_build(); }
 
@@ -177,7 +174,7 @@ Result<> SqliteStore::forget(const std::string& path, std::size_t& materials) co
 }
 
 Result<> SqliteStore::keep(const LibraryFile& file, const ReadFile& read, const std::string& others) const {
-  const std::string rests_on = Json(read.rests_on).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string rests_on = rests_on_text(read.rests_on);
   if (const auto kept = database_.prepare("INSERT INTO files VALUES(?, ?, ?, ?)")
                             .bind(file.path)
                             .bind(file.module)
@@ -214,23 +211,16 @@ Result<> SqliteStore::keep(const LibraryFile& file, const ReadFile& read, const 
 }
 
 Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>& files, const FileRequest& request,
-                                                  const StoreProgress& tell) {
+                                                  const StoreProgress& tell, const Shelf&) {
   StoreReport report;
   report.files = files.size();
-  std::vector<std::string> hashes(files.size());
-  in_parallel(files.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) hashes[i] = hash_of_file(files[i].path);
-  });
-  ContentHash hash;
-  for (std::size_t i = 0; i < files.size(); ++i) hash.take(files[i].path).take(hashes[i]);
-  const std::string others = hash.digits();
+  std::vector<std::string> names;
+  for (const LibraryFile& each : files) names.push_back(each.path);
+  const FileHashes hashes = hashes_of(files, names);
 
   // What was read by another compiler, with other maps, or for another device, is read again.
   const bool is_of_this = fact("build") == compiler_build() && fact("device") == request.device;
-  struct Known {
-    std::string module, rests_on, others;
-  };
-  std::map<std::string, Known> known;
+  std::map<std::string, KnownFile> known;
   auto all = database_.prepare("SELECT path, module, rests_on, others FROM files");
   while (all.step())
     known[std::string(all.text(0))] = {std::string(all.text(1)), std::string(all.text(2)), std::string(all.text(3))};
@@ -238,16 +228,10 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
 
   std::vector<char> changed(files.size(), 1);
   in_parallel(files.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto found = known.find(files[i].path);
-      if (!is_of_this || found == known.end() || found->second.module != files[i].module) continue;
-      if (!found->second.others.empty() && found->second.others != others) continue;
-      const Json rests_on = Json::parse(found->second.rests_on, nullptr, false);
-      changed[i] = !rests_on.is_array() || !std::ranges::all_of(rests_on, [&](const Json& each) {
-        const auto& path = each.at(0).get_ref<const std::string&>();
-        return (path == files[i].path ? hashes[i] : hash_of_file(path)) == each.at(1);
-      });
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      if (const auto found = known.find(files[i].path); is_of_this && found != known.end())
+        changed[i] = !is_unchanged(found->second, files[i].module, files[i].path, hashes.each[i], hashes.all,
+                                   [](const std::string& path) { return path; });
   });
   std::set<std::string> paths;
   std::vector<std::size_t> to_read;
@@ -259,48 +243,32 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
   for (const auto& [path, each] : known)
     if (!paths.contains(path)) gone.push_back(path);
 
-  const auto first_trouble = [&]() -> Result<> {
-    if (to_read.empty() && gone.empty() && is_of_this) return {};
-    // A change that a killed process leaves unfinished has another generation than the columns.
-    if (const auto begun = database_.execute("BEGIN IMMEDIATE"); !begun) return begun;
-    std::optional<Error> trouble;
-    const auto after = [&](const Result<>& done) {
-      if (!done && !trouble) trouble = done.error();
-    };
-    after(set_fact("generation", std::to_string(generation() + 1)));
-    after(set_fact("build", compiler_build()));
-    after(set_fact("device", request.device));
-    for (const std::string& path : gone) after(forget(path, report.gone));
-    std::size_t replaced = 0;
+  const auto update = [&]() -> Result<> {
+    if (const auto set = set_fact("generation", std::to_string(generation() + 1)); !set) return set;
+    if (const auto set = set_fact("build", compiler_build()); !set) return set;
+    if (const auto set = set_fact("device", request.device); !set) return set;
+    for (const std::string& path : gone)
+      if (const auto forgotten = forget(path, report.gone); !forgotten) return forgotten;
     if (!is_of_this)  // those that are read below are known to be old if this is broken off
-      after(database_.execute("UPDATE files SET rests_on = '', others = ''"));
-
-    std::atomic<std::size_t> next{0}, done{0};
-    std::mutex lock;
-    in_parallel(to_read.size(), [&](std::size_t, std::size_t) {
-      for (std::size_t i; (i = next.fetch_add(1)) < to_read.size();) {
-        const LibraryFile& file = files[to_read[i]];
-        const ReadFile read = read_library_file(file, request);
-        const std::size_t count = ++done;
-        {
-          const std::lock_guard guard(lock);
-          if (trouble) return;
-          after(forget(file.path, replaced));
-          after(keep(file, read, others));
-          report.read += read.entries.size();
-          constexpr std::size_t files_at_once = 32;
-          if (count % files_at_once == 0) after(database_.execute("COMMIT; BEGIN IMMEDIATE"));
-        }
-        if (tell) tell(count, to_read.size());
-      }
+      if (const auto old = database_.execute("UPDATE files SET rests_on = '', others = ''"); !old) return old;
+    std::size_t replaced = 0, count = 0;
+    return read_library_files(files, to_read, request, false, tell, [&](std::size_t which, ReadFile read) -> Result<> {
+      if (const auto forgotten = forget(files[which].path, replaced); !forgotten) return forgotten;
+      if (const auto kept = keep(files[which], read, hashes.all); !kept) return kept;
+      report.read += read.entries.size();
+      constexpr std::size_t files_at_once = 32;
+      return ++count % files_at_once == 0 ? database_.execute("COMMIT; BEGIN IMMEDIATE") : Result<>();
     });
-    if (trouble) {
+  };
+  if (!to_read.empty() || !gone.empty() || !is_of_this) {
+    // A change that a killed process leaves unfinished has another generation than the columns.
+    if (const auto begun = database_.execute("BEGIN IMMEDIATE"); !begun) return begun.error();
+    if (const auto updated = update(); !updated) {
       (void)database_.execute("ROLLBACK");
-      return *trouble;
+      return updated.error();
     }
-    return database_.execute("COMMIT");
-  }();
-  if (!first_trouble) return first_trouble.error();
+    if (const auto committed = database_.execute("COMMIT"); !committed) return committed.error();
+  }
   if (const auto read = read_columns(); !read) return read.error();
   report.materials = columns_.size();
   auto troubled = database_.prepare(
@@ -314,7 +282,7 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
 
 }  // namespace
 
-Result<std::unique_ptr<LibraryStore>> LibraryStore::open(const std::string& path, bool makes) {
+Result<std::unique_ptr<LibraryStore>> open_sqlite_store(const std::string& path, bool makes) {
   auto database = Database::open(path, makes);
   if (!database) return database.error();
   auto store = std::make_unique<SqliteStore>(*std::move(database), FeltColumns::of({}));

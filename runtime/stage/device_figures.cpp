@@ -1,0 +1,75 @@
+#include "runtime/stage/device_figures.hpp"
+
+#include <array>
+#include <utility>
+
+#include "runtime/machine/verify_figures.hpp"
+#include "schema/sentence.hpp"
+
+namespace wale {
+namespace {
+
+/// A figure that is checked only if it is declared, and a value in its range.
+struct Undeclared {
+  double DeviceProfile::*figure;
+  double value;
+};
+constexpr std::array<Undeclared, 3> of_a_position{{{&DeviceProfile::workspace_diameter, 0.1},
+                                                   {&DeviceProfile::position_counts, 1000},
+                                                   {&DeviceProfile::speed_limit, 1}}};
+constexpr std::array<Undeclared, 2> of_a_force{{{&DeviceProfile::force_newton, 1000}, {&DeviceProfile::force_counts, 1000}}};
+
+Error unusable(const DeviceProfile& profile, const char* name, std::string what, std::string mend) {
+  return {.code = Code::unusable_device,
+          .sentence = "the device " + profile.name + what,
+          .mend = std::move(mend),
+          .place = {.name = name}};
+}
+
+}  // namespace
+
+Result<> check_declared_figures(const DeviceProfile& profile) {
+  DeviceProfile whole = profile;
+  const auto fill = [&whole](const auto& figures) {
+    for (const auto& [figure, value] : figures)
+      if (whole.*figure == 0) whole.*figure = value;
+  };
+  if (whole.has_position()) fill(of_a_position);
+  if (!whole.shaker) fill(of_a_force);
+  if (whole.rate == 0) whole.rate = DeviceProfile::least_rate;
+  try {
+    verify_device(whole);
+  } catch (const Error& error) {
+    return unusable(profile, "profile", " cannot be used: " + error.sentence, "give its profile a figure in this range");
+  }
+  if (profile.velocity_window > most_velocity_window)
+    return unusable(profile, "velocity_window",
+                    sentence(" declares a velocity window of ", profile.velocity_window, " ticks, expected ",
+                             most_velocity_window, " at most"),
+                    "declare a shorter one");
+  return {};
+}
+
+Result<> check_figures(const DeviceProfile& profile) {
+  struct Figure {
+    const char* name;
+    double value;
+    bool needed;
+  };
+  const bool place = profile.has_position(), push = !profile.shaker;
+  const std::array<Figure, 6> figures{{{"rate", profile.rate, true},
+                                       {"workspace", profile.workspace_diameter, place},
+                                       {"position counts", profile.position_counts, place},
+                                       {"force", profile.force_newton, push},
+                                       {"force counts", profile.force_counts, push},
+                                       {"acceleration", profile.most(), !push}}};
+  for (const auto& [name, value, needed] : figures) {
+    if (!needed || value != 0) continue;
+    Error error = unusable(profile, name, std::string(" declares no positive ") + name, "give its profile this figure");
+    error.place.text = "0";
+    return error;
+  }
+  return check_declared_figures(profile);
+}
+
+}  // namespace wale
