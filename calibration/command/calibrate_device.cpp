@@ -115,7 +115,7 @@ std::string bytes_of_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-Result<ForceReadings> readings_of_table(const std::string& path, double peak) {
+Result<GaugeReadings> readings_of_table(const std::string& path, double peak) {
   std::ifstream file(path, std::ios::binary);
   std::string text;
   if (file) text.assign(std::istreambuf_iterator<char>(file), {});
@@ -130,7 +130,7 @@ Result<ForceReadings> readings_of_table(const std::string& path, double peak) {
 /// What was measured, with the readings that a table may keep.
 struct Measured {
   DeviceCalibration calibration;
-  ForceReadings forces;
+  GaugeReadings forces;
 };
 
 /// How far the forces of a shaking may all be off, as a standard error over their mean size: what the noise of the

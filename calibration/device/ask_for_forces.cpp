@@ -42,9 +42,9 @@ std::vector<ForceStep> force_steps(double most) {
   return steps;
 }
 
-Result<ForceReadings> ask_for_forces(std::span<const ForceStep> steps, std::istream& in, std::ostream& out,
+Result<GaugeReadings> ask_for_forces(std::span<const ForceStep> steps, std::istream& in, std::ostream& out,
                                      const std::function<Result<double>(const ForceStep&)>& push) {
-  std::vector<std::pair<std::size_t, ForceReading>> taken;  // by their steps
+  std::vector<std::pair<std::size_t, GaugeReading>> taken;  // by their steps
   std::string unit;
   const Error ended{.code = Code::stopped, .sentence = "ended before all readings were taken"};
   for (std::size_t at = 0; at < steps.size();) {
@@ -87,7 +87,7 @@ Result<ForceReadings> ask_for_forces(std::span<const ForceStep> steps, std::istr
       break;
     }
   }
-  ForceReadings all;
+  GaugeReadings all;
   for (const auto& each : taken) all.readings.push_back(each.second);
   return all;
 }

@@ -25,7 +25,7 @@ std::vector<ForceStep> force_steps(double most);
 /// command that the motor took. An answer is a quantity with its unit, "2.31 N", after the first one also without.
 /// `back` takes the answer before back and asks for it again, `again` pushes again, `skip` goes on with the next way,
 /// and `q` or the end of the input ends: W0706. An answer that cannot be read is said, and asked for again.
-Result<ForceReadings> ask_for_forces(std::span<const ForceStep> steps, std::istream& in, std::ostream& out,
+Result<GaugeReadings> ask_for_forces(std::span<const ForceStep> steps, std::istream& in, std::ostream& out,
                                      const std::function<Result<double>(const ForceStep&)>& push);
 
 }  // namespace wale

@@ -153,16 +153,16 @@ std::string way_text(const WayFit& fit, double peak) {
 
 }  // namespace
 
-Result<DeviceCalibration> fit_readings(const std::vector<ForceReading>& readings, double peak) {
+Result<DeviceCalibration> fit_readings(const std::vector<GaugeReading>& readings, double peak) {
   DeviceCalibration calibration;
   if (readings.empty())
     return Error{.code = Code::not_measured,
                  .sentence = "there are no readings",
                  .mend = "measure at least one way, at commands from 0 N to the device's force"};
   for (const Way way : all_ways) {
-    std::vector<ForceReading> of_way;
+    std::vector<GaugeReading> of_way;
     std::ranges::copy_if(readings, std::back_inserter(of_way),
-                         [&](const ForceReading& each) { return each.way == way; });
+                         [&](const GaugeReading& each) { return each.way == way; });
     if (of_way.empty()) continue;
     auto fit = fit_way(of_way, peak);
     if (!fit) return std::move(fit.error());

@@ -23,7 +23,7 @@ struct DeviceCalibration {
 };
 
 /// Fits each way that has readings. Errors: those of `fit_way`, and W0802 if there is no reading at all.
-Result<DeviceCalibration> fit_readings(const std::vector<ForceReading>& readings, double peak);
+Result<DeviceCalibration> fit_readings(const std::vector<GaugeReading>& readings, double peak);
 
 /// A gain that is far from the declared one: over 1.5 times, or under 1 / 1.5 of it.
 struct GainQuestion {

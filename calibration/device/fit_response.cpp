@@ -246,11 +246,11 @@ std::optional<double> lack_of_fit(const Columns& data, const VectorXd& residuals
 }
 
 /// The change of the force from the first round to the last, at commands that give a fifth of the greatest force.
-std::optional<Coefficient> drift_of(std::span<const ForceReading> readings, double offset) {
+std::optional<Coefficient> drift_of(std::span<const GaugeReading> readings, double offset) {
   double greatest = 0;
-  for (const ForceReading& each : readings) greatest = std::max(greatest, each.newton - offset);
-  std::map<double, std::pair<const ForceReading*, const ForceReading*>> ends;
-  for (const ForceReading& each : readings) {
+  for (const GaugeReading& each : readings) greatest = std::max(greatest, each.newton - offset);
+  std::map<double, std::pair<const GaugeReading*, const GaugeReading*>> ends;
+  for (const GaugeReading& each : readings) {
     if (each.newton - offset < greatest / 5) continue;
     auto& [first, last] = ends[each.command];
     if (first == nullptr || each.repeat < first->repeat) first = &each;
@@ -322,7 +322,7 @@ ForceResponse WayFit::response() const {
           .most = most ? most->value : 0};
 }
 
-Result<WayFit> fit_way(std::span<const ForceReading> readings, double peak) {
+Result<WayFit> fit_way(std::span<const GaugeReading> readings, double peak) {
   Columns data{VectorXd(static_cast<Index>(readings.size())), VectorXd(static_cast<Index>(readings.size())), peak};
   for (std::size_t i = 0; i < readings.size(); ++i) {
     data.command[static_cast<Index>(i)] = readings[i].command;

@@ -13,7 +13,7 @@
 namespace wale {
 
 /// What a gauge said about one command.
-struct ForceReading {
+struct GaugeReading {
   Way way = Way::right;
   double command = 0;    ///< N that the motor was told, 0 or more
   double newton = 0;     ///< N at the handle, positive in that way
@@ -56,7 +56,7 @@ struct WayFit {
 /// Errors (W0802): fewer than five different commands, or than 8 readings; none at a command of zero, since dead band
 /// and offset cannot be told apart without; force that does not grow with the command; figures that no device has, as
 /// the loader of declarations checks them. A gain outside 0.1 .. 10 is one: it says how gram-force would look.
-Result<WayFit> fit_way(std::span<const ForceReading> readings, double peak);
+Result<WayFit> fit_way(std::span<const GaugeReading> readings, double peak);
 
 /// The force that the handle gets in an axis without a command, N to the right or away, from the offsets of both of its
 /// ways; the rest is the gauge's own zero.

@@ -68,9 +68,9 @@ class ForceTableReader {
  public:
   ForceTableReader(const Table& table, double peak) : table_(table), peak_(peak) {}
 
-  Result<ForceReadings> read() {
+  Result<GaugeReadings> read() {
     if (auto problem = find_columns()) return *std::move(problem);
-    ForceReadings all;
+    GaugeReadings all;
     for (std::size_t row = 0; row < table_.rows(); ++row) {
       auto reading = read_row(row);
       if (!reading) return std::move(reading.error());
@@ -138,8 +138,8 @@ class ForceTableReader {
                  .place = {.name = table_.file(), .number = 1}};
   }
 
-  Result<ForceReading> read_row(std::size_t row) {
-    ForceReading reading{.line = table_.line(row)};
+  Result<GaugeReading> read_row(std::size_t row) {
+    GaugeReading reading{.line = table_.line(row)};
     const std::string_view axis = table_.cell(row, axis_), direction = table_.cell(row, direction_);
     if (axis != "x" && axis != "y")
       return error(row, found("expected the axis x or y", axis), "x is to the right, y away");
@@ -228,7 +228,7 @@ Result<GaugeQuantity> read_gauge_quantity(std::string_view text, std::string_vie
   return quantity;
 }
 
-Result<ForceReadings> read_force_table(std::string file, std::string text, double peak) {
+Result<GaugeReadings> read_force_table(std::string file, std::string text, double peak) {
   const auto table = analysis::read_table(std::move(file), std::move(text));
   if (!table) return table.error();
   if (table->rows() == 0)
@@ -239,9 +239,9 @@ Result<ForceReadings> read_force_table(std::string file, std::string text, doubl
   return ForceTableReader(*table, peak).read();
 }
 
-std::string force_table_text(std::span<const ForceReading> readings, bool is_simulated) {
+std::string force_table_text(std::span<const GaugeReading> readings, bool is_simulated) {
   std::string text = "axis,direction,command (N),reading (N),repeat,grade\n";
-  for (const ForceReading& each : readings)
+  for (const GaugeReading& each : readings)
     text += fmt::format("{},{},{:.9g},{:.9g},{},{}\n", axis_of(each.way) == 0 ? "x" : "y", in_words(each.way),
                         each.command, each.newton, each.repeat, is_simulated ? "simulated" : "measured");
   return text;

@@ -11,8 +11,8 @@
 namespace wale {
 
 /// Readings of a force gauge, or of hanging weights, with where they come from.
-struct ForceReadings {
-  std::vector<ForceReading> readings;
+struct GaugeReadings {
+  std::vector<GaugeReading> readings;
   bool is_simulated = false;  ///< some were taken from a simulation
 };
 
@@ -36,9 +36,9 @@ Result<GaugeQuantity> read_gauge_quantity(std::string_view text, std::string_vie
 /// Errors (W0801), with file and line: those of `analysis::read_table`; missing or unknown columns; an axis or a
 /// direction that is none, or a direction of the other axis; words for numbers; missing, unknown or mixed units in one
 /// column; a command below zero or above the device's force; the same command twice in one round; no reading at all.
-Result<ForceReadings> read_force_table(std::string file, std::string text, double peak);
+Result<GaugeReadings> read_force_table(std::string file, std::string text, double peak);
 
 /// The same readings as such a table, in N.
-std::string force_table_text(std::span<const ForceReading> readings, bool is_simulated);
+std::string force_table_text(std::span<const GaugeReading> readings, bool is_simulated);
 
 }  // namespace wale

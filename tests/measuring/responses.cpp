@@ -57,9 +57,9 @@ const std::vector<ForceStep>& taken_steps() {
   return steps;
 }
 
-std::vector<ForceReading> readings_of(const DeviceWiring& truth, std::uint64_t seed) {
+std::vector<GaugeReading> readings_of(const DeviceWiring& truth, std::uint64_t seed) {
   PlantedDevice device(stick(), truth, seed);
-  std::vector<ForceReading> readings;
+  std::vector<GaugeReading> readings;
   for (const ForceStep& step : taken_steps())
     readings.push_back({step.way, step.command, device.gauge(step.way, step.command), step.repeat, 0});
   return readings;
@@ -179,23 +179,23 @@ TEST(Responses, AMotorKeepsItsResponseWhereverItPushes) {
 
 TEST(Responses, TooFewReadingsAreRefused) {
   auto readings = readings_of(planted(0, 0, 0), 1);
-  const auto refused = [](std::vector<ForceReading> few) { return fit_way(few, 10).error().sentence; };
+  const auto refused = [](std::vector<GaugeReading> few) { return fit_way(few, 10).error().sentence; };
   const auto right = [&](auto keeps) {
-    std::vector<ForceReading> kept;
-    for (const ForceReading& each : readings)
+    std::vector<GaugeReading> kept;
+    for (const GaugeReading& each : readings)
       if (each.way == Way::right && keeps(each)) kept.push_back(each);
     return kept;
   };
-  EXPECT_EQ(refused(right([](const ForceReading& each) { return each.command < 0.5; })).substr(0, 30),
+  EXPECT_EQ(refused(right([](const GaugeReading& each) { return each.command < 0.5; })).substr(0, 30),
             "right has 6 readings at 3 diff");
   EXPECT_NE(
-      refused(right([](const ForceReading& each) { return each.command > 0; })).find("no reading at a command of 0 N"),
+      refused(right([](const GaugeReading& each) { return each.command > 0; })).find("no reading at a command of 0 N"),
       std::string::npos);
-  auto falling = right([](const ForceReading&) { return true; });
-  for (ForceReading& each : falling) each.newton = -each.newton;
+  auto falling = right([](const GaugeReading&) { return true; });
+  for (GaugeReading& each : falling) each.newton = -each.newton;
   EXPECT_NE(refused(falling).find("does not push harder"), std::string::npos);
-  auto gram_force = right([](const ForceReading&) { return true; });
-  for (ForceReading& each : gram_force) each.newton *= 1000 / 9.80665;
+  auto gram_force = right([](const GaugeReading&) { return true; });
+  for (GaugeReading& each : gram_force) each.newton *= 1000 / 9.80665;
   EXPECT_NE(fit_way(gram_force, 10).error().mend.find("102 times"), std::string::npos);
   EXPECT_FALSE(fit_readings({}, 10));
 }
@@ -218,7 +218,7 @@ TEST(Responses, AGainFarFromTheDeclaredOneIsAsked) {
 }
 
 TEST(Responses, ACurveOfAnotherShapeIsSaidToBeOne) {
-  std::vector<ForceReading> readings;
+  std::vector<GaugeReading> readings;
   analysis::Random random(7);
   for (const ForceStep& step : taken_steps())
     if (step.way == Way::right)
@@ -233,9 +233,9 @@ TEST(Responses, ACurveOfAnotherShapeIsSaidToBeOne) {
 
 TEST(Responses, HeatingIsTheChangeBetweenTheRounds) {
   auto readings = readings_of(planted(0, 0, 0), 3);
-  for (ForceReading& each : readings)
+  for (GaugeReading& each : readings)
     if (each.repeat == 2) each.newton *= 0.96;
-  std::erase_if(readings, [](const ForceReading& each) { return each.way != Way::away; });
+  std::erase_if(readings, [](const GaugeReading& each) { return each.way != Way::away; });
   const auto fit = fit_way(readings, 10);
   ASSERT_TRUE(fit);
   ASSERT_TRUE(fit->drift);

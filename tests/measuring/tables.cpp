@@ -152,7 +152,7 @@ TEST(ForceTables, AnyBytesAreRead) {
       EXPECT_EQ(table.error().place.name, "t.csv") << text;
       continue;
     }
-    for (const ForceReading& each : table->readings) {
+    for (const GaugeReading& each : table->readings) {
       EXPECT_TRUE(std::isfinite(each.newton) && each.command >= 0 && each.command <= 10 * (1 + 1e-9)) << text;
       EXPECT_GE(each.repeat, 1);
     }

@@ -64,14 +64,17 @@ TEST(Codes, OfNumbersThatNobodyKnowsHaveNoTitle) {
   }
 }
 
-TEST(Errors, AreOneLineInWordsThatATerminalShows) {
+TEST(Errors, AreInWordsThatATerminalShows) {
   const std::string obeyed = "a\nb\x1b[31m\u202ec\xff\r";
   Error error{.code = Code::unreadable_file, .sentence = "s " + obeyed, .mend = obeyed, .place = {.name = obeyed, .number = 3}};
   error.led_to = {{.name = obeyed, .text = obeyed, .source = obeyed}};
   const std::string shown = "a\\u000ab\\u001b[31m\\u202ec\uFFFD\\u000d";
-  std::string in_line = shown;  // the line breaks of sentences and mends, which this project writes, become blanks
-  in_line.replace(in_line.find("\\u000a"), 6, " ");
-  EXPECT_EQ(in_words(error), shown + ":3: s " + in_line + "; " + in_line);
+  // This project writes sentences and mends: a line break in a sentence becomes a blank, and a mend keeps the lines that
+  // it has to copy.
+  std::string sentence = shown, mend = shown;
+  sentence.replace(sentence.find("\\u000a"), 6, " ");
+  mend.replace(mend.find("\\u000a"), 6, "\n");
+  EXPECT_EQ(in_words(error), shown + ":3: s " + sentence + "; " + mend);
   EXPECT_EQ(explained(error), in_words(error) + "\n  " + shown + "  " + shown + "  (" + shown + ")\n");
 }
 
