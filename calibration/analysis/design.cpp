@@ -1,4 +1,5 @@
 #include "calibration/analysis/design.hpp"
+#include "calibration/analysis/refusal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +11,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 using Kind = Term::Kind;
-
-Error refusal(Code code, std::string sentence, std::string mend) {
-  return Error{.code = code, .sentence = std::move(sentence), .mend = std::move(mend)};
-}
 
 /// Builds the columns of one model.
 class DesignBuilder {

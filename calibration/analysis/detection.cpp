@@ -6,13 +6,10 @@
 
 #include "calibration/analysis/distributions.hpp"
 #include "calibration/analysis/optimise.hpp"
+#include "calibration/analysis/refusal.hpp"
 
 namespace wale::analysis {
 namespace {
-
-Error refusal(Code code, std::string sentence, std::string mend) {
-  return Error{.code = code, .sentence = std::move(sentence), .mend = std::move(mend)};
-}
 
 double density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
 

@@ -6,16 +6,13 @@
 #include <limits>
 
 #include "calibration/analysis/distributions.hpp"
+#include "calibration/analysis/refusal.hpp"
 
 namespace wale::analysis {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-Error refusal(std::string sentence, std::string mend) {
-  return Error{.code = Code::not_measured, .sentence = std::move(sentence), .mend = std::move(mend)};
-}
 
 }  // namespace
 

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
@@ -19,7 +18,6 @@ using Eigen::VectorXd;
 constexpr Index most_varying = 6;
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_varying, most_varying>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const double log_two_pi = std::log(2 * std::numbers::pi);
 
 }  // namespace
@@ -112,7 +110,7 @@ MixedLikelihood::Parts MixedLikelihood::parts(const MatrixXd& factor) const {
     middle.diagonal().array() += 1;
     lower_middle.compute(middle);
     if (lower_middle.info() != Eigen::Success) {
-      result.log_determinant = infinity;
+      result.log_determinant = HUGE_VAL;
       return result;
     }
     for (Index i = 0; i < q; ++i) result.log_determinant += 2 * each.count * std::log(lower_middle.matrixLLT()(i, i));
@@ -129,7 +127,7 @@ MixedLikelihood::Parts MixedLikelihood::parts(const MatrixXd& factor) const {
   }
   const Eigen::LLT<MatrixXd> lower(result.products.topLeftCorner(fixed_, fixed_));
   if (lower.info() != Eigen::Success) {
-    result.log_determinant = infinity;
+    result.log_determinant = HUGE_VAL;
     return result;
   }
   result.coefficients = lower.solve(result.products.col(fixed_).head(fixed_));
@@ -145,7 +143,7 @@ double MixedLikelihood::residual(const Parts& parts, Criterion criterion) const 
 
 double MixedLikelihood::at(const MatrixXd& factor, double residual, Criterion criterion) const {
   const Parts found = parts(factor);
-  if (!std::isfinite(found.log_determinant)) return infinity;
+  if (!std::isfinite(found.log_determinant)) return HUGE_VAL;
   const double variance = residual * residual;
   const double freedom = criterion == Criterion::restricted ? trials_ - static_cast<double>(fixed_) : trials_;
   return found.log_determinant + freedom * (log_two_pi + std::log(variance)) + found.squares / variance +
@@ -154,7 +152,7 @@ double MixedLikelihood::at(const MatrixXd& factor, double residual, Criterion cr
 
 double MixedLikelihood::profiled(const MatrixXd& factor, Criterion criterion) const {
   const Parts found = parts(factor);
-  if (!std::isfinite(found.log_determinant) || !(found.squares > 0)) return infinity;
+  if (!std::isfinite(found.log_determinant) || !(found.squares > 0)) return HUGE_VAL;
   const double freedom = criterion == Criterion::restricted ? trials_ - static_cast<double>(fixed_) : trials_;
   return found.log_determinant + freedom * (1 + log_two_pi + std::log(found.squares / freedom)) +
          (criterion == Criterion::restricted ? found.log_determinant_of_products : 0);
@@ -162,7 +160,7 @@ double MixedLikelihood::profiled(const MatrixXd& factor, Criterion criterion) co
 
 double MixedLikelihood::with_coefficient(const MatrixXd& factor, std::size_t coefficient, double value) const {
   const Parts found = parts(factor);
-  if (!std::isfinite(found.log_determinant)) return infinity;
+  if (!std::isfinite(found.log_determinant)) return HUGE_VAL;
   const auto held = static_cast<Index>(coefficient);
   if (held == 0) value -= shift_;
   // The least squares grow by the square of the distance over the coefficient's own variance.

@@ -8,6 +8,7 @@
 #include "calibration/analysis/distributions.hpp"
 #include "calibration/analysis/mixed_likelihood.hpp"
 #include "calibration/analysis/optimise.hpp"
+#include "calibration/analysis/refusal.hpp"
 
 namespace wale::analysis {
 namespace {
@@ -18,10 +19,6 @@ using Eigen::VectorXd;
 
 /// A deviation of less than this, over the residual's and for a column of effective size 1, is zero.
 constexpr double negligible = 1e-4;
-
-Error refusal(std::string sentence, std::string mend) {
-  return Error{.code = Code::not_measured, .sentence = std::move(sentence), .mend = std::move(mend)};
-}
 
 bool varies(Variation variation, Index term) {
   switch (variation) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "calibration/analysis/distributions.hpp"
 #include "calibration/analysis/mixed_likelihood.hpp"
@@ -19,7 +18,6 @@ using Eigen::VectorXd;
 
 /// Of -2 log likelihood, over its size: much less than moves the third digit of an interval.
 constexpr double inner_tolerance = 1e-9;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The covariance of the observers' terms by an unconstrained vector. One deviation may be held: its row of the factor
 /// then has that length, and its last entry follows from the others.
@@ -89,7 +87,7 @@ Interval ends(const std::function<double(double)>& excess, double best, double w
       if (excess(far) > 0) return crossing(excess, near, far, 1e-5);
       near = far, step *= 1.6;
     }
-    return direction * infinity;
+    return direction * HUGE_VAL;
   };
   return {end(-1), end(1)};
 }
@@ -113,7 +111,7 @@ Interval profile_deviation(const MixedData& data, Variation variation, std::size
     const auto found = minimise(
         [&](const VectorXd& at) {
           const MatrixXd factor = held.factor(at.head(free), value);
-          if (factor.size() == 0) return infinity;
+          if (factor.size() == 0) return HUGE_VAL;
           const double residual = std::exp(at(free));
           return likelihood.at(factor / residual, residual, criterion);
         },
@@ -126,14 +124,14 @@ Interval profile_deviation(const MixedData& data, Variation variation, std::size
 
 Interval profile_residual(const MixedData& data, Variation variation, Criterion criterion, double confidence) {
   const auto fit = fit_mixed(data, criterion, variation);
-  if (!fit) return {0, infinity};
+  if (!fit) return {0, HUGE_VAL};
   const MixedLikelihood likelihood(data);
   const double allowed = fit->deviance + chi_squared_quantile(confidence, 1);
   const HeldFactor all(*fit, -1);
   VectorXd warm = all.start() / fit->residual;
   const VectorXd steps = (0.2 * warm.cwiseAbs()).array() + 0.02;
   const auto excess = [&](double residual) {
-    if (!(residual > 0)) return infinity;
+    if (!(residual > 0)) return HUGE_VAL;
     const auto found = minimise([&](const VectorXd& at) { return likelihood.at(all.factor(at, 0), residual, criterion); },
                                 warm, steps, inner_tolerance, 3000);
     warm = found.at;
@@ -144,7 +142,7 @@ Interval profile_residual(const MixedData& data, Variation variation, Criterion 
 
 Interval profile_coefficient(const MixedData& data, Variation variation, std::size_t coefficient, double confidence) {
   const auto fit = fit_mixed(data, Criterion::likelihood, variation);
-  if (!fit) return {-infinity, infinity};
+  if (!fit) return {-HUGE_VAL, HUGE_VAL};
   const MixedLikelihood likelihood(data);
   const double allowed = fit->deviance + chi_squared_quantile(confidence, 1);
   const HeldFactor all(*fit, -1);
@@ -157,7 +155,7 @@ Interval profile_coefficient(const MixedData& data, Variation variation, std::si
     return found.value - allowed;
   };
   const Coefficient& best = fit->coefficients[coefficient];
-  return ends(excess, best.value, best.error, -infinity);
+  return ends(excess, best.value, best.error, -HUGE_VAL);
 }
 
 }  // namespace wale::analysis

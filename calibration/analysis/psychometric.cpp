@@ -2,44 +2,39 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "calibration/analysis/distributions.hpp"
 #include "calibration/analysis/optimise.hpp"
 #include "calibration/analysis/random.hpp"
+#include "calibration/analysis/refusal.hpp"
 
 namespace wale::analysis {
 namespace {
 
 using Eigen::VectorXd;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The distance from 0.05 to 0.95 of each shape at scale 1, and the place of 0.5.
 const double normal_width = 2 * normal_quantile(0.95);
 const double logistic_width = 2 * std::log(19.0);
 const double weibull_width = std::log(std::log(0.05) / std::log(0.95)), weibull_middle = std::log(std::log(2.0));
 
-Error refusal(Code code, std::string sentence, std::string mend) {
-  return Error{.code = code, .sentence = std::move(sentence), .mend = std::move(mend)};
-}
-
-double place_of(Shape shape, double size) { return shape == Shape::weibull ? std::log(size) : size; }
-double size_of(Shape shape, double place) { return shape == Shape::weibull ? std::exp(place) : place; }
+double place_of(Sigmoid shape, double size) { return shape == Sigmoid::weibull ? std::log(size) : size; }
+double size_of(Sigmoid shape, double place) { return shape == Sigmoid::weibull ? std::exp(place) : place; }
 
 /// F at a distance from the threshold, in widths.
-double core(Shape shape, double distance) {
+double core(Sigmoid shape, double distance) {
   switch (shape) {
-    case Shape::normal: return normal_below(distance * normal_width);
-    case Shape::logistic: return 1 / (1 + std::exp(-distance * logistic_width));
-    case Shape::weibull: return -std::expm1(-std::exp(distance * weibull_width + weibull_middle));
+    case Sigmoid::normal: return normal_below(distance * normal_width);
+    case Sigmoid::logistic: return 1 / (1 + std::exp(-distance * logistic_width));
+    case Sigmoid::weibull: return -std::expm1(-std::exp(distance * weibull_width + weibull_middle));
   }
   return 0;
 }
-double core_inverse(Shape shape, double share) {
+double core_inverse(Sigmoid shape, double share) {
   switch (shape) {
-    case Shape::normal: return normal_quantile(share) / normal_width;
-    case Shape::logistic: return std::log(share / (1 - share)) / logistic_width;
-    case Shape::weibull: return (std::log(-std::log1p(-share)) - weibull_middle) / weibull_width;
+    case Sigmoid::normal: return normal_quantile(share) / normal_width;
+    case Sigmoid::logistic: return std::log(share / (1 - share)) / logistic_width;
+    case Sigmoid::weibull: return (std::log(-std::log1p(-share)) - weibull_middle) / weibull_width;
   }
   return 0;
 }
@@ -73,7 +68,7 @@ class PsychometricFitter {
  public:
   PsychometricFitter(const std::vector<Level>& levels, const PsychometricOptions& options)
       : levels_(levels), options_(options) {
-    low_ = infinity, high_ = -infinity;
+    low_ = HUGE_VAL, high_ = -HUGE_VAL;
     for (const Level& each : levels) {
       const double place = place_of(options.shape, each.size);
       low_ = std::min(low_, place), high_ = std::max(high_, place);
@@ -88,7 +83,7 @@ class PsychometricFitter {
   PsychometricFunction best(std::optional<double> held_place = {}, std::optional<double> held_width = {},
                             const PsychometricFunction* near = nullptr) const {
     const double range = high_ - low_;
-    double most = -infinity;
+    double most = -HUGE_VAL;
     PsychometricFunction result;
     const auto from = [&](double place, double width, double lapse) {
       std::vector<double> start;
@@ -143,11 +138,11 @@ class PsychometricFitter {
         for (int i = 0; i < 40; ++i) {
           const double far = std::clamp(near + direction * width, least, most);
           if (excess(far) > 0) return crossing(excess, near, far, 1e-7);
-          if (far == least) return -infinity;
-          if (far == most) return infinity;
+          if (far == least) return -HUGE_VAL;
+          if (far == most) return HUGE_VAL;
           near = far, width *= 1.5;
         }
-        return direction * infinity;
+        return direction * HUGE_VAL;
       };
       return Interval{end(-1), end(1)};
     };
@@ -170,7 +165,7 @@ class PsychometricFitter {
     for (const Level& each : levels_) {
       if (each.right > each.trials)
         return refusal(Code::malformed_value, std::to_string(each.right) + " of " + std::to_string(each.trials) + " answers are right", "");
-      if (options_.shape == Shape::weibull && !(each.size > 0))
+      if (options_.shape == Sigmoid::weibull && !(each.size > 0))
         return refusal(Code::malformed_value, "a size of zero or below has no logarithm", "use another shape, or leave it out");
       if (!std::isfinite(each.size)) return refusal(Code::malformed_value, "a size is no number", "");
       right += each.right, trials += each.trials;
@@ -210,7 +205,7 @@ bool depends_on_size(const std::vector<Level>& levels, const PsychometricFit& fi
 }
 
 void add_notes(const std::vector<Level>& levels, const PsychometricOptions& options, PsychometricFit& fit) {
-  double low = infinity, high = -infinity;
+  double low = HUGE_VAL, high = -HUGE_VAL;
   for (const Level& each : levels) low = std::min(low, each.size), high = std::max(high, each.size);
   if (fit.function.threshold < low || fit.function.threshold > high)
     fit.notes.push_back("the threshold lies outside of the sizes that were presented");
@@ -242,8 +237,8 @@ double PsychometricFunction::at(double size) const {
 
 double PsychometricFunction::size_at(double p) const {
   const double share = (p - guess) / (1 - guess - lapse);
-  if (share <= 0) return shape == Shape::weibull ? 0 : -infinity;
-  if (share >= 1) return infinity;
+  if (share <= 0) return shape == Sigmoid::weibull ? 0 : -HUGE_VAL;
+  if (share >= 1) return HUGE_VAL;
   return size_of(shape, place_of(shape, threshold) + width * core_inverse(shape, share));
 }
 
@@ -306,7 +301,7 @@ Bootstrap bootstrap(const std::vector<Level>& levels, const PsychometricFit& fit
   }
   Bootstrap result;
   result.samples = sizes.size();
-  if (sizes.empty()) return {{-infinity, infinity}, 1, 0};
+  if (sizes.empty()) return {{-HUGE_VAL, HUGE_VAL}, 1, 0};
   std::ranges::sort(sizes);
   const auto quantile = [&](double share) {
     const double at = share * static_cast<double>(sizes.size() - 1);

@@ -11,7 +11,7 @@
 namespace wale::analysis {
 
 /// The shape of a psychometric function between its asymptotes.
-enum class Shape {
+enum class Sigmoid {
   normal,    ///< cumulative normal distribution over the size
   logistic,
   weibull,   ///< over the size's logarithm; sizes above zero
@@ -24,9 +24,9 @@ struct Level {
 };
 
 /// p(size) = guess + (1 - guess - lapse) F(size). F is 0.5 at `threshold` and goes from 0.05 to 0.95 within `width`, of
-/// the size, or of its natural logarithm for `Shape::weibull`.
+/// the size, or of its natural logarithm for `Sigmoid::weibull`.
 struct PsychometricFunction {
-  Shape shape = Shape::normal;
+  Sigmoid shape = Sigmoid::normal;
   double threshold = 0, width = 1, guess = 0.5, lapse = 0;
 
   double at(double size) const;
@@ -35,7 +35,7 @@ struct PsychometricFunction {
 };
 
 struct PsychometricOptions {
-  Shape shape = Shape::normal;
+  Sigmoid shape = Sigmoid::normal;
   double guess = 0.5;                ///< of two alternatives
   bool guess_is_free = false;        ///< yes-no tasks
   std::optional<double> lapse;       ///< held at this; otherwise fitted within 0 .. `most_lapse`
@@ -58,7 +58,7 @@ struct PsychometricFit {
 /// Fits one function by maximum likelihood.
 ///
 /// Errors (W0802): fewer than two sizes, no trials, all answers right or all wrong, answers that do not depend on the
-/// size. W0801: more right answers than trials, sizes at or below zero for `Shape::weibull`, rates outside their ranges.
+/// size. W0801: more right answers than trials, sizes at or below zero for `Sigmoid::weibull`, rates outside their ranges.
 Result<PsychometricFit> fit_psychometric(const std::vector<Level>& levels, const PsychometricOptions& options);
 
 /// Fits one function for each condition with one lapse rate for all. Errors: as above.

@@ -7,16 +7,13 @@
 #include <string>
 
 #include "calibration/analysis/random.hpp"
+#include "calibration/analysis/refusal.hpp"
 
 namespace wale::analysis {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-Error refusal(Code code, std::string sentence, std::string mend) {
-  return Error{.code = code, .sentence = std::move(sentence), .mend = std::move(mend)};
-}
 
 /// The pairs of a symmetric matrix, one after the other.
 struct Pair {

@@ -11,7 +11,7 @@
 namespace wale::analysis {
 namespace {
 
-std::string quoted(std::string_view text) { return "`" + visible_text(text.substr(0, 60)) + "`"; }
+std::string as_code(std::string_view text) { return "`" + visible_text(text.substr(0, 60)) + "`"; }
 
 /// Names in the order in which they appear.
 class Names {
@@ -108,11 +108,11 @@ class TrialReader {
   Result<std::size_t> column(const std::string& name) const {
     if (const auto found = table_->column(name)) return *found;
     Error error{.code = Code::malformed_value,
-                .sentence = "there is no column " + quoted(name),
+                .sentence = "there is no column " + as_code(name),
                 .mend = "its columns are ",
                 .place = {.name = table_->file()}};
     for (std::size_t i = 0; i < std::min<std::size_t>(table_->columns().size(), 20); ++i)
-      error.mend += (i == 0 ? "" : ", ") + quoted(table_->columns()[i]);
+      error.mend += (i == 0 ? "" : ", ") + as_code(table_->columns()[i]);
     if (table_->columns().size() > 20) error.mend += " and " + std::to_string(table_->columns().size() - 20) + " more";
     return error;
   }
@@ -261,16 +261,16 @@ class TrialReader {
     if (columns_.answers == Answers::labels) return static_cast<double>(labels_.number_of(cell));
     if (columns_.answers == Answers::choices) {
       if (const auto choice = choice_in(cell)) return *choice;
-      return table_error(*table_, row, "expected 1 or 0, yes or no, correct or incorrect, different or same, found " + quoted(cell),
+      return table_error(*table_, row, "expected 1 or 0, yes or no, correct or incorrect, different or same, found " + as_code(cell),
                          "name the column that has them");
     }
     const auto value = number_in(cell);
-    if (!value) return table_error(*table_, row, "expected a number for an answer, found " + quoted(cell), "write n/a for no answer");
+    if (!value) return table_error(*table_, row, "expected a number for an answer, found " + as_code(cell), "write n/a for no answer");
     if (const auto alike = require_one_mark(row, answer_, cell); !alike) return alike.error();
     if (columns_.answers == Answers::ratings && !(*value >= 0 && *value <= 100))
-      return table_error(*table_, row, "expected a rating from 0 to 100, found " + quoted(cell), "correct it, or leave the row out");
+      return table_error(*table_, row, "expected a rating from 0 to 100, found " + as_code(cell), "correct it, or leave the row out");
     if (columns_.answers == Answers::magnitudes && *value <= 0 && !columns_.leave_out_nonpositive)
-      return table_error(*table_, row, "expected a magnitude above zero, found " + quoted(cell),
+      return table_error(*table_, row, "expected a magnitude above zero, found " + as_code(cell),
                          "a magnitude has a logarithm; leave such answers out by rule, which the report then states");
     return *value;
   }
@@ -281,14 +281,14 @@ class TrialReader {
     if (is_missing(cell))
       return table_error(*table_, row, "the " + size.name + " is missing", "leave the row out by rule, or say it");
     const auto measure = measure_in(cell);
-    if (!measure) return table_error(*table_, row, "expected a number for the " + size.name + ", found " + quoted(cell), "");
+    if (!measure) return table_error(*table_, row, "expected a number for the " + size.name + ", found " + as_code(cell), "");
     if (const auto alike = require_one_mark(row, sizes_[i], cell); !alike) return alike.error();
     // A unit that the column's name or the analyst states need not be repeated. Otherwise the first row decides.
     if (!stated_[i] && size.values.empty()) size.unit = measure->unit;
     if (measure->unit != size.unit && !(stated_[i] && measure->unit.empty()))
       return table_error(*table_, row,
-                         "two units for the " + size.name + ": " + (size.unit.empty() ? "none" : quoted(size.unit)) +
-                             " before and " + (measure->unit.empty() ? "none" : quoted(measure->unit)) + " here",
+                         "two units for the " + size.name + ": " + (size.unit.empty() ? "none" : as_code(size.unit)) +
+                             " before and " + (measure->unit.empty() ? "none" : as_code(measure->unit)) + " here",
                          "convert the column to one unit");
     return measure->value;
   }
@@ -303,7 +303,7 @@ class TrialReader {
     }
     if (cell == trials_.device) return {};
     return table_error(*table_, row,
-                       "the device is " + quoted(cell) + " here and " + quoted(trials_.device) + " in row " +
+                       "the device is " + as_code(cell) + " here and " + as_code(trials_.device) + " in row " +
                            std::to_string(device_line_),
                        "analyse each device alone: keep the rows of one");
   }
@@ -342,7 +342,7 @@ class TrialReader {
       }
     }
     for (const FactorValues& each : trials_.factors)
-      if (each.levels.size() == 1) return constant(each.name, quoted(each.levels.front()));
+      if (each.levels.size() == 1) return constant(each.name, as_code(each.levels.front()));
     return {};
   }
 

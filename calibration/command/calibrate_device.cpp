@@ -177,7 +177,7 @@ Result<Measured> measure_simulated(const CalibrateDeviceOptions& options, const 
   const double most = std::min(declared.profile.force_newton, options.max_force.value_or(HUGE_VAL));
   Measured measured;
   measured.forces.is_simulated = true;
-  for (const ForceStep& step : force_steps(most)) {
+  for (const GaugeStep& step : force_steps(most)) {
     const auto command = bench.push(step.way, step.command, 0.1);
     if (!command) return command.error();
     measured.forces.readings.push_back({step.way, *command, device.gauge(step.way, *command), step.repeat, 0});
@@ -242,7 +242,7 @@ Result<Measured> measure_plugged(const CalibrateDeviceOptions& options, DeviceTo
   Measured measured;
   ServedInput served(bench);
   std::istream typed(&served);
-  auto asked = ask_for_forces(force_steps(most), typed, std::cerr, [&](const ForceStep& step) -> Result<double> {
+  auto asked = ask_for_forces(force_steps(most), typed, std::cerr, [&](const GaugeStep& step) -> Result<double> {
     auto command = bench.push(step.way, step.command, hold);
     if (!command || !(profile.continuous_newton > 0) || !(step.command > profile.continuous_newton)) return command;
     // The motor cools down until its mean heat is what it bears for long.

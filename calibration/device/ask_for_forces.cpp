@@ -24,7 +24,7 @@ std::optional<std::string> take_line(std::istream& in) {
 }
 
 /// The first step of the next way.
-std::size_t next_way(std::span<const ForceStep> steps, std::size_t at) {
+std::size_t next_way(std::span<const GaugeStep> steps, std::size_t at) {
   const Way way = steps[at].way;
   while (at < steps.size() && steps[at].way == way) ++at;
   return at;
@@ -32,8 +32,8 @@ std::size_t next_way(std::span<const ForceStep> steps, std::size_t at) {
 
 }  // namespace
 
-std::vector<ForceStep> force_steps(double most) {
-  std::vector<ForceStep> steps;
+std::vector<GaugeStep> force_steps(double most) {
+  std::vector<GaugeStep> steps;
   for (const Way way : all_ways) {
     for (const double share : command_shares) steps.push_back({way, share * most, 1});
     for (auto share = command_shares.rbegin(); share != command_shares.rend(); ++share)
@@ -42,13 +42,13 @@ std::vector<ForceStep> force_steps(double most) {
   return steps;
 }
 
-Result<GaugeReadings> ask_for_forces(std::span<const ForceStep> steps, std::istream& in, std::ostream& out,
-                                     const std::function<Result<double>(const ForceStep&)>& push) {
+Result<GaugeReadings> ask_for_forces(std::span<const GaugeStep> steps, std::istream& in, std::ostream& out,
+                                     const std::function<Result<double>(const GaugeStep&)>& push) {
   std::vector<std::pair<std::size_t, GaugeReading>> taken;  // by their steps
   std::string unit;
   const Error ended{.code = Code::stopped, .sentence = "ended before all readings were taken"};
   for (std::size_t at = 0; at < steps.size();) {
-    const ForceStep& step = steps[at];
+    const GaugeStep& step = steps[at];
     out << readable("\n{} of {}: {}, along {}, round {}, command {:.4g} N\n", at + 1, steps.size(), in_words(step.way),
                     axis_of(step.way) == 0 ? "x" : "y", step.repeat, step.command)
         << "hold the gauge against the handle; Enter pushes (back, skip, q): " << std::flush;

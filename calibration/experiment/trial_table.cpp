@@ -26,7 +26,7 @@ std::string column_name(const std::string& text) {
   return name;
 }
 
-std::string text_in(const Json& from, const char* key) {
+std::string logged_text(const Json& from, const char* key) {
   const auto found = from.find(key);
   return found != from.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
@@ -118,7 +118,7 @@ class TableReader {
   }
 
   void take_design(const SessionEntry& entry, const Json& fields) {
-    task_ = text_in(fields, "task");
+    task_ = logged_text(fields, "task");
     if (task_.empty()) damaged(entry, "the design has no task");
     if (const auto longest = fields.find("longest"); longest != fields.end() && longest->is_number())
       longest_ = longest->get<double>();
@@ -129,24 +129,24 @@ class TableReader {
     const auto questions = fields.find("questions");
     if (questions != fields.end() && questions->is_array())
       for (const Json& each : *questions)
-        if (each.is_object()) questions_.emplace_back(text_in(each, "name"), text_in(each, "says"));
+        if (each.is_object()) questions_.emplace_back(logged_text(each, "name"), logged_text(each, "says"));
     if (!questions_.empty()) table_.instructions = questions_.front().second;
     table_.task_description = task_;
   }
 
   void take_stimulus(const SessionEntry& entry, const Json& fields) {
-    const std::string name = text_in(fields, "name");
+    const std::string name = logged_text(fields, "name");
     if (name.empty()) return damaged(entry, "a stimulus has no name");
     StimulusFacts& facts = stimuli_[name];
-    facts.standard = text_in(fields, "standard");
+    facts.standard = logged_text(fields, "standard");
     const auto levels = fields.find("levels");
     if (levels == fields.end() || !levels->is_object()) return;
     for (const auto& [factor, level] : levels->items()) {
       const auto value = level.find("value");
       const bool is_number = value != level.end() && value->is_number();
-      facts.levels[factor] = is_number ? number_text(value->get<double>()) : text_in(level, "text");
+      facts.levels[factor] = is_number ? number_text(value->get<double>()) : logged_text(level, "text");
       const auto known = std::ranges::find(factors_, factor, &FactorFacts::name);
-      if (known == factors_.end()) factors_.push_back({factor, text_in(level, "unit"), is_number});
+      if (known == factors_.end()) factors_.push_back({factor, logged_text(level, "unit"), is_number});
     }
   }
 

@@ -14,9 +14,9 @@ namespace {
 constexpr double two_sided_95 = 0.975;
 
 /// Runs one material for some seconds.
-class Interval {
+class ListeningInterval {
  public:
-  Interval(Device& device, const BlindOptions& options)
+  ListeningInterval(Device& device, const BlindOptions& options)
       : stage_(device, felt_stage_options(options.most_newton)), options_(options) {}
 
   Result<> feel(const BlindMaterial& material) {
@@ -50,7 +50,7 @@ class Interval {
 BlindSession feel_blind(Device& device, const BlindMaterial& a, const BlindMaterial& b, const BlindOptions& options,
                         BlindPerson& person) {
   BlindSession session;
-  Interval interval(device, options);
+  ListeningInterval interval(device, options);
   for (const bool is_a : {true, false}) {
     person.introduce(is_a);
     if (auto felt = interval.feel(is_a ? a : b); !felt) {

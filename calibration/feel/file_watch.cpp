@@ -69,7 +69,7 @@ FileWatch::Taken FileWatch::take(std::chrono::milliseconds wait) {
   Taken taken;
   if (poll(&readable, 1, static_cast<int>(wait.count())) <= 0) return taken;
   alignas(inotify_event) char buffer[16 * 1024];
-  for (ssize_t size = 0; (size = read(events_, buffer, sizeof buffer)) > 0;) {
+  for (ssize_t size = 0; (size = ::read(events_, buffer, sizeof buffer)) > 0;) {
     for (const char* at = buffer; at < buffer + size;) {
       inotify_event event;
       std::memcpy(&event, at, sizeof event);

@@ -172,7 +172,7 @@ class ThresholdAnalyst {
     }
   }
 
-  PsychometricOptions options() const { return {.shape = Shape::weibull, .guess = 0.5, .lapse = {}}; }
+  PsychometricOptions options() const { return {.shape = Sigmoid::weibull, .guess = 0.5, .lapse = {}}; }
 
   Result<ObserverThreshold> threshold_of(const std::string& observer, const std::vector<Level>& levels,
                                          const Answered& noises, ThresholdFit* keep) const {

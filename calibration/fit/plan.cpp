@@ -109,7 +109,7 @@ class ThresholdStudies {
   std::optional<double> measured(double own, Random& random) const {
     // Only the threshold is needed, so lapses are held and there is no interval.
     const auto fit = fit_psychometric(answers_of(own, random),
-                                      {.shape = Shape::weibull, .guess = 0.5, .lapse = 0.02, .intervals = false});
+                                      {.shape = Sigmoid::weibull, .guess = 0.5, .lapse = 0.02, .intervals = false});
     if (!fit) return std::nullopt;
     return std::log(fit->function.threshold);
   }

@@ -25,7 +25,7 @@ std::string spelled(std::uint32_t colour) { return fmt::format("#{:06x}", colour
 
 class PictureChecker {
  public:
-  PictureChecker(const PlacedPicture& node, const Declared<WorkspaceDecl>& declared, const Surroundings& surroundings)
+  PictureChecker(const PicturePlacing& node, const Declared<WorkspaceDecl>& declared, const Surroundings& surroundings)
       : node_(node), tree_(*declared.tree), surroundings_(surroundings), checker_(surroundings, terms_, tables_) {}
 
   std::vector<ColouredArea> check() {
@@ -283,7 +283,7 @@ class PictureChecker {
     surroundings_.diagnostics.report(std::move(advice).about(code, span, std::move(message)));
   }
 
-  const PlacedPicture& node_;
+  const PicturePlacing& node_;
   const SyntaxTree& tree_;
   const Surroundings& surroundings_;
   Terms terms_;
@@ -301,7 +301,7 @@ class PictureChecker {
 
 }  // namespace
 
-std::vector<ColouredArea> check_picture(const PlacedPicture& node, const Declared<WorkspaceDecl>& declared,
+std::vector<ColouredArea> check_picture(const PicturePlacing& node, const Declared<WorkspaceDecl>& declared,
                                         const Surroundings& surroundings) {
   return PictureChecker(node, declared, surroundings).check();
 }

@@ -25,7 +25,7 @@ struct ColouredArea {
 /// finds its areas, in the order of the colours. Reports errors: W0314 for a colour that the picture does not have,
 /// W0315 for an area that is too narrow, and those of settings, arguments and pictures; then nothing is laid out. Warns
 /// of the share of the picture that has none of the colours (W0434).
-std::vector<ColouredArea> check_picture(const PlacedPicture& node, const Declared<WorkspaceDecl>& declared,
+std::vector<ColouredArea> check_picture(const PicturePlacing& node, const Declared<WorkspaceDecl>& declared,
                                         const Surroundings& surroundings);
 
 }  // namespace wale

@@ -40,12 +40,12 @@ class WorkspaceChecker {
     workspace_.span = node.name.span;
     workspace_.statement = node.span;
     for (const PlacedStatement& placed : node.placed)
-      if (const auto* patch = std::get_if<PlacedPatch>(&placed)) own_names_.emplace(patch->material.name.text);
+      if (const auto* patch = std::get_if<PatchPlacing>(&placed)) own_names_.emplace(patch->material.name.text);
     for (const PlacedStatement& placed : node.placed) {
-      if (const auto* patch = std::get_if<PlacedPatch>(&placed))
+      if (const auto* patch = std::get_if<PatchPlacing>(&placed))
         check(*patch);
       else
-        check(std::get<PlacedPicture>(placed));
+        check(std::get<PicturePlacing>(placed));
     }
     return std::move(workspace_);
   }
@@ -66,7 +66,7 @@ class WorkspaceChecker {
     return made;
   }
 
-  void check(const PlacedPatch& node) {
+  void check(const PatchPlacing& node) {
     const Word& name = node.material.name;
     const auto [first, is_new] = names_.emplace(std::string(name.text), name.span);
     if (!is_new)
@@ -190,7 +190,7 @@ class WorkspaceChecker {
   }
 
   /// Each colour of the picture is a patch. It has the name of its material, with a number where that is taken.
-  void check(const PlacedPicture& node) {
+  void check(const PicturePlacing& node) {
     for (ColouredArea& area : check_picture(node, declared_, surroundings_)) {
       const std::size_t errors_before = surroundings_.diagnostics.error_count();
       const std::string name = free_name(area.material);

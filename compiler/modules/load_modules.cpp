@@ -242,11 +242,11 @@ class ModuleLoader {
       if (!workspace) continue;
       // A patch may have the name of the material that it is of.
       for (const PlacedStatement& placed : workspace->placed) {
-        if (const auto* patch = std::get_if<PlacedPatch>(&placed)) {
+        if (const auto* patch = std::get_if<PatchPlacing>(&placed)) {
           find(made_from(patch->material, module.tree), "");
           continue;
         }
-        for (const Setting& setting : std::get<PlacedPicture>(placed).settings)
+        for (const Setting& setting : std::get<PicturePlacing>(placed).settings)
           for (const SettingItem& item : setting.items)
             if (setting.key.text == "colour" && item.equals) find(made_from(*item.equals, module.tree), "");
       }

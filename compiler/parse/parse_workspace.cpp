@@ -48,9 +48,9 @@ PlacedStatement Parser::placed_statement() {
 }
 
 /// Reads `patch board = oak`, `patch cloth = denim(roughness: 0.3) { at 40 mm, 0 mm }`.
-PlacedPatch Parser::placed_patch() {
+PatchPlacing Parser::placed_patch() {
   const std::size_t begin = at_;
-  PlacedPatch patch;
+  PatchPlacing patch;
   MaterialDecl& material = patch.material;
   material.documentation = documentation_here();
   advance();
@@ -73,12 +73,12 @@ PlacedPatch Parser::placed_patch() {
 }
 
 /// Reads `patches from picture("map.png", scale: 0.3 mm/px) { colour "#c04020" = brick }`.
-PlacedPicture Parser::placed_picture() {
+PicturePlacing Parser::placed_picture() {
   const std::size_t begin = at_;
   advance();
   if (!take(TokenKind::word_from))
     missing("`from`", "write `patches from picture(\"map.png\", scale: 0.3 mm/px) { … }`");
-  PlacedPicture picture{};
+  PicturePlacing picture{};
   picture.picture = expression();
   picture.settings = placed_settings();
   picture.span = since(begin);

@@ -72,8 +72,8 @@ class Parser {
   // parse_workspace.cpp
   void workspace();
   PlacedStatement placed_statement();
-  PlacedPatch placed_patch();
-  PlacedPicture placed_picture();
+  PatchPlacing placed_patch();
+  PicturePlacing placed_picture();
   std::vector<Setting> placed_settings();
 
   // parse_block.cpp: blocks in braces

@@ -116,13 +116,13 @@ class TreePrinter {
   void operator()(const WorkspaceDecl& workspace) {
     line(0, documented(workspace.documentation) + "(workspace " + text_of(workspace.name));
     for (const PlacedStatement& placed : workspace.placed) {
-      if (const auto* patch = std::get_if<PlacedPatch>(&placed)) {
+      if (const auto* patch = std::get_if<PatchPlacing>(&placed)) {
         const MaterialDecl& material = patch->material;
         line(1, documented(material.documentation) + "(patch " + text_of(material.name) + " = " +
                     expr(*material.derived_from));
         settings(2, patch->settings);
       } else {
-        const auto& picture = std::get<PlacedPicture>(placed);
+        const auto& picture = std::get<PicturePlacing>(placed);
         line(1, "(patches from " + expr(picture.picture));
         settings(2, picture.settings);
       }

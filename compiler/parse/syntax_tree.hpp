@@ -251,20 +251,20 @@ struct MaterialDecl {
 
 /// `patch cloth = denim(roughness: 0.3) { at 40 mm, 0 mm; size 60 mm, 90 mm }` in a workspace. It is a material with
 /// the patch's name, made from the expression, and a block that says where it lies.
-struct PlacedPatch {
+struct PatchPlacing {
   MaterialDecl material;
   std::vector<Setting> settings;
   Span span;
 };
 
 /// `patches from picture("map.png", scale: 0.3 mm/px) { colour "#c04020" = brick }` in a workspace.
-struct PlacedPicture {
+struct PicturePlacing {
   ExprId picture;
   std::vector<Setting> settings;
   Span span;
 };
 
-using PlacedStatement = std::variant<PlacedPatch, PlacedPicture>;
+using PlacedStatement = std::variant<PatchPlacing, PicturePlacing>;
 
 /// `workspace NAME { … }`: patches that lie side by side or on one another, the last in front.
 struct WorkspaceDecl {

@@ -35,7 +35,7 @@ int between(const BetweenOptions& options) {
   const Comparer comparer(declared->declarations, index.device());
   const BetweenProbe probe(comparer, one->cues, other->cues);
   constexpr std::uint64_t usually_given = 10;
-  Sought sought{.texts = {}, .kind = options.kind, .feel = &probe, .without = one->is,
+  MaterialQuery sought{.texts = {}, .kind = options.kind, .feel = &probe, .without = one->is,
                 .most = options.most.value_or(usually_given)};
   sought.without.insert(sought.without.end(), other->is.begin(), other->is.end());
   const auto found = find_entries(index, sought);

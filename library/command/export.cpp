@@ -10,6 +10,7 @@
 
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
+#include "library/command/misused_option.hpp"
 #include "schema/spelling.hpp"
 #include "wale/thesis_files.hpp"
 
@@ -30,10 +31,6 @@ struct ExportOptions {
   std::optional<HeightsBetween> heights;
   std::string out;
 };
-
-Error misused_option(const char* option, std::string sentence, std::string mend) {
-  return {.code = Code::malformed_value, .sentence = std::move(sentence), .mend = std::move(mend), .place = {.name = option}};
-}
 
 Result<> written(const ExportOptions& options, std::string_view bytes) {
   return write_file(options.out, bytes, *options.choice.inputs);

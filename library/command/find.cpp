@@ -229,7 +229,7 @@ int find_by_feel(const FindOptions& options) {
   const auto declared = common_modules();
   const Comparer comparer(declared->declarations, index.device());
   std::vector<std::unique_ptr<Probe>> probes;
-  Sought sought{.texts = options.texts, .kind = options.kind, .without = {}, .most = options.most.value_or(usually_given)};
+  MaterialQuery sought{.texts = options.texts, .kind = options.kind, .without = {}, .most = options.most.value_or(usually_given)};
   if (!options.near.empty()) {
     const auto felt = felt_material(index, options.choice, options.near);
     if (!felt) return refuse(felt.error());

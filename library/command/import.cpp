@@ -10,6 +10,7 @@
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/text/resolver.hpp"
+#include "library/command/misused_option.hpp"
 #include "schema/regular_file.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
@@ -42,10 +43,6 @@ struct Named {
     return kind == ThesisFileKind::surface || kind == ThesisFileKind::array || kind == ThesisFileKind::wave;
   }
 };
-
-Error misused_option(const char* option, std::string sentence, std::string mend) {
-  return {.code = Code::malformed_value, .sentence = std::move(sentence), .mend = std::move(mend), .place = {.name = option}};
-}
 
 std::string without_ending(const std::string& path) { return path.substr(0, path.rfind('.')); }
 

@@ -5,7 +5,7 @@
 namespace wale {
 namespace {
 
-struct Edit {
+struct Replacement {
   std::size_t begin = 0, end = 0;
   std::string replacement;
 };
@@ -23,7 +23,7 @@ std::string parted_at(std::string_view text, std::size_t at) {
 std::string edited(const WrittenPatch& written, const LaidOutPatch& patch, const SettingLines& settings) {
   if (patch.before != written.before || patch.inside != written.inside || patch.verbatim != written.verbatim) return {};
   if (!patch.verbatim.empty()) return written.lead + written.text;
-  std::vector<Edit> edits;
+  std::vector<Replacement> edits;
   std::vector<bool> told(settings.size(), false);
   const auto next_of = [&](const std::string& key) {
     for (std::size_t i = 0; i < settings.size(); ++i)
@@ -62,9 +62,9 @@ std::string edited(const WrittenPatch& written, const LaidOutPatch& patch, const
   }
   // From behind, so that places stay; of two at one place, what is inserted comes first in the text.
   std::ranges::stable_sort(
-      edits, [](const Edit& a, const Edit& b) { return std::pair(a.begin, a.end) > std::pair(b.begin, b.end); });
+      edits, [](const Replacement& a, const Replacement& b) { return std::pair(a.begin, a.end) > std::pair(b.begin, b.end); });
   std::string text = written.text;
-  for (const Edit& each : edits) text.replace(each.begin, each.end - each.begin, each.replacement);
+  for (const Replacement& each : edits) text.replace(each.begin, each.end - each.begin, each.replacement);
   return written.lead + text;
 }
 

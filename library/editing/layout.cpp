@@ -17,7 +17,7 @@ namespace {
 
 std::string_view part_of(std::string_view text, Span span) { return text.substr(span.begin, span.end - span.begin); }
 
-const Setting* setting_in(const PlacedPatch& patch, std::string_view key) {
+const Setting* setting_in(const PatchPlacing& patch, std::string_view key) {
   const auto found = std::ranges::find(patch.settings, key, [](const Setting& each) { return each.key.text; });
   return found == patch.settings.end() ? nullptr : &*found;
 }
@@ -40,7 +40,7 @@ Result<Shape> outline_of(const Outline& outline) {
 }
 
 /// A patch without an error, as its author wrote it.
-LaidOutPatch laid_out(const PlacedPatch& placed, const CheckedPatch& checked, const CheckedModule& module,
+LaidOutPatch laid_out(const PatchPlacing& placed, const CheckedPatch& checked, const CheckedModule& module,
                       std::string_view text) {
   LaidOutPatch patch{.name = checked.name,
                      .made_of = checked.made_of,
@@ -100,7 +100,7 @@ std::shared_ptr<const WrittenPatch> written_of(const PlacedStatement& placed, co
   auto written = std::make_shared<WrittenPatch>();
   written->lead = text.substr(at, begin - at), written->text = text.substr(begin, next - begin);
   written->before = patch.before, written->inside = patch.inside, written->verbatim = patch.verbatim;
-  const auto* statement = std::get_if<PlacedPatch>(&placed);
+  const auto* statement = std::get_if<PatchPlacing>(&placed);
   if (!statement || !patch.verbatim.empty()) return written;
   const auto part = [&](const std::string& key, Span of, const std::string& says) {
     written->parts.push_back({key, says, of.begin - begin, of.end - begin});
@@ -137,7 +137,7 @@ Layout layout_of(const WorkspaceDecl& declared, const CheckedModule& module, con
     const std::size_t begin = std::max<std::size_t>(span_of(placed).begin, at);
     const std::size_t end = std::max<std::size_t>(span_of(placed).end, begin);
     const std::string before = comments_in(text.substr(at, begin - at));
-    const auto* written = std::get_if<PlacedPatch>(&placed);
+    const auto* written = std::get_if<PatchPlacing>(&placed);
     const auto found = [&]() -> const CheckedPatch* {
       if (!written || !checked) return nullptr;
       const auto name = written->material.name.text;

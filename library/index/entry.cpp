@@ -85,10 +85,10 @@ std::string first_error(const Diagnostics& diagnostics) {
   return "it cannot be built";
 }
 
-Felt felt_again(const Program& program, const Declarations& declarations, ReadFirst& first) {
+EntryFeel felt_again(const Program& program, const Declarations& declarations, ReadFirst& first) {
   const Bank bank(program);
   const PatchProgram& built = program.description();
-  Felt felt;
+  EntryFeel felt;
   Description description{.material = built.material, .device = built.device, .patch = bank.size()};
   if (built.vibrates()) {
     description.percepts = recorded_percepts(bank, {}, declarations);
@@ -119,7 +119,7 @@ void compile_entry(Entry& entry, FileEntries& read, const FileRequest& request, 
   entry.parameters = program->description().parameters;
   entry.program = write_patch_program(program->description());
   // The program differs from the one that was measured in fates alone, so its reading need not begin anew.
-  const auto* own = feel.target<Felt (*)(const Program&, const Declarations&)>();
+  const auto* own = feel.target<EntryFeel (*)(const Program&, const Declarations&)>();
   const Declarations& declarations = read.opened.module->declarations();
   entry.felt = own && *own == felt_of ? felt_again(*program, declarations, first) : feel(*program, declarations);
 }
@@ -128,12 +128,12 @@ void compile_entry(Entry& entry, FileEntries& read, const FileRequest& request, 
 
 Evidence EntryPercept::evidence() const { return std::max({slope, anchor, handle, domain.value_or(slope)}); }
 
-const EntryPercept* Felt::percept(const std::string& name) const {
+const EntryPercept* EntryFeel::percept(const std::string& name) const {
   const auto found = std::ranges::find(percepts, name, &EntryPercept::name);
   return found == percepts.end() ? nullptr : &*found;
 }
 
-Felt felt_of(const Program& program, const Declarations& declarations) {
+EntryFeel felt_of(const Program& program, const Declarations& declarations) {
   ReadFirst first;
   return felt_again(program, declarations, first);
 }

@@ -54,7 +54,7 @@ struct EntryPercept {
 };
 
 /// What a hand feels of a program, read from its forces.
-struct Felt {
+struct EntryFeel {
   std::vector<EntryPercept> percepts;  ///< those asked for, in the order written, then the others that it has
   std::optional<Cues> cues;            ///< nothing of a program for a device that only vibrates
 
@@ -79,7 +79,7 @@ struct Entry {
   std::string licence;                ///< as SPDX names it, its own or its library's; empty without one
 
   std::string device;                 ///< for which the program was built
-  Felt felt;                          ///< empty without a program
+  EntryFeel felt;                          ///< empty without a program
   std::vector<Parameter> parameters;  ///< of the program, its defaults among them; values in SI units
   std::vector<std::byte> program;     ///< the bytes of the `.wpp` file; empty if the material has an error
   std::string trouble;                ///< its first error, in a line; empty if there is a program
@@ -91,10 +91,10 @@ struct Entry {
 };
 
 /// Reads a program; `felt_of`, or one that remembers what equal programs read.
-using Feel = std::function<Felt(const Program& program, const Declarations& declarations)>;
+using Feel = std::function<EntryFeel(const Program& program, const Declarations& declarations)>;
 
 /// Reads a program at its defaults. Takes tens of milliseconds. Thread-safe.
-Felt felt_of(const Program& program, const Declarations& declarations);
+EntryFeel felt_of(const Program& program, const Declarations& declarations);
 
 /// What the text of a material says; nothing is compiled, so device, percepts, program and content are empty.
 Entry entry_of(const IndexedMaterial& material);

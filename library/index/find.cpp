@@ -20,7 +20,7 @@ struct ScoredRow {
 };
 
 /// The rows that have the sought words, in the order of the rows.
-Result<std::vector<ScoredRow>> rows_with_words(const MaterialIndex& index, const Sought& sought) {
+Result<std::vector<ScoredRow>> rows_with_words(const MaterialIndex& index, const MaterialQuery& sought) {
   const FeltColumns& columns = index.columns();
   const auto may = [&](std::uint32_t material) {
     const auto row = columns.row_of(material);
@@ -53,7 +53,7 @@ Result<std::vector<ScoredRow>> rows_with_words(const MaterialIndex& index, const
 }
 
 /// All rows of the sought kind.
-std::vector<ScoredRow> rows_of_kind(const FeltColumns& columns, const Sought& sought) {
+std::vector<ScoredRow> rows_of_kind(const FeltColumns& columns, const MaterialQuery& sought) {
   std::vector<ScoredRow> rows;
   for (std::size_t row = 0; row < columns.size(); ++row)
     if (is_of_sought_kind(columns.kind(row), sought.kind) &&
@@ -68,7 +68,7 @@ bool is_of_sought_kind(std::string_view kind, std::string_view sought) {
   return kind.starts_with(sought) && (sought.empty() || kind.size() == sought.size() || kind[sought.size()] == '.');
 }
 
-Result<FoundEntries> find_entries(const MaterialIndex& index, const Sought& sought) {
+Result<FoundEntries> find_entries(const MaterialIndex& index, const MaterialQuery& sought) {
   const FeltColumns& columns = index.columns();
   std::vector<ScoredRow> rows;
   if (!sought.texts.empty()) {
@@ -144,11 +144,14 @@ Result<std::uint32_t> meant_entry(const MaterialIndex& index, std::string_view t
                  .mend = fmt::format("name its module too, as in `{}`", place(found->front())),
                  .place = {.name = std::string(text)}};
   }
-  // The nearest name, of as many as there are.
+  // The nearest name, of as many as there are. Among equally near ones it is the first by its bytes, since rows are in
+  // another order in each storage.
   std::optional<std::pair<std::size_t, std::string>> near;
   for (std::size_t row = 0; row < columns.size(); ++row)
-    if (const auto distance = distance_from(text, columns.name(row)); distance && (!near || *distance < near->first))
-      near.emplace(*distance, columns.name(row));
+    if (const auto distance = distance_from(text, columns.name(row)); distance) {
+      std::pair<std::size_t, std::string> here(*distance, columns.name(row));
+      if (!near || here < *near) near = std::move(here);
+    }
   return Error{.code = Code::unknown_name,
                .sentence = fmt::format("no material of the index is called `{}`", visible_text(text)),
                .mend = near ? fmt::format("the nearest: `{}`", near->second) : "`wale find WORD` searches the library",

@@ -12,7 +12,7 @@
 namespace wale {
 
 /// What is sought among materials. All conditions must hold.
-struct Sought {
+struct MaterialQuery {
   /// Each a word or several; a material must be found by each text alone (`search`). Without texts, all are found.
   std::vector<std::string> texts;
   std::string kind;              ///< "fabric", which has "fabric.woven" too; empty: any
@@ -31,7 +31,7 @@ struct FoundEntry {
 
 /// What was found, the best first.
 struct FoundEntries {
-  std::vector<FoundEntry> entries;  ///< at most `Sought::most`
+  std::vector<FoundEntry> entries;  ///< at most `MaterialQuery::most`
   /// How many there are. Of those that are sought by feel, only the given ones are counted.
   std::size_t all = 0;
 };
@@ -39,7 +39,7 @@ struct FoundEntries {
 /// Finds materials. By feel, in the order of `nearest`; else by words, the greatest score first, and in the order of names
 /// and modules where scores are equal; else all, by modules and names. The same index gives the same answer, wherever it
 /// is stored. Errors: those of the storage.
-Result<FoundEntries> find_entries(const MaterialIndex& index, const Sought& sought);
+Result<FoundEntries> find_entries(const MaterialIndex& index, const MaterialQuery& sought);
 
 /// The one material that a text means: by its name, by one that it replaces, by title or other names, by kind or by
 /// module. Errors: W0201 if there is none, W0217 if there are several.

@@ -10,6 +10,7 @@
 #include "compiler/grade/grade.hpp"
 #include "compiler/preview/preview.hpp"
 #include "library/index/entry.hpp"
+#include "library/review/report.hpp"
 
 namespace wale {
 namespace {
@@ -18,10 +19,6 @@ const Diagnostic* first_error(const Diagnostics& diagnostics) {
   const auto found = std::ranges::find(diagnostics.all(), Severity::error,
                                        [](const Diagnostic& each) { return severity_of(each.code); });
   return found == diagnostics.all().end() ? nullptr : &*found;
-}
-
-void report(Diagnostics& diagnostics, Code code, Span span, std::string message, std::string help) {
-  diagnostics.report(Advice(std::move(help)).about(code, span, std::move(message)));
 }
 
 /// What the compiler only warns of, and what a library does not take in.
@@ -94,7 +91,7 @@ Result<> read_material(MaterialFacts& facts, FactsReading& reading, const FactsR
     if (request.cues_alone) {
       if (!program->description().vibrates()) facts.cues = cues_of(bank, declarations);
     } else {
-      Felt felt = felt_of(*program, declarations);
+      EntryFeel felt = felt_of(*program, declarations);
       facts.cues = std::move(felt.cues);
       for (ReviewedLevel& level : facts.levels)
         if (const EntryPercept* percept = felt.percept(level.percept)) level.reads = percept->reads;

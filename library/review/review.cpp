@@ -20,6 +20,7 @@
 #include "compiler/text/embedded_files.hpp"
 #include "library/review/contribution.hpp"
 #include "library/licence/licence.hpp"
+#include "library/review/report.hpp"
 #include "library/review/words.hpp"
 #include "runtime/machine/parallel.hpp"
 #include "schema/visible_text.hpp"
@@ -62,10 +63,6 @@ std::string folded(std::string text) {
 /// Errors that are about this machine and not about a file.
 bool is_of_machine(Code code) {
   return code == Code::missing_library || code == Code::short_of_resources || code == Code::no_sandbox;
-}
-
-void report(Diagnostics& diagnostics, Code code, Span span, std::string message, std::string help) {
-  diagnostics.report(Advice(std::move(help)).about(code, span, std::move(message)));
 }
 
 /// Calls `work` once for each of 0 .. count - 1, on as many threads as there are cores.

@@ -9,16 +9,13 @@
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/modules/representative.hpp"
 #include "library/licence/licence.hpp"
+#include "library/review/report.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
 
 namespace fs = std::filesystem;
-
-void report(Diagnostics& diagnostics, Code code, Span span, std::string message, std::string help) {
-  diagnostics.report(Advice(std::move(help)).about(code, span, std::move(message)));
-}
 
 /// Whether the map of a level is simulated: the one that is named, or, without a name, each one of the percept.
 bool rests_on_simulation(const AskedPercept& asked, const Declarations& declarations) {

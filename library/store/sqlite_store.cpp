@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t wale_application = 0x57616c65;  // "Wale"
-constexpr std::int64_t newest_version = 1;
+constexpr std::int64_t newest_schema = 1;
 
 /// `generation` counts the changes, so that the columns beside the index are known to be of this state.
 constexpr const char* schema = R"(
@@ -56,9 +56,9 @@ class SqliteStore final : public LibraryStore, MaterialIndex, WordTable {
                    .sentence = is_empty ? "this file is empty, and no index" : "this is a database, but no index of Wale",
                    .mend = "name another file, or make one: `wale library index -o FILE`",
                    .place = {.name = database_.path()}};
-    } else if (version > newest_version) {
+    } else if (version > newest_schema) {
       return Error{.code = Code::newer_file,
-                   .sentence = fmt::format("the index has version {}, and this Wale reads {}", version, newest_version),
+                   .sentence = fmt::format("the index has version {}, and this Wale reads {}", version, newest_schema),
                    .mend = "make another one with this Wale: `wale library index -o FILE`",
                    .place = {.name = database_.path()}};
     }

@@ -8,15 +8,15 @@
 namespace wale {
 namespace {
 
-constexpr double margin = 40, label_width = 150, strip_width = 780, strip_height = 46;
+constexpr double page_margin = 40, label_width = 150, strip_width = 780, strip_height = 46;
 constexpr double square = 220, square_gap = 56;
-constexpr int page_width = 1060;
+constexpr int coverage_width = 1060;
 constexpr std::size_t squares_in_row = 3;
 
 void draw_strip(Canvas& canvas, double y, const CoveredPercept& percept) {
-  const double left = margin + label_width;
+  const double left = page_margin + label_width;
   const auto at = [&](double level) { return left + level * strip_width; };
-  canvas.write({margin, y + 6}, percept.percept, style::heading);
+  canvas.write({page_margin, y + 6}, percept.percept, style::heading);
   for (const EmptyRange& gap : percept.empty)
     canvas.fill({at(gap.low), y - 13, at(gap.high), y + 13}, style::field_strong);
   canvas.line({left, y}, {left + strip_width, y}, {1, style::rule});
@@ -62,20 +62,20 @@ Result<std::unique_ptr<Canvas>> draw_coverage(const Coverage& coverage) {
   for (const CoveredPair& each : coverage.pairs)
     if (each.materials > 0) shown.push_back(&each);
   const std::size_t rows = (shown.size() + squares_in_row - 1) / squares_in_row;
-  const double height = pairs + static_cast<double>(rows) * (square + square_gap) + margin;
-  auto page = new_canvas(page_width, static_cast<int>(height), style::paper);
+  const double height = pairs + static_cast<double>(rows) * (square + square_gap) + page_margin;
+  auto page = new_canvas(coverage_width, static_cast<int>(height), style::paper);
   if (!page) return page;
   Canvas& canvas = **page;
-  canvas.write({margin, 54}, fmt::format("What {} materials feel like", coverage.materials), {Face::serif, 34, style::ink});
-  canvas.write({margin, 84}, "levels that they read, with 95 % of the means of other groups; shaded: nothing is there",
+  canvas.write({page_margin, 54}, fmt::format("What {} materials feel like", coverage.materials), {Face::serif, 34, style::ink});
+  canvas.write({page_margin, 84}, "levels that they read, with 95 % of the means of other groups; shaded: nothing is there",
                style::label);
   for (const double level : {0.0, 0.25, 0.5, 0.75, 1.0})
-    canvas.write({margin + label_width + level * strip_width, 112}, fmt::format("{:g}", level), style::label, Align::centre);
+    canvas.write({page_margin + label_width + level * strip_width, 112}, fmt::format("{:g}", level), style::label, Align::centre);
   for (std::size_t i = 0; i < coverage.percepts.size(); ++i)
     draw_strip(canvas, strips + strip_height * static_cast<double>(i) + 14, coverage.percepts[i]);
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const CoveredPair& pair = *shown[i];
-    const PagePoint corner(margin + static_cast<double>(i % squares_in_row) * (square + 2 * square_gap),
+    const PagePoint corner(page_margin + static_cast<double>(i % squares_in_row) * (square + 2 * square_gap),
                            pairs + static_cast<double>(i / squares_in_row) * (square + square_gap));
     draw_pair(canvas, corner, coverage.percepts[pair.a], coverage.percepts[pair.b], pair);
   }

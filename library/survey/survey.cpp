@@ -28,7 +28,7 @@ Result<Survey> survey(const std::vector<std::string>& paths, const FileRequest& 
       auto entries = read_entries(one, module,
                                   depth == SurveyDepth::feel
                                       ? Feel(felt_of)
-                                      : [](const Program&, const Declarations&) { return Felt(); });
+                                      : [](const Program&, const Declarations&) { return EntryFeel(); });
       if (entries)
         read[i].entries = std::move(entries->entries);
       else

@@ -12,7 +12,7 @@ namespace wale {
 namespace {
 
 constexpr unsigned least_side = 4;                 // cells: a spline needs them
-constexpr std::size_t most_cells = 1 << 24;        // what a relief may have
+constexpr std::size_t most_relief_cells = 1 << 24;        // what a relief may have
 constexpr unsigned longest_wave_side = 4000;       // with its margins it is not resized
 constexpr unsigned margin = 12;                    // cells around a wave from its other side: a spline forgets by a factor 3.7 a cell
 constexpr double softest = 0.1, hardest = 2;       // ends of the amplitude's range, of the given amplitude
@@ -66,7 +66,7 @@ std::string amplitude_line(double amplitude) {
 Result<ThesisInWale> surface_in_wale(const ThesisArray& surface, const ThesisSurfaceOptions& options, const ThesisArray* shading) {
   if (const auto checked = usable(surface, options); !checked) return checked.error();
   if (const auto checked = positive("cell", options.cell, "a pixel of the thesis's screen is 0.37 mm"); !checked) return checked.error();
-  if (surface.width < least_side || surface.height < least_side || surface.cells.size() > most_cells)
+  if (surface.width < least_side || surface.height < least_side || surface.cells.size() > most_relief_cells)
     return wrong_size(options, fmt::format("expected 4 by 4 to 2^24 cells for a relief, found {} by {}", surface.width, surface.height),
                       "a wave may be narrower; a larger array can be cut");
   if (shading && (shading->width != surface.width || shading->height != surface.height))

@@ -40,7 +40,7 @@ TEST(Psychometric, FitsPsignifitsExample) {
 // at 0.02. Its alpha is the middle of a logistic function and beta its scale.
 TEST(Psychometric, AgreesWithPsignifit2) {
   const auto levels = levels_of({.01, .03, .05, .07, .09, .11}, {59, 53, 68, 83, 92, 99}, 100);
-  const auto fit = fit_psychometric(levels, {.shape = Shape::logistic, .lapse = 0.02});
+  const auto fit = fit_psychometric(levels, {.shape = Sigmoid::logistic, .lapse = 0.02});
   ASSERT_TRUE(fit) << in_words(fit.error());
   EXPECT_NEAR(fit->function.threshold, 0.0584006, 2e-6);
   EXPECT_NEAR(fit->function.width / (2 * std::log(19.0)), 0.0140818, 2e-6);
@@ -72,14 +72,14 @@ TEST(Psychometric, SharesTheLapseRate) {
 }
 
 TEST(Psychometric, IntervalsCover) {  // 200 fixed seeds; a method at 95 % has 181 or more with a chance of 0.998
-  const PsychometricFunction planted{.shape = Shape::weibull, .threshold = 0.8, .width = 1.2, .lapse = 0.02};
+  const PsychometricFunction planted{.shape = Sigmoid::weibull, .threshold = 0.8, .width = 1.2, .lapse = 0.02};
   int profile = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Random random(seed);
     std::vector<Level> levels;
     for (const double size : {0.2, 0.4, 0.6, 0.8, 1.0, 1.3, 1.7, 2.2})
       levels.push_back({size, static_cast<std::size_t>(random.binomial(40, planted.at(size))), 40});
-    const auto fit = fit_psychometric(levels, {.shape = Shape::weibull});
+    const auto fit = fit_psychometric(levels, {.shape = Sigmoid::weibull});
     ASSERT_TRUE(fit) << seed << ": " << in_words(fit.error());
     profile += fit->threshold.holds(0.8) ? 1 : 0;
   }
@@ -119,7 +119,7 @@ TEST(Psychometric, RefusesAnswersThatGiveNoFunction) {
   EXPECT_NE(refused({{1, 0, 20}, {2, 0, 20}}).find("exchanged"), std::string::npos);
   EXPECT_NE(refused({{1, 10, 20}, {2, 10, 20}, {3, 10, 20}}).find("do not depend"), std::string::npos);
   EXPECT_NE(refused({{1, 21, 20}, {2, 20, 20}}).find("21 of 20"), std::string::npos);
-  EXPECT_NE(refused({{0, 10, 20}, {2, 20, 20}}, {.shape = Shape::weibull}).find("logarithm"), std::string::npos);
+  EXPECT_NE(refused({{0, 10, 20}, {2, 20, 20}}, {.shape = Sigmoid::weibull}).find("logarithm"), std::string::npos);
   EXPECT_NE(refused({{1, 10, 20}, {2, 20, 20}}, {.guess = 1.5}).find("shares"), std::string::npos);
 }
 

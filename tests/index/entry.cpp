@@ -76,7 +76,7 @@ TEST(Entry, HasWhatTheProgramReads) {
   shelf.folder.write("fabric/cord.wale", std::string(cord, std::string_view(cord).find("material wrong")));
   const FileEntries read = shelf.read();
   ASSERT_EQ(read.entries.size(), 1u);
-  const Felt& felt = read.entries.front().felt;
+  const EntryFeel& felt = read.entries.front().felt;
   const EntryPercept* roughness = felt.percept("roughness");
   ASSERT_NE(roughness, nullptr);
   EXPECT_EQ(roughness, &felt.percepts.front());
@@ -106,7 +106,7 @@ TEST(Entry, IsThatOfAProgramThatIsReadAnew) {
       const auto program = compile_opened(read->opened, request, entry.name, diagnostics);
       ASSERT_TRUE(program) << entry.name;
       EXPECT_EQ(entry.program, write_patch_program(program->description())) << entry.name;
-      const Felt anew = felt_of(*program, read->opened.module->declarations());
+      const EntryFeel anew = felt_of(*program, read->opened.module->declarations());
       EXPECT_EQ(entry.felt.percepts, anew.percepts) << entry.name;
       ASSERT_EQ(entry.felt.cues.has_value(), anew.cues.has_value()) << entry.name;
       EXPECT_TRUE(!anew.cues || entry.felt.cues->values == anew.cues->values) << entry.name;

@@ -101,12 +101,12 @@ TEST_F(Store, AnswersAsAnIndexInMemoryDoes) {
     EXPECT_EQ(entry.felt.cues->values, memory->entry(*in_memory)->felt.cues->values);
     EXPECT_EQ(entry.licence, "CC0-1.0");
     const NearProbe probe(comparer, *entry.felt.cues);
-    const Sought near{.texts = {}, .kind = "trial", .feel = &probe, .without = {}, .most = 5};
+    const MaterialQuery near{.texts = {}, .kind = "trial", .feel = &probe, .without = {}, .most = 5};
     EXPECT_EQ(names(find_entries(store->index(), near)), names(find_entries(*memory, near)));
     EXPECT_EQ(names(find_entries(store->index(), near)).front(), name) << "nothing is nearer than itself";
   }
   for (const char* text : {"rib", "grober m3", "the", "m1", "nothing", "rib%", "m_"}) {
-    const Sought words{.texts = {text}, .kind = {}, .without = {}, .most = 20};
+    const MaterialQuery words{.texts = {text}, .kind = {}, .without = {}, .most = 20};
     const auto one = find_entries(store->index(), words), other = find_entries(*memory, words);
     ASSERT_EQ(names(one), names(other)) << text;
     for (std::size_t i = 0; i < one->entries.size(); ++i) EXPECT_EQ(one->entries[i].score, other->entries[i].score);

@@ -43,11 +43,11 @@ DeviceWiring planted(double quadratic, double cubic, double most) {
 }
 
 /// The commands of a whole protocol, as the simulated device takes them in its steps.
-const std::vector<ForceStep>& taken_steps() {
-  static const std::vector<ForceStep> steps = [] {
+const std::vector<GaugeStep>& taken_steps() {
+  static const std::vector<GaugeStep> steps = [] {
     PlantedDevice device(stick(), {}, 1);
-    std::vector<ForceStep> all = force_steps(stick().force_newton);
-    for (ForceStep& step : all) {
+    std::vector<GaugeStep> all = force_steps(stick().force_newton);
+    for (GaugeStep& step : all) {
       Force force(0);
       force[axis_of(step.way)] = static_cast<float>(sign_of(step.way) * step.command);
       step.command = sign_of(step.way) * device.command(force)[axis_of(step.way)];
@@ -60,7 +60,7 @@ const std::vector<ForceStep>& taken_steps() {
 std::vector<GaugeReading> readings_of(const DeviceWiring& truth, std::uint64_t seed) {
   PlantedDevice device(stick(), truth, seed);
   std::vector<GaugeReading> readings;
-  for (const ForceStep& step : taken_steps())
+  for (const GaugeStep& step : taken_steps())
     readings.push_back({step.way, step.command, device.gauge(step.way, step.command), step.repeat, 0});
   return readings;
 }
@@ -220,7 +220,7 @@ TEST(Responses, AGainFarFromTheDeclaredOneIsAsked) {
 TEST(Responses, ACurveOfAnotherShapeIsSaidToBeOne) {
   std::vector<GaugeReading> readings;
   analysis::Random random(7);
-  for (const ForceStep& step : taken_steps())
+  for (const GaugeStep& step : taken_steps())
     if (step.way == Way::right)
       readings.push_back({step.way, step.command,
                           0.9 * step.command + 0.2 * std::sin(1.5 * step.command) + 0.01 * random.normal(), step.repeat,

@@ -160,12 +160,12 @@ TEST(ForceTables, AnyBytesAreRead) {
 }
 
 TEST(AskingForForces, AMistypedAnswerIsTakenBack) {
-  const std::vector<ForceStep> steps{{Way::right, 0, 1}, {Way::right, 5, 1}, {Way::left, 1, 1}, {Way::left, 5, 1}};
+  const std::vector<GaugeStep> steps{{Way::right, 0, 1}, {Way::right, 5, 1}, {Way::left, 1, 1}, {Way::left, 5, 1}};
   // The second answer is mistyped, taken back and given again; one has no number; the rest of the left is skipped.
   std::istringstream in("\n0.01 N\n\n50\nback\n\nfive\nagain\n\n4.9\n\n0.9\nskip\n");
   std::ostringstream out;
   int pushes = 0;
-  const auto asked = ask_for_forces(steps, in, out, [&](const ForceStep& step) -> Result<double> {
+  const auto asked = ask_for_forces(steps, in, out, [&](const GaugeStep& step) -> Result<double> {
     ++pushes;
     return step.command;
   });
@@ -183,8 +183,8 @@ TEST(AskingForForces, AMistypedAnswerIsTakenBack) {
 TEST(AskingForForces, AnAnswerNeedsAUnitOnce) {
   std::istringstream in("\n1\n102 gf\n\nq\n");
   std::ostringstream out;
-  const auto asked = ask_for_forces(std::vector<ForceStep>{{Way::right, 1, 1}, {Way::right, 2, 1}}, in, out,
-                                    [](const ForceStep& step) -> Result<double> { return step.command; });
+  const auto asked = ask_for_forces(std::vector<GaugeStep>{{Way::right, 1, 1}, {Way::right, 2, 1}}, in, out,
+                                    [](const GaugeStep& step) -> Result<double> { return step.command; });
   EXPECT_NE(out.str().find("the unit is missing in \"1\""), std::string::npos) << out.str();
   ASSERT_FALSE(asked);
   EXPECT_EQ(asked.error().code, Code::stopped);

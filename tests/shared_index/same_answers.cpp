@@ -81,14 +81,14 @@ TEST_F(SameAnswers, ToTwoHundredQuestions) {
     const auto entry = index.entry(*meant);
     return entry && entry->felt.cues ? entry->felt.cues : std::nullopt;
   };
-  const auto both = [&](const std::string& question, const Sought& sought) {
+  const auto both = [&](const std::string& question, const MaterialQuery& sought) {
     same(question, told(find_entries(a, sought)), told(find_entries(b, sought)));
   };
   const std::vector<std::string> texts = {"ribbed", "rib",       "soft rough", "größe",    "GROSSE samt", "布",    "null",  "m1",
                                           "thing",  "number 12", "r",          "nothing here", "fine cold wide", "m_", "%",  "'; DROP TABLE words",
                                           "\xff",   "woven",     "trial",      "\\",       "\"rib\"",     "",     "the a", "wide wide wide"};
   for (int i = 0; i < 72; ++i) {
-    Sought sought{.texts = {texts[static_cast<std::size_t>(i) % texts.size()]}, .kind = i % 3 == 2 ? "trial" : "", .without = {}, .most = 20};
+    MaterialQuery sought{.texts = {texts[static_cast<std::size_t>(i) % texts.size()]}, .kind = i % 3 == 2 ? "trial" : "", .without = {}, .most = 20};
     if (i >= 48) sought.texts.push_back(texts[random() % texts.size()]);
     both("words " + sought.texts.front(), sought);
   }
