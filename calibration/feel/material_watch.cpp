@@ -80,8 +80,19 @@ MaterialWatch::Outcome MaterialWatch::look() {
     return refuse(fmt::format("wale: {}\n", in_words(done.error())));
   felt_ = std::move(bytes);
   ++versions_;
+  wait_until_felt();
   say_(said + apply_settings(now) + fmt::format("wale: the new version of `{}` is active\n", now.material));
   return Outcome::replaced;
+}
+
+/// Only the memory of the tick that serves the patch tells which version it has. A run that begins later, or has ended,
+/// serves none.
+void MaterialWatch::wait_until_felt() const {
+  constexpr int most_looks = 100;  // each takes a period or two
+  for (int looks = 0; looks < most_looks; ++looks) {
+    const auto now = patch_.snapshot();
+    if (!now || write_patch_program(now->bank.program().description()) == felt_) return;
+  }
 }
 
 /// Sets the parameters of the version on the stage as the person has set those of the first one. Returns what is new

@@ -23,7 +23,7 @@ class MaterialWatch {
 
   enum class Outcome {
     nothing,   ///< no file changed, or the program did not
-    replaced,  ///< the new program is active from the next tick on
+    replaced,  ///< the new program is felt, or is from a run's first tick on
     refused    ///< it has errors, which were shown, and the previous version stays active
   };
   /// Waits for a change, at most `wait`. The first call does not wait, since the file may have changed after it was
@@ -36,6 +36,9 @@ class MaterialWatch {
  private:
   Outcome look();
   Outcome refuse(std::string why);
+  /// Returns as soon as the stage's run has the newest version, at once without a run, and after some hundred ticks at
+  /// the latest.
+  void wait_until_felt() const;
   std::string apply_settings(const PatchProgram& now);
 
   command::Choice choice_;

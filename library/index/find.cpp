@@ -144,11 +144,14 @@ Result<std::uint32_t> meant_entry(const MaterialIndex& index, std::string_view t
                  .mend = fmt::format("name its module too, as in `{}`", place(found->front())),
                  .place = {.name = std::string(text)}};
   }
-  // The nearest name, of as many as there are.
+  // The nearest name, of as many as there are. Among equally near ones it is the first by its bytes, since rows are in
+  // another order in each storage.
   std::optional<std::pair<std::size_t, std::string>> near;
   for (std::size_t row = 0; row < columns.size(); ++row)
-    if (const auto distance = distance_from(text, columns.name(row)); distance && (!near || *distance < near->first))
-      near.emplace(*distance, columns.name(row));
+    if (const auto distance = distance_from(text, columns.name(row)); distance) {
+      std::pair<std::size_t, std::string> here(*distance, columns.name(row));
+      if (!near || here < *near) near = std::move(here);
+    }
   return Error{.code = Code::unknown_name,
                .sentence = fmt::format("no material of the index is called `{}`", visible_text(text)),
                .mend = near ? fmt::format("the nearest: `{}`", near->second) : "`wale find WORD` searches the library",
