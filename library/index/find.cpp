@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <vector>
 
@@ -135,13 +136,16 @@ Result<std::uint32_t> meant_entry(const MaterialIndex& index, std::string_view t
   };
   if (!found->empty()) {
     constexpr std::size_t most_told = 5;
+    std::vector<std::string> places;
+    std::ranges::transform(*found, std::back_inserter(places), place);
+    std::ranges::sort(places);  // their numbers differ from one storage to another
     std::string all;
-    for (std::size_t i = 0; i < std::min(found->size(), most_told); ++i)
-      all += fmt::format("{}`{}`", i == 0 ? "" : ", ", place((*found)[i]));
+    for (std::size_t i = 0; i < std::min(places.size(), most_told); ++i)
+      all += fmt::format("{}`{}`", i == 0 ? "" : ", ", places[i]);
     if (found->size() > most_told) all += fmt::format(" and {} more", found->size() - most_told);
     return Error{.code = Code::ambiguous_material,
                  .sentence = fmt::format("`{}` may be {} materials: {}", visible_text(text), found->size(), all),
-                 .mend = fmt::format("name its module too, as in `{}`", place(found->front())),
+                 .mend = fmt::format("name its module too, as in `{}`", places.front()),
                  .place = {.name = std::string(text)}};
   }
   // The nearest name, of as many as there are. Among equally near ones it is the first by its bytes, since rows are in
