@@ -136,8 +136,11 @@ constexpr std::string_view end_of_checks = R"(
 
 std::string framed(const HeaderFrame& frame, const std::string& code) {
   const SharedArithmetic& shared = shared_arithmetic();
-  const std::string guard = guard_of(frame),
-                    build = fmt::format("{}_{:08x}", guard, Fnv1a<std::uint32_t>().take_all(code).hash());
+  const std::string hash = fmt::format("{:08x}", Fnv1a<std::uint32_t>().take_all(code).hash());
+  const std::string guard = guard_of(frame), build = guard + "_" + hash;
+  // Two files of a program may hold different materials of one name. Their functions then have different names, since a
+  // linker keeps one of each name.
+  const std::string own_name = shared.name + "_" + hash;
   std::string text = comment_of(frame);
   text += fmt::format(
       "\n#if defined({0})\n#if !defined({1})\n#error \"another build of this material is included: its device, its "
@@ -147,7 +150,7 @@ std::string framed(const HeaderFrame& frame, const std::string& code) {
   text += std::string(checks) + shared.text;
   text +=
       fmt::format("\nnamespace {0} {{\ninline namespace {1} {{\n\n{2}{3}\n}}  // namespace {1}\n}}  // namespace {0}\n",
-                  frame.name_space, shared.name, using_arithmetic(), code);
+                  frame.name_space, own_name, using_arithmetic(), code);
   text += end_of_checks;
   return text + fmt::format("\n#endif  // {}\n", guard);
 }

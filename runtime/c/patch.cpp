@@ -17,11 +17,22 @@ WaleCode change_patch(WalePatch* patch, WaleError** error, const Change& change)
   });
 }
 
+/// A call of an edit. What fails makes the edit's commit fail: an edit is made as a whole, also for whoever looks at the
+/// result of its commit only.
+template <class Body>
+WaleCode call_of_edit(WaleEdit* edit, WaleError** error, const Body& body) {
+  return call(error, [&]() -> Result<> {
+    if (auto given = is_given("edit", edit); !given) return given;
+    Result<> done = body();
+    if (!done) edit->edit.fail(done.error());
+    return done;
+  });
+}
+
 /// Calls `change` with an edit and a patch.
 template <class Change>
 WaleCode change_edit(WaleEdit* edit, const WalePatch* patch, WaleError** error, const Change& change) {
-  return call(error, [&]() -> Result<> {
-    if (auto given = is_given("edit", edit); !given) return given;
+  return call_of_edit(edit, error, [&]() -> Result<> {
     if (auto given = is_given("patch", patch); !given) return given;
     return change(edit->edit, patch->patch);
   });
@@ -88,9 +99,8 @@ WaleCode wale_stage_edit(WaleStage* stage, WaleEdit** edit, WaleError** error) {
 
 WaleCode wale_edit_add(WaleEdit* edit, const WaleProgram* program, const WalePatchOptions* options, WalePatch** patch,
                        WaleError** error) {
-  return call(error, [&]() -> wale::Result<> {
-    if (patch != nullptr) *patch = nullptr;
-    if (auto given = is_given("edit", edit); !given) return given;
+  if (patch != nullptr) *patch = nullptr;
+  return call_of_edit(edit, error, [&]() -> wale::Result<> {
     const auto known = read_program(program);
     if (!known) return known.error();
     const auto read = read_options(options);

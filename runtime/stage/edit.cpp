@@ -56,7 +56,10 @@ Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options
   if (!found) return found.error();
   const auto& state = *found;
   Result<Placement> placement = state->placement(program, options);
-  if (!placement) return std::move(placement).error();
+  if (!placement) {
+    fail(placement.error());
+    return std::move(placement).error();
+  }
   const std::lock_guard lock(state->mutex);
   parts_->added.emplace_back(PatchName(), *std::move(placement));
   PatchName& name = parts_->added.back().first;
@@ -97,6 +100,10 @@ void StageEdit::bring(const Patch& patch, const BringOptions& to) {
 
 void StageEdit::remove(const Patch& patch) {
   if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, nullptr);
+}
+
+void StageEdit::fail(Error error) {
+  if (parts_ && !parts_->error) parts_->error = std::move(error);
 }
 
 Result<> StageEdit::commit() {

@@ -346,6 +346,18 @@ static void edits(void) {
   CHECK(wale_stage_size(stage) == 2 && wale_patch_exists(one));
   CHECK_GOOD(wale_edit_remove(edit, strange, &error));
   CHECK_CODE(WALE_CODE_wrong_moment, wale_edit_commit(edit, &error));
+  /* What a call has refused already is refused by the commit too. */
+  const WalePatchOptions nowhere = {.size = sizeof nowhere, .x = NAN};
+  CHECK_GOOD(wale_edit_remove(edit, one, &error));
+  CHECK_MALFORMED(wale_edit_enable(edit, one, 7, &error));
+  CHECK_MALFORMED(wale_edit_commit(edit, &error));
+  CHECK_GOOD(wale_edit_remove(edit, one, &error));
+  CHECK_MALFORMED(wale_edit_add(edit, corduroy, &nowhere, NULL, &error));
+  CHECK_MALFORMED(wale_edit_commit(edit, &error));
+  CHECK_GOOD(wale_edit_remove(edit, one, &error));
+  CHECK_MALFORMED(wale_edit_set(edit, NULL, WALE_TEXT("wale"), 0.003, &error));
+  CHECK_MALFORMED(wale_edit_commit(edit, &error));
+  CHECK(wale_stage_size(stage) == 2 && wale_patch_exists(one));
   CHECK_GOOD(wale_edit_remove(edit, one, &error));
   CHECK_GOOD(wale_edit_commit(edit, &error));
   CHECK(wale_stage_size(stage) == 1 && !wale_patch_exists(one));

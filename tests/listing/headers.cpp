@@ -109,6 +109,30 @@ TEST(Headers, StandTogetherInOneProgramOfSeveralFiles) {
   }
 }
 
+TEST(Headers, OfDifferentMaterialsOfOneNameKeepTheirForcesInDifferentFiles) {
+  const TemporaryFolder folder;
+  const auto drag = [&](const std::string& size) {
+    const std::string text = "wale 1\nmaterial drag { physical { force = -" + size + " N s/m * velocity } }\n";
+    return header(File(folder.write("drag" + size + ".wale", text)).program("drag"));
+  };
+  folder.write("soft.hpp", drag("2")), folder.write("hard.hpp", drag("20"));
+  const std::string name = "wale_patch_drag";
+  const auto file_of = [&](const std::string& kind) {
+    return folder.write(kind + ".cpp", "#include \"" + kind + ".hpp\"\nfloat " + kind + "() { " + name + "::State s; " + name +
+                                           "::Hand h; h.velocity_x = 0.125f; return " + name + "::tick(s, h).x; }\n");
+  };
+  const std::string soft = file_of("soft"), hard = file_of("hard");
+  const std::string main = folder.write(
+      "main.cpp", "float soft(); float hard();\nint main() { return soft() == -0.25f && hard() == -2.5f ? 0 : 1; }\n");
+  for (const std::string& compiler : compilers())
+    for (const char* order : {"soft", "hard"}) {
+      const std::string program = folder / "program", first = order == std::string("soft") ? soft : hard,
+                        second = order == std::string("soft") ? hard : soft;
+      EXPECT_EQ(said_by(compiler + " -std=c++17 -O0 -o " + program + " " + first + " " + second + " " + main), "") << compiler;
+      EXPECT_EQ(std::system(program.c_str()), 0) << compiler << ", first " << order;
+    }
+}
+
 TEST(Headers, RefuseWhatWouldChangeTheirBits) {
   const TemporaryFolder folder;
   folder.write("folded.hpp", header(corduroy()));

@@ -39,8 +39,10 @@ struct Now {
   long ticks_run = 0, ticks_missed = 0;
   double lateness = 0;                 ///< s, how long after its deadline the tick began
   glm::vec2 position{0}, velocity{0};  ///< of the hand, m from the workspace's centre, m/s
-  Force force{0};                      ///< N, the actuator's; of a pad its vibration, m/s^2 and Hz
-  bool inside = false;                 ///< the hand is on a patch
+  /// N, the actuator's at that tick; of a pad its vibration, m/s^2 and Hz. After the run the device exerts none,
+  /// whatever its last tick had.
+  Force force{0};
+  bool inside = false;                 ///< the hand is on a patch; after the run: was on one at its last tick
   std::optional<Patch> patch = {};     ///< the one that it is on
   long revision = 0;                   ///< how often changes had been handed over to the loop
   GuardCounts guards;                  ///< since the run began
@@ -48,7 +50,7 @@ struct Now {
 
 enum class ContactKind {
   enter,    ///< the hand comes onto a patch
-  leave,    ///< it leaves the patch, or the patch is taken away from under it
+  leave,    ///< it leaves the patch, or the patch is taken away from under it; the end of a run is no leaving
   press,    ///< the device's button goes down on a patch
   release,  ///< it goes up on a patch
 };

@@ -125,8 +125,9 @@ WALE_API uint64_t wale_patch_id(const WalePatch* patch);
 WALE_API uint32_t wale_patch_number(const WalePatch* patch);
 WALE_API void wale_patch_free(WalePatch* patch);
 
-/* Begins an edit. Its calls are those of a stage and of its patches; an error of a change comes from wale_edit_commit. A patch
-   that it adds is there from the commit on; within the edit its handle may be used at once. */
+/* Begins an edit. Its calls are those of a stage and of its patches; an error of a change comes from wale_edit_commit, also
+   one that the call has given already. A patch that it adds is there from the commit on; within the edit its handle may be
+   used at once. */
 WALE_API WaleCode wale_stage_edit(WaleStage* stage, WaleEdit** edit, WaleError** error);
 WALE_API WaleCode wale_edit_add(WaleEdit* edit, const WaleProgram* program, const WalePatchOptions* options,
                                 WalePatch** patch, WaleError** error);

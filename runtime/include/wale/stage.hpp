@@ -58,7 +58,8 @@ class StageEdit {
   StageEdit& operator=(StageEdit&&) noexcept;
   ~StageEdit();
 
-  /// As `Stage::add`. The handle names the patch from `commit` on; within this edit it may be used at once.
+  /// As `Stage::add`. The handle names the patch from `commit` on; within this edit it may be used at once. An error
+  /// comes from `commit` too.
   Result<Patch> add(const Program& program, const PatchOptions& options = {});
   /// As the calls of `Patch` of the same names. The error comes from `commit`.
   void set(const Patch& patch, std::string_view parameter, double value);
@@ -68,6 +69,9 @@ class StageEdit {
   void enable(const Patch& patch, bool enabled = true);
   void bring(const Patch& patch, const BringOptions& to);
   void remove(const Patch& patch);
+  /// Makes the next `commit` fail with this error, unless an earlier call of the edit has failed. For whoever finds out
+  /// by himself that a change cannot be made, such as a binding that checks its arguments.
+  void fail(Error error);
 
   /// Makes all changes. They are felt together, as soon as all banks are ready; until then these patches stay as they
   /// are. A later edit of one of them waits until then as a whole; a newer one replaces what it changes too. Errors:
