@@ -24,6 +24,7 @@ struct Wall {
   double depth(glm::dvec2 place) const;     ///< m; negative outside
   glm::dvec2 into(glm::dvec2 place) const;  ///< unit vector into it there
   glm::dvec2 at(glm::dvec2 place) const;    ///< N
+  void begin_deeper(double by) { offset += fills ? -by : by; }  ///< moves the face by so much, m
 };
 Wall wall_of(const HalfPlane& face);
 
