@@ -62,6 +62,10 @@ struct Obstacles {
 /// nothing if they do not explain nearly all that a line leaves and that is no texture.
 std::optional<Obstacles> find_obstacles(const StillForces& whole, std::span<const glm::dvec2> forces);
 
+/// The wall or step that stands so near to an edge or in a corner that means over small cells show nothing of where it
+/// begins, beside a line that explains the rest of the patch exactly.
+std::optional<Obstacles> obstacle_at_edge(const StillForces& whole, std::span<const glm::dvec2> forces);
+
 /// A slow wave beside them: its harmonics are fitted with them.
 struct SlowWave {
   glm::dvec2 waves{0};  ///< periods over a metre

@@ -18,12 +18,15 @@ namespace wale {
 namespace {
 
 constexpr std::size_t side_of_whole = 160;  // 0.9 mm apart on a patch of 160 mm
-constexpr double bending_periods = 12;      // over the patch: slower waves bend like what stands in it
+constexpr double bending_periods = 20;      // over the patch: slower waves bend like what stands in it
 constexpr std::size_t most_harmonics = 8;
 constexpr double weak_harmonic = 1e-3;      // of a wave's mean square
 constexpr double plainly_explained = 0.03;  // of the mean square, left by a trend that is found before the waves
 constexpr double left_by_waves = 2e-3;      // of the mean square beyond a line: nothing stands beside the waves
 constexpr double left_in_a_quarter = 0.01;  // of the mean square there: waves are all that it holds
+constexpr double left_beside_both = 0.02;   // of what a line leaves, by wall and wave
+constexpr double few_harmonics = 0.3;       // ... or of a wave that jumps, by its first harmonics
+constexpr double left_by_a_jumping_wave = 0.05;  // ... and by its whole form, where it jumps within a part of it
 constexpr std::size_t places_of_a_quarter = 2000, bins_of_a_wave = 96;
 constexpr double little = 0.04;             // of the mean square: not worth its own spectrum
 constexpr double repeats = 0.02;            // of the mean square beyond a line, left by waves alone
@@ -223,6 +226,11 @@ class ReliefReader {
 
   /// Looks for a trend that bends before any wave: a spring that saturates looks like a slow square wave.
   void find_plain_trend(const std::vector<glm::dvec2>& beyond) {
+    if (auto edge = obstacle_at_edge(whole_, whole_.forces)) {
+      found_.obstacles = *std::move(edge);
+      found_.features = features_of(found_.obstacles, whole_.places);
+      return;
+    }
     const std::vector<glm::dvec2> bent = cell_means(whole_.side, beyond);
     if (mean_square(bent) < 0.5 * mean_square(beyond)) return;
     // Over a period or two a sine looks like walls, steps and springs that cancel, which are many more figures.
@@ -280,8 +288,16 @@ class ReliefReader {
     if (peaks.empty()) return std::nullopt;
     const std::vector<glm::dvec2> places = some_of(quarter.places, places_of_a_quarter),
                                   forces = some_of(quarter.forces, places_of_a_quarter);
-    const HarmonicFit fit = fit_harmonics(places, forces, peaks, quarter.size, bins_of_a_wave);
-    if (fit.left > left_in_a_quarter * by_line) return std::nullopt;
+    HarmonicFit fit = fit_harmonics(places, forces, peaks, quarter.size, bins_of_a_wave);
+    if (fit.left > few_harmonics * by_line) return std::nullopt;
+    if (fit.left > left_in_a_quarter * by_line) {
+      // What jumps has many more harmonics.
+      for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = quarter.forces[i] - fit.line.at(quarter.places[i]);
+      const glm::dvec2 exact = better_fitting(quarter.places, rest, fit.waves.front().waves, bins_of_a_wave);
+      fit.waves = {folded(quarter.places, rest, exact, bins_of_a_wave)};
+      fit.waves.front().add_to(quarter.places, rest, -1);
+      if (mean_square(rest) > left_by_a_jumping_wave * by_line) return std::nullopt;
+    }
     std::vector<glm::dvec2> left = whole_.forces;
     for (std::size_t i = 0; i < left.size(); ++i) left[i] -= fit.line.at(whole_.places[i]);
     for (const FoldedWave& each : fit.waves) {
@@ -307,7 +323,7 @@ class ReliefReader {
       const Obstacles fitted = fitted_beside(*obstacles, slow, whole_.places, whole_.forces);
       std::vector<Feature> features = features_of(fitted, whole_.places);
       FoundWaves waves = find_waves(field_, whole_, features);
-      if (waves.waves.empty() || waves.local || mean_square(waves.rest) > left_in_a_quarter * all) continue;
+      if (waves.waves.empty() || waves.local || mean_square(waves.rest) > left_beside_both * all) continue;
       found_.obstacles = fitted, found_.features = std::move(features), waves_ = std::move(waves);
       refine(found_.features);
       waves_ = find_waves(field_, whole_, found_.features);
