@@ -280,17 +280,19 @@ void ObstacleFit::move_jumps(std::span<const glm::dvec2> places, std::span<const
     if (best.left < HUGE_VAL) each.offset = best.at;
   }
   for (Wall& each : found.walls) {
-    if (each.preload == 0 || each.round()) continue;
-    std::vector<glm::dvec2> without = rest(places, forces);
-    for (std::size_t i = 0; i < places.size(); ++i) without[i] += each.at(places[i]);
-    const Bend best = best_along(without, each.inward, each.inward, BendKind::bends_and_jumps, 1);
-    if (best.left < HUGE_VAL) each.offset = best.at;
+    if (each.preload == 0) continue;
+    const std::vector<glm::dvec2> left = rest(places, forces);
+    std::vector<PlaceOnLine> line(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+      line[i] = {each.depth(places[i]), glm::dot(left[i] + each.at(places[i]), each.into(places[i]))};
+    const Bend best = best_bend(line, BendKind::bends_and_jumps, 1);
+    if (best.left < HUGE_VAL) each.begin_deeper(best.at);
   }
 }
 
 void ObstacleFit::seat_jumps(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
   for (Wall& each : found.walls) {
-    if (each.round() || !(each.preload > 0)) continue;
+    if (!(each.preload > 0)) continue;
     // On which side of the face a place lies tells half of the push that is behind it.
     std::vector<std::pair<double, bool>> line;
     std::size_t wrong = 0;
@@ -298,7 +300,7 @@ void ObstacleFit::seat_jumps(std::span<const glm::dvec2> places, std::span<const
       const double deep = each.depth(places[i]), push = each.preload + each.stiffness * deep;
       if (std::abs(deep) > about_a_jump || !(push > 0.2 * each.preload)) continue;
       const glm::dvec2 without = forces[i] - at(places[i]) + each.at(places[i]);
-      line.emplace_back(deep, -glm::dot(without, each.inward) > 0.5 * push);
+      line.emplace_back(deep, -glm::dot(without, each.into(places[i])) > 0.5 * push);
       wrong += !line.back().second;
     }
     if (line.size() < fewest_about_a_jump) continue;
@@ -309,7 +311,7 @@ void ObstacleFit::seat_jumps(std::span<const glm::dvec2> places, std::span<const
       wrong = line[i].second ? wrong + 1 : wrong - 1;
       if (wrong < least) least = wrong, by = 0.5 * (line[i].first + line[i + 1].first);
     }
-    each.offset += by, each.preload += each.stiffness * by;
+    each.begin_deeper(by), each.preload += each.stiffness * by;
   }
   for (StaticStep& each : found.steps) {
     if (each.width > 0 || each.change == glm::dvec2(0)) continue;

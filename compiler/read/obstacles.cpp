@@ -115,16 +115,18 @@ void try_jumps(ObstacleFit& fit, std::span<const glm::dvec2> places, std::span<c
   for (std::size_t turn = 0; turn < 2 * walls; ++turn) {
     const std::size_t i = turn % walls;
     const Wall wall = fit.found.walls[i];
-    if (wall.round() || wall.preload != 0) continue;
+    if (wall.preload != 0) continue;
     std::vector<PlaceOnLine> line;
-    for (std::size_t k = 0; k < places.size(); ++k)
-      line.push_back({glm::dot(places[k], wall.inward), glm::dot(left[k] + wall.at(places[k]), wall.inward)});
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const glm::dvec2 against = left[k] + wall.at(places[k]);
+      line.push_back({wall.depth(places[k]), glm::dot(against, wall.into(places[k]))});
+    }
     const Bend bend = best_bend(line, BendKind::bends_and_jumps, every_jump);
     const double without = best_bend(line, BendKind::bends, every_jump).left;
     // Of the forces along the wall, which a texture may not push.
     if (!(without - bend.left > 0.5 * gained * least) || !(-bend.jump > least_force) || !(bend.slope < 0)) continue;
     ObstacleFit other = fit;
-    other.found.walls[i].preload = -bend.jump, other.found.walls[i].offset = bend.at;
+    other.found.walls[i].preload = -bend.jump, other.found.walls[i].begin_deeper(bend.at);
     other.found.walls[i].stiffness = -bend.slope;
     const double here = other.improve(places, forces, steps_at_places);
     if (!(here < (1 - gained) * least) || !(other.found.walls[i].preload > least_force)) continue;

@@ -24,6 +24,7 @@ struct Wall {
   double depth(glm::dvec2 place) const;     ///< m; negative outside
   glm::dvec2 into(glm::dvec2 place) const;  ///< unit vector into it there
   glm::dvec2 at(glm::dvec2 place) const;    ///< N
+  void begin_deeper(double by) { offset += fills ? -by : by; }  ///< moves the face by so much, m
 };
 Wall wall_of(const HalfPlane& face);
 
@@ -60,6 +61,10 @@ struct Obstacles {
 /// The walls and steps that explain forces at the places of `whole`, beside a force that changes evenly over the patch;
 /// nothing if they do not explain nearly all that a line leaves and that is no texture.
 std::optional<Obstacles> find_obstacles(const StillForces& whole, std::span<const glm::dvec2> forces);
+
+/// The wall or step that stands so near to an edge or in a corner that means over small cells show nothing of where it
+/// begins, beside a line that explains the rest of the patch exactly.
+std::optional<Obstacles> obstacle_at_edge(const StillForces& whole, std::span<const glm::dvec2> forces);
 
 /// A slow wave beside them: its harmonics are fitted with them.
 struct SlowWave {

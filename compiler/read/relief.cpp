@@ -6,20 +6,28 @@
 
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/fundamental.hpp"
+#include "compiler/read/harmonic_fit.hpp"
 #include "compiler/read/relief_figures.hpp"
 #include "compiler/read/slow_sine.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/unlimited.hpp"
+#include "compiler/read/window_spectrum.hpp"
 #include "wale/picture.hpp"
 
 namespace wale {
 namespace {
 
 constexpr std::size_t side_of_whole = 160;  // 0.9 mm apart on a patch of 160 mm
-constexpr double bending_periods = 12;      // over the patch: slower waves bend like what stands in it
+constexpr double bending_periods = 20;      // over the patch: slower waves bend like what stands in it
 constexpr std::size_t most_harmonics = 8;
 constexpr double weak_harmonic = 1e-3;      // of a wave's mean square
 constexpr double plainly_explained = 0.03;  // of the mean square, left by a trend that is found before the waves
+constexpr double left_by_waves = 2e-3;      // of the mean square beyond a line: nothing stands beside the waves
+constexpr double left_in_a_quarter = 0.01;  // of the mean square there: waves are all that it holds
+constexpr double left_beside_both = 0.02;   // of what a line leaves, by wall and wave
+constexpr double few_harmonics = 0.3;       // ... or of a wave that jumps, by its first harmonics
+constexpr double left_by_a_jumping_wave = 0.05;  // ... and by its whole form, where it jumps within a part of it
+constexpr std::size_t places_of_a_quarter = 2000, bins_of_a_wave = 96;
 constexpr double little = 0.04;             // of the mean square: not worth its own spectrum
 constexpr double repeats = 0.02;            // of the mean square beyond a line, left by waves alone
 constexpr double curved = 0.02;             // of the mean square without waves, beyond a line
@@ -100,6 +108,7 @@ class ReliefReader {
       refine(found_.features);
       waves_ = find_waves(field_, whole_, found_.features);
     }
+    find_beside_waves(beyond);
     relief_ = whole_.forces;
     take_trend_off();
     tell_cut();
@@ -217,6 +226,11 @@ class ReliefReader {
 
   /// Looks for a trend that bends before any wave: a spring that saturates looks like a slow square wave.
   void find_plain_trend(const std::vector<glm::dvec2>& beyond) {
+    if (auto edge = obstacle_at_edge(whole_, whole_.forces)) {
+      found_.obstacles = *std::move(edge);
+      found_.features = features_of(found_.obstacles, whole_.places);
+      return;
+    }
     const std::vector<glm::dvec2> bent = cell_means(whole_.side, beyond);
     if (mean_square(bent) < 0.5 * mean_square(beyond)) return;
     // Over a period or two a sine looks like walls, steps and springs that cancel, which are many more figures.
@@ -246,6 +260,75 @@ class ReliefReader {
     refine_features(features, whole_.places, whole_.forces);
     if (!std::ranges::all_of(features, &Feature::monotone)) return;
     found_.features = std::move(features);
+  }
+
+  /// A quarter of the patch, by its corner; all of a lattice's places that lie in it.
+  StillForces quarter_of_whole(std::size_t corner) const {
+    const std::size_t side = whole_.side / 2, top = corner / 2 * side, left = corner % 2 * side;
+    StillForces quarter{side, whole_.centre + 0.25 * whole_.size * glm::dvec2(left > 0 ? 1 : -1, top > 0 ? 1 : -1),
+                        0.5 * whole_.size, {}, {}};
+    for (std::size_t row = 0; row < side; ++row)
+      for (std::size_t column = 0; column < side; ++column) {
+        const std::size_t i = (top + row) * whole_.side + left + column;
+        quarter.places.push_back(whole_.places[i]), quarter.forces.push_back(whole_.forces[i]);
+      }
+    return quarter;
+  }
+
+  /// The forces less waves and a line that explain all of them in a quarter of the patch; nothing if none do. Both are
+  /// then the same elsewhere, and what stands in the rest of the patch stands beside them. The waves are put into `slow`.
+  std::optional<std::vector<glm::dvec2>> beside_waves_of(const StillForces& quarter, double bent,
+                                                         std::vector<SlowWave>& slow) const {
+    std::vector<glm::dvec2> rest = quarter.forces;
+    const LinearForce line = linear_force(quarter.places, rest);
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= line.at(quarter.places[i]);
+    const double by_line = mean_square(rest);
+    if (by_line < least_force * least_force) return std::nullopt;
+    const std::vector<glm::dvec2> peaks = WindowSpectrum(quarter, rest).peaks(1, 1.4);
+    if (peaks.empty()) return std::nullopt;
+    const std::vector<glm::dvec2> places = some_of(quarter.places, places_of_a_quarter),
+                                  forces = some_of(quarter.forces, places_of_a_quarter);
+    HarmonicFit fit = fit_harmonics(places, forces, peaks, quarter.size, bins_of_a_wave);
+    if (fit.left > few_harmonics * by_line) return std::nullopt;
+    if (fit.left > left_in_a_quarter * by_line) {
+      // What jumps has many more harmonics.
+      for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = quarter.forces[i] - fit.line.at(quarter.places[i]);
+      const glm::dvec2 exact = better_fitting(quarter.places, rest, fit.waves.front().waves, bins_of_a_wave);
+      fit.waves = {folded(quarter.places, rest, exact, bins_of_a_wave)};
+      fit.waves.front().add_to(quarter.places, rest, -1);
+      if (mean_square(rest) > left_by_a_jumping_wave * by_line) return std::nullopt;
+    }
+    std::vector<glm::dvec2> left = whole_.forces;
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= fit.line.at(whole_.places[i]);
+    for (const FoldedWave& each : fit.waves) {
+      each.add_to(whole_.places, left, -1);
+      slow.push_back({each.waves, harmonics_worth({each})});
+    }
+    // What is left there belongs to what stands in the rest.
+    return mean_square(left) > bent ? std::optional(std::move(left)) : std::nullopt;
+  }
+
+  /// Looks for walls and steps beside a slow wave. The wave is known from a part of the patch where nothing stands;
+  /// without it they are seen, and then all is fitted together.
+  void find_beside_waves(const std::vector<glm::dvec2>& beyond) {
+    if (!found_.obstacles.empty() || waves_.lattice || slow_sine_) return;
+    const double all = mean_square(beyond), least = std::max(least_force * least_force, left_by_waves * all);
+    if (found_.features.empty() && mean_square(waves_.rest) < least) return;
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      std::vector<SlowWave> slow;
+      const auto forces = beside_waves_of(quarter_of_whole(corner), least, slow);
+      if (!forces) continue;
+      const auto obstacles = find_obstacles(whole_, *forces);
+      if (!obstacles || obstacles->empty() || obstacles->hill) continue;
+      const Obstacles fitted = fitted_beside(*obstacles, slow, whole_.places, whole_.forces);
+      std::vector<Feature> features = features_of(fitted, whole_.places);
+      FoundWaves waves = find_waves(field_, whole_, features);
+      if (waves.waves.empty() || waves.local || mean_square(waves.rest) > left_beside_both * all) continue;
+      found_.obstacles = fitted, found_.features = std::move(features), waves_ = std::move(waves);
+      refine(found_.features);
+      waves_ = find_waves(field_, whole_, found_.features);
+      return;
+    }
   }
 
   /// Adds places where a small feature would be: about what is busiest, if little lies elsewhere.
@@ -323,7 +406,15 @@ class ReliefReader {
     if (!found_.obstacles.empty() && waves_.waves.empty()) return;
     const glm::dvec2 half = 0.5 * whole_.size;
     const double slope = glm::length(line.by_x) * half.x + glm::length(line.by_y) * half.y;
-    if (glm::length(line.mean) + slope > 0.01 * found_.largest) return;
+    // Beside a wall, the waves are little of the largest force.
+    double largest = found_.largest;
+    if (!found_.features.empty()) {
+      std::vector<double> sizes;
+      for (std::size_t i = 0; i < relief_.size(); ++i)
+        sizes.push_back(glm::length(relief_[i] + line.at(whole_.places[i])));
+      largest = std::min(largest, percentile(sizes, percentile_of_amplitude));
+    }
+    if (glm::length(line.mean) + slope > 0.01 * largest) return;
     for (std::size_t i = 0; i < relief_.size(); ++i) relief_[i] += line.at(whole_.places[i]);
     found_.trend = {};
   }

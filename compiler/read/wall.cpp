@@ -375,6 +375,9 @@ WallDepth deepest(const Bank& bank, const WallFace& face) {
   }
   for (const Force& force : forces)
     reached.newton = std::max(reached.newton, -glm::dot(glm::dvec2(force), face.inward));
+  // A texture that lies over a wall pushes beside the wall's own limit.
+  if (face.most < HUGE_VAL)
+    reached.newton = std::min({face.preload + face.stiffness * reached.depth, limit_of(bank).least(), face.most});
   return reached;
 }
 
