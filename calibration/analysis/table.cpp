@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <unordered_map>
@@ -249,14 +250,23 @@ Result<Table> read_table(std::string file, std::string text) {
 }
 
 Result<Table> read_table_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text;
-  if (file) text.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file || file.bad())
+  const auto unreadable = [&](const char* why) {
     return Error{.code = Code::unreadable_file,
-                 .sentence = "the table cannot be read",
+                 .sentence = std::string("the table cannot be read: ") + why,
                  .mend = "name a file of comma or tab separated values",
                  .place = {.name = path}};
+  };
+  constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+  std::error_code failed;
+  const auto kind = std::filesystem::status(path, failed).type();
+  if (kind == std::filesystem::file_type::not_found) return unreadable("there is no such file");
+  // Opening a pipe waits for whoever writes into it, and a device may have no end.
+  if (kind != std::filesystem::file_type::regular) return unreadable("it is no regular file");
+  if (std::filesystem::file_size(path, failed) > most_bytes) return unreadable("it has more than 1 GiB");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return unreadable("this user may not read it");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (file.bad()) return unreadable("reading it failed");
   return read_table(path, std::move(text));
 }
 

@@ -9,9 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <streambuf>
@@ -31,6 +29,7 @@
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/text/readable.hpp"
+#include "compiler/text/resolver.hpp"
 #include "compiler/text/standard_output.hpp"
 #include "runtime/device/open_device.hpp"
 #include "schema/visible_text.hpp"
@@ -110,21 +109,11 @@ Result<DeviceToMeasure> device_to_measure(const CalibrateDeviceOptions& options)
   return device;
 }
 
-std::string bytes_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 Result<GaugeReadings> readings_of_table(const std::string& path, double peak) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text;
-  if (file) text.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file || file.bad())
-    return Error{.code = Code::unreadable_file,
-                 .sentence = "the table cannot be read",
-                 .mend = "name a file of comma or tab separated values",
-                 .place = {.name = path}};
-  return read_force_table(path, std::move(text), peak);
+  constexpr std::size_t largest_table = std::size_t{16} << 20;  // a hundred thousand readings
+  auto file = read_file(path, largest_table);
+  if (!file) return std::move(file).error();
+  return read_force_table(path, std::move(file->bytes), peak);
 }
 
 /// What was measured, with the readings that a table may keep.
@@ -346,7 +335,9 @@ Result<std::string> owners_text(const std::string& file, const DeviceToMeasure& 
   const bool is_there = fs::exists(file, problem);
   if (is_there && device.file == file) {
     std::vector<std::string> also = response_keys;
-    auto edited = with_settings(bytes_of_file(file), own.profile.name, calibrated_settings(own), also);
+    const auto bytes = read_file(file);
+    if (!bytes) return bytes.error();
+    auto edited = with_settings(bytes->bytes, own.profile.name, calibrated_settings(own), also);
     if (!edited) edited.error().place.name = file;
     return edited;
   }

@@ -164,6 +164,10 @@ int calibrate_report(const CalibrateReportOptions& options) {
   InputFiles inputs = options.study.files;
   if (!options.study.design.empty()) inputs.push_back(options.study.design);
   if (!options.study.stimuli.empty()) inputs.push_back(options.study.stimuli);
+  // What the compared materials are made of.
+  if (const auto files = files_in(options.materials)) inputs.insert(inputs.end(), files->begin(), files->end());
+  const InputFiles& opened = *options.study.opened.inputs;
+  inputs.insert(inputs.end(), opened.begin(), opened.end());
   const auto written =
       write_file(options.out, study_page(study->study, study->fit, study->request, study->record, parts), inputs);
   if (!written) return refuse(written.error());

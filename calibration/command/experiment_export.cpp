@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <system_error>
@@ -15,6 +16,7 @@
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/text/readable.hpp"
+#include "compiler/text/resolver.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale::command {
@@ -25,6 +27,24 @@ struct ExperimentExportOptions {
   std::string out;
   bool without_motion = false;
 };
+
+/// Whether a folder may get the files of a data set: it is new or empty, or holds one that Wale has written. Other files
+/// of these names, such as a README, are somebody's work.
+Result<> is_for_data_set(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  if (!fs::exists(folder, failed) || (fs::is_directory(folder, failed) && fs::is_empty(folder, failed))) return {};
+  if (const auto described = read_file((fs::path(folder) / "dataset_description.json").string())) {
+    const auto description = nlohmann::json::parse(described->bytes, nullptr, false);
+    if (description.is_object() && description.contains("GeneratedBy") && description["GeneratedBy"].is_array())
+      for (const auto& each : description["GeneratedBy"])
+        if (each.is_object() && each.value("Name", nlohmann::json()) == "Wale") return {};
+  }
+  return Error{.code = Code::unwritable_file,
+               .sentence = "the folder holds other files than those of a data set of Wale's",
+               .mend = "name a new or an empty folder",
+               .place = {.name = folder}};
+}
 
 /// The recordings of a session that lie beside its log, in the order of the presentations. Those that are missing are
 /// told: a study may have been copied without them.
@@ -77,9 +97,12 @@ int experiment_export(const ExperimentExportOptions& options) {
   }
   const auto common = dataset_files(tables, tables.front().task, WALE_VERSION);
   files.insert(files.end(), common.begin(), common.end());
+  if (const auto done = is_for_data_set(options.out); !done) return refuse(done.error());
   for (const BidsFile& each : files) {
     const std::filesystem::path path = std::filesystem::path(options.out) / each.path;
     std::error_code failed;
+    // A README is there for people to go on with.
+    if (each.path == "README" && std::filesystem::exists(path, failed)) continue;
     std::filesystem::create_directories(path.parent_path(), failed);
     if (failed)
       return refuse(Error{.code = Code::unwritable_file,

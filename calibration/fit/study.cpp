@@ -34,7 +34,11 @@ Result<std::string> bytes_in(const std::string& path) {
     return Error{
         .code = Code::unreadable_file, .sentence = "this file cannot be read: " + why, .place = {.name = path}};
   };
-  if (std::filesystem::is_directory(path, failed)) return unreadable("it is a folder");
+  const auto kind = std::filesystem::status(path, failed).type();
+  if (kind == std::filesystem::file_type::directory) return unreadable("it is a folder");
+  // Opening a pipe waits for whoever writes into it, and a device may have no end.
+  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
+    return unreadable("it is no regular file");
   if (std::filesystem::file_size(path, failed) > most_bytes && !failed) return unreadable("it has more than 1 GiB");
   std::ifstream file(path, std::ios::binary);
   if (!file) return unreadable("it is not there, or may not be read");

@@ -28,10 +28,8 @@ int library_coverage(const LibraryCoverageOptions& options) {
       survey(options.paths.empty() ? std::vector<std::string>{"."} : options.paths, request, SurveyDepth::feel);
   if (!surveyed) return refuse(surveyed.error());
   int status = surveyed->unread.empty() ? done : refused;
-  InputFiles inputs;
   for (const Error& each : surveyed->unread) warn(each);
   for (const Entry& each : surveyed->entries) {
-    inputs.push_back(each.file);
     if (!each.program.empty()) continue;
     print_error("wale: {}: `{}` cannot be built: {}\n", visible_text(each.file), each.name, visible_text(each.trouble));
     status = refused;
@@ -44,7 +42,7 @@ int library_coverage(const LibraryCoverageOptions& options) {
     const auto bytes = encode_page(**page, options.out);
     if (!bytes) return refuse(bytes.error());
     const auto written =
-        write_file(options.out, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, inputs);
+        write_file(options.out, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, surveyed->read);
     if (!written) return refuse(written.error());
   }
   print_out(options.json ? coverage_json(coverage) : coverage_text(coverage));

@@ -38,8 +38,6 @@ int library_sheet(const LibrarySheetOptions& options) {
   const auto common = declared_everywhere();
   const std::vector<SheetPage> pages = sheet_pages(surveyed->entries);
   if (pages.empty()) return refuse("no file here has a material");
-  InputFiles inputs;
-  for (const Entry& each : surveyed->entries) inputs.push_back(each.file);
   const std::string what = paths.size() == 1 ? paths.front() : fmt::format("{} and more", paths.front());
   bool has_text = true;
   for (std::size_t i = 0; i < pages.size(); ++i) {
@@ -51,7 +49,7 @@ int library_sheet(const LibrarySheetOptions& options) {
     const std::string name = page_name(options.out, i + 1, pages.size());
     const auto bytes = encode_page(**page, name);
     if (!bytes) return refuse(bytes.error());
-    const auto written = write_file(name, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, inputs);
+    const auto written = write_file(name, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, surveyed->read);
     if (!written) return refuse(written.error());
     print_out("{}\n", visible_text(name));
   }

@@ -2,9 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 namespace wale {
 
 Result<Database> Database::open(const std::string& path, bool makes) {
+  // SQLite waits at a pipe for ever.
+  std::error_code failed;
+  const auto kind = std::filesystem::status(path, failed).type();
+  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found &&
+      kind != std::filesystem::file_type::none)
+    return Error{.code = Code::unreadable_file,
+                 .sentence = "the index cannot be opened: it is no regular file",
+                 .mend = "`wale library index -o FILE` makes one",
+                 .place = {.name = path}};
   Database made;
   made.path_ = path;
   sqlite3* opened = nullptr;

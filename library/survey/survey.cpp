@@ -17,6 +17,7 @@ Result<Survey> survey(const std::vector<std::string>& paths, const FileRequest& 
   struct OfFile {
     std::vector<Entry> entries;
     std::optional<Error> unread;
+    std::vector<std::string> looked_for;
   };
   std::vector<OfFile> read(found->files.size());
   std::atomic<std::size_t> next{0};
@@ -30,13 +31,17 @@ Result<Survey> survey(const std::vector<std::string>& paths, const FileRequest& 
                                       ? Feel(felt_of)
                                       : [](const Program&, const Declarations&) { return EntryFeel(); });
       if (entries)
-        read[i].entries = std::move(entries->entries);
+        read[i].entries = std::move(entries->entries), read[i].looked_for = std::move(entries->looked_for);
       else
         read[i].unread = entries.error();
     }
   });
   Survey all;
+  all.read = found->files;
   for (OfFile& each : read) {
+    std::error_code missing;
+    for (std::string& path : each.looked_for)
+      if (std::filesystem::exists(path, missing)) all.read.push_back(std::move(path));
     std::ranges::move(each.entries, std::back_inserter(all.entries));
     if (!each.unread) continue;
     if (each.unread->place.name.empty()) each.unread->place.name = found->files[static_cast<std::size_t>(&each - read.data())];

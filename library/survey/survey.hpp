@@ -12,6 +12,9 @@ namespace wale {
 struct Survey {
   std::vector<Entry> entries;  ///< in the order of their files; one with an error has `trouble` and no program
   std::vector<Error> unread;   ///< files that could not be opened
+  /// The files that all this rests on and that are there: of the materials, what they import, pictures. Nothing may be
+  /// written over them.
+  std::vector<std::string> read = {};
 };
 
 /// What a survey reads of each program.

@@ -166,9 +166,10 @@ WaleCode wale_stage_stop(WaleStage* stage, WaleRun** run, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (run != nullptr) *run = nullptr;
     if (auto given = is_stage(stage); !given) return given;
-    HandleToBe<WaleRun> handle(run);
+    // The force ends first, whether or not there is memory to tell of it.
     auto done = stage->stage.stop();
     if (!done) return std::move(done).error();
+    HandleToBe<WaleRun> handle(run);
     give_run(*std::move(done), handle);
     return {};
   });

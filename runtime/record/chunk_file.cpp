@@ -1,6 +1,7 @@
 #include "runtime/record/chunk_file.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -18,6 +19,29 @@ using namespace recording_format;
 
 constexpr std::size_t least_page = 4096;
 constexpr mode_t read_only = 0444, all_permissions = 07777;
+
+/// While it exists, a file that this thread would make larger than the process may (RLIMIT_FSIZE) is EFBIG, and not the
+/// signal that ends the process.
+class SizeIsAnError {
+ public:
+  SizeIsAnError() {
+    sigemptyset(&signal_), sigaddset(&signal_, SIGXFSZ);
+    sigset_t waiting;
+    was_waiting_ = sigpending(&waiting) == 0 && sigismember(&waiting, SIGXFSZ) == 1;
+    pthread_sigmask(SIG_BLOCK, &signal_, &before_);
+  }
+  ~SizeIsAnError() {
+    constexpr timespec at_once{0, 0};
+    if (!was_waiting_) sigtimedwait(&signal_, nullptr, &at_once);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  SizeIsAnError(const SizeIsAnError&) = delete;
+  SizeIsAnError& operator=(const SizeIsAnError&) = delete;
+
+ private:
+  sigset_t signal_, before_;
+  bool was_waiting_ = false;
+};
 
 /// Why nothing can be recorded in the file, and what to do about it.
 Error unwritable(const std::string& path, int error) {
@@ -62,6 +86,7 @@ Result<std::unique_ptr<ChunkFile>> ChunkFile::create(const std::string& path) {
                     .chunk_size = chunk_size,
                     .tick_size = sizeof(TickEntry)};
   header.check = check_of(header);
+  const SizeIsAnError no_signal;
   int error = posix_fallocate(file, 0, first_chunk);
   if (error == 0 && pwrite(file, &header, sizeof header, 0) != sizeof header) error = ENOSPC;
   struct stat made {};
@@ -91,6 +116,7 @@ Result<std::byte*> ChunkFile::grow(ChunkKind kind, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
   if (chunks_.size() == chunks_.capacity()) chunks_.reserve(2 * chunks_.size() + 16);  // before the file grows
   const auto offset = static_cast<off_t>(first_chunk + chunks_.size() * chunk_size);
+  const SizeIsAnError no_signal;
   if (const int error = posix_fallocate(file_, offset, chunk_size)) {
     [[maybe_unused]] const int cut = ftruncate(file_, offset);  // so that the file ends with a whole chunk
     return unwritable(path_, error);
