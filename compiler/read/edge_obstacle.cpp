@@ -92,9 +92,8 @@ std::optional<Obstacles> obstacle_at_edge(const StillForces& whole, std::span<co
   for (const BendKind kind : {BendKind::bends, BendKind::bends_and_jumps}) {
     const Bend bend = best_bend(into, kind);
     if (!(bend.left < explained_at_edge * mean_square_of(into)) || bend.slope < least_stiffness) continue;
-    return Obstacles{{{.inward = -push, .offset = bend.at, .stiffness = bend.slope, .preload = std::max(0.0, bend.jump)}},
-                     {},
-                     {}};
+    const double preload = std::max(0.0, bend.jump);
+    return Obstacles{{{.inward = -push, .offset = bend.at, .stiffness = bend.slope, .preload = preload}}, {}, {}};
   }
   // The narrow way of places that lie anywhere is a little off.
   const auto step_across = [&](glm::dvec2 way) {

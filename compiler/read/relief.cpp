@@ -24,6 +24,7 @@ constexpr double weak_harmonic = 1e-3;      // of a wave's mean square
 constexpr double plainly_explained = 0.03;  // of the mean square, left by a trend that is found before the waves
 constexpr double left_by_waves = 2e-3;      // of the mean square beyond a line: nothing stands beside the waves
 constexpr double left_in_a_quarter = 0.01;  // of the mean square there: waves are all that it holds
+constexpr double even_over_cells = 0.3;    // of the mean square
 constexpr double left_beside_both = 0.02;   // of what a line leaves, by wall and wave
 constexpr double few_harmonics = 0.3;       // ... or of a wave that jumps, by its first harmonics
 constexpr double left_by_a_jumping_wave = 0.05;  // ... and by its whole form, where it jumps within a part of it
@@ -276,7 +277,8 @@ class ReliefReader {
   }
 
   /// The forces less waves and a line that explain all of them in a quarter of the patch; nothing if none do. Both are
-  /// then the same elsewhere, and what stands in the rest of the patch stands beside them. The waves are put into `slow`.
+  /// then the same elsewhere, and what stands in the rest of the patch stands beside them. The waves are put into
+  /// `slow`.
   std::optional<std::vector<glm::dvec2>> beside_waves_of(const StillForces& quarter, double bent,
                                                          std::vector<SlowWave>& slow) const {
     std::vector<glm::dvec2> rest = quarter.forces;
@@ -313,7 +315,11 @@ class ReliefReader {
   void find_beside_waves(const std::vector<glm::dvec2>& beyond) {
     if (!found_.obstacles.empty() || waves_.lattice || slow_sine_) return;
     const double all = mean_square(beyond), least = std::max(least_force * least_force, left_by_waves * all);
-    if (found_.features.empty() && mean_square(waves_.rest) < least) return;
+    const double left = mean_square(waves_.rest);
+    if (found_.features.empty() && left < least) return;
+    // A wall is even over small cells. A texture that is no wave is not, and is left at once.
+    if (found_.features.empty() && mean_square(cell_means(whole_.side, waves_.rest)) < even_over_cells * left)
+      return;
     for (std::size_t corner = 0; corner < 4; ++corner) {
       std::vector<SlowWave> slow;
       const auto forces = beside_waves_of(quarter_of_whole(corner), least, slow);

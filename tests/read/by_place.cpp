@@ -82,6 +82,76 @@ TEST(ByPlace, AWallIsAsStiffInPrintAsItIsRead) {
   }
 }
 
+// A row of detents with a stop.
+TEST(ByPlace, AWallBesideASlowWaveIsAWall) {
+  std::mt19937 random(17);
+  for (int i = 0; i < 12; ++i) {
+    const double angle = between(random, 0, 6.28), stiffness = between(random, 100, 600), face = between(random, 15, 60);
+    const double period = between(random, 8, 20), size = between(random, 0.2, 1);
+    const std::string force =
+        "force = " + wall_along(angle, stiffness, face) +
+        fmt::format(" + vector({} N * sin(2 * pi * {} / {} mm), 0 N)", size, i % 2 == 0 ? "x" : "y", period);
+    const ForceReading found = reading(force);
+    ASSERT_TRUE(found.wall) << force;
+    EXPECT_NEAR(found.wall->stiffness, stiffness, 0.02 * stiffness) << force;
+    EXPECT_NEAR(glm::length(found.wall->place), 1e-3 * face, 1e-3) << force;
+    EXPECT_NEAR(found.relief().amplitude, size, 0.03 * size) << force;
+    EXPECT_NEAR(found.relief().period, 1e-3 * period, 2e-5 * period) << force;
+    EXPECT_NEAR(found.stiffness, 0, 2) << force;
+  }
+}
+
+TEST(ByPlace, APushBesideAStiffWallIsAPush) {
+  for (const auto [stiffness, push] : {std::pair(600, 0.3), {900, 0.3}, {600, 0.05}, {750, -0.2}}) {
+    const std::string force = fmt::format(
+        "force = vector(0.3 N * sin(2 * pi * x / 3 mm), 0 N) + vector({} N, 0 N) + firm({} N/m, face: 20 mm)", push,
+        stiffness);
+    const ForceReading found = reading(force);
+    EXPECT_NEAR(found.relief().amplitude, 0.3, 0.01) << force;
+    EXPECT_NEAR(found.constant.x, push, 0.01) << force;
+  }
+}
+
+TEST(ByPlace, ARoundWallMayBeginWithAJump) {
+  for (const auto [radius, from, stiffness] : {std::tuple(40, 1.5, 700), {35, 0.8, 300}, {50, 1.0, 200}}) {
+    const std::string force = fmt::format(
+        "force = (if length(hand) > {0} mm then (-({1} N + {2} N/m * (length(hand) - {0} mm))) * normalise(hand) "
+        "else vector(0 N, 0 N)) limit 9 N",
+        radius, from, stiffness);
+    const ForceReading found = reading(force);
+    ASSERT_TRUE(found.wall) << force;
+    EXPECT_NEAR(found.wall->radius, 1e-3 * radius, 2e-4) << force;
+    EXPECT_NEAR(found.wall->stiffness, stiffness, 0.02 * stiffness) << force;
+    EXPECT_NEAR(found.wall->preload, from, 0.03 * from) << force;
+    EXPECT_EQ(found.relief().amplitude, 0) << force;
+  }
+}
+
+TEST(ByPlace, WhatStandsAtThePatchsEdgeIsReadWhole) {
+  for (const double face : {72.0, 72.5, 73.0, 73.7, 74.0})
+    for (const int stiffness : {200, 600}) {
+      const std::string force = fmt::format("force = firm({} N/m, face: {} mm)", stiffness, face);
+      const ForceReading found = reading(force);
+      ASSERT_TRUE(found.wall) << force;
+      EXPECT_NEAR(found.wall->stiffness, stiffness, 0.01 * stiffness) << force;
+      EXPECT_NEAR(found.wall->place.x, 1e-3 * face, 1e-4) << force;
+      EXPECT_NEAR(found.wall->preload, 0, 0.01) << force;
+      EXPECT_EQ(found.relief().amplitude, 0) << force;
+    }
+  for (const double line : {70.0, 72.0, 73.0, 74.0}) {
+    const std::string force = fmt::format("force = (if y < -{} mm then vector(0 N, 0.6 N) else vector(0 N, 0 N))", line);
+    const ForceReading found = reading(force);
+    ASSERT_EQ(found.steps.size(), 1u) << force;
+    EXPECT_NEAR(glm::length(found.steps.front().change), 0.6, 0.01) << force;
+    EXPECT_NEAR(std::abs(found.steps.front().offset), 1e-3 * line, 1e-4) << force;
+    EXPECT_EQ(found.relief().amplitude, 0) << force;
+  }
+  const ForceReading corner = reading("force = " + wall_along(0.7853982, 300, 90));
+  ASSERT_TRUE(corner.wall);
+  EXPECT_NEAR(corner.wall->stiffness, 300, 3);
+  EXPECT_EQ(corner.relief().amplitude, 0);
+}
+
 TEST(ByPlace, ASmallStepBesideAWallIsAStep) {
   std::mt19937 random(9);
   for (int i = 0; i < 8; ++i) {
