@@ -5,11 +5,11 @@
 namespace sandpaper {
 namespace {
 
-std::uint64_t packed(glm::ivec2 counts) {
+std::uint64_t centre_word(glm::ivec2 counts) {
   return std::uint64_t{static_cast<std::uint32_t>(counts.x)} << 32 | static_cast<std::uint32_t>(counts.y);
 }
 
-glm::ivec2 unpacked(std::uint64_t both) {
+glm::ivec2 centre_in(std::uint64_t both) {
   return {static_cast<std::int32_t>(both >> 32), static_cast<std::int32_t>(both & 0xffffffffu)};
 }
 
@@ -23,9 +23,9 @@ int difference(int counts, int centre) {
 
 }  // namespace
 
-glm::ivec2 Recentred::centre() const noexcept { return unpacked(centre_.load(std::memory_order_relaxed)); }
+glm::ivec2 Recentred::centre() const noexcept { return centre_in(centre_.load(std::memory_order_relaxed)); }
 
-void Recentred::move_centre(glm::ivec2 counts) noexcept { centre_.store(packed(counts), std::memory_order_relaxed); }
+void Recentred::move_centre(glm::ivec2 counts) noexcept { centre_.store(centre_word(counts), std::memory_order_relaxed); }
 
 wale::Reading Recentred::sample() noexcept {
   wale::Reading reading = device_->sample();
