@@ -8,12 +8,12 @@ namespace sandpaper {
 namespace {
 
 constexpr int kept_kilobytes = 256 * 1024;
-constexpr int most_pixels = 768, least_pixels = 8;  // pixels
+constexpr int most_tile_pixels = 768, least_tile_pixels = 8;  // pixels
 
 /// The next size of a kept image: powers of two, so that zooming draws few.
 int kept_side(int pixels) {
-  return std::clamp(static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(pixels, 1)))), least_pixels,
-                    most_pixels);
+  return std::clamp(static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(pixels, 1)))), least_tile_pixels,
+                    most_tile_pixels);
 }
 
 }  // namespace
