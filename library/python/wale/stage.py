@@ -219,9 +219,10 @@ class Stage(Handle):
     def close(self) -> None:
         held = self._held
         super().close()
-        while held is not None and self._runs:
+        # A run may end, on its own thread, between any two steps of this one.
+        while held is not None and (under_way := self._runs[-1:]):
             lib.wale_stage_interrupt(held)
-            self._runs[-1].wait(0.01)
+            under_way[0].wait(0.01)
 
     def add(self, program: Program, *, at: Vector = (0.0, 0.0), size: Size | None = None, layer: float = 0.0,
             shape: Shape | None = None) -> Patch:
