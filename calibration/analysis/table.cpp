@@ -5,9 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <unordered_map>
 
 #include "schema/visible_text.hpp"
@@ -247,27 +244,6 @@ std::optional<std::size_t> Table::column(std::string_view name) const {
 
 Result<Table> read_table(std::string file, std::string text) {
   return TableReader(std::move(file), std::move(text)).read();
-}
-
-Result<Table> read_table_file(const std::string& path) {
-  const auto unreadable = [&](const char* why) {
-    return Error{.code = Code::unreadable_file,
-                 .sentence = std::string("the table cannot be read: ") + why,
-                 .mend = "name a file of comma or tab separated values",
-                 .place = {.name = path}};
-  };
-  constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
-  std::error_code failed;
-  const auto kind = std::filesystem::status(path, failed).type();
-  if (kind == std::filesystem::file_type::not_found) return unreadable("there is no such file");
-  // Opening a pipe waits for whoever writes into it, and a device may have no end.
-  if (kind != std::filesystem::file_type::regular) return unreadable("it is no regular file");
-  if (std::filesystem::file_size(path, failed) > most_bytes) return unreadable("it has more than 1 GiB");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return unreadable("this user may not read it");
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) return unreadable("reading it failed");
-  return read_table(path, std::move(text));
 }
 
 bool is_missing(std::string_view cell) {

@@ -48,9 +48,6 @@ class Table {
 /// or fewer cells than the header, a quote that never ends, bytes that are no UTF-8 text.
 Result<Table> read_table(std::string file, std::string text);
 
-/// Reads a table from a file. Errors: W0501 if it cannot be read, and those of `read_table`.
-Result<Table> read_table_file(const std::string& path);
-
 /// Whether a cell says that there is no value: empty, `n/a`, `NA`, `NaN`, `None`, `null` in any case.
 bool is_missing(std::string_view cell);
 

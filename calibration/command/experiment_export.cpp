@@ -96,7 +96,7 @@ int experiment_export(const ExperimentExportOptions& options) {
     files.insert(files.end(), std::make_move_iterator(motion->begin()), std::make_move_iterator(motion->end()));
   }
   const auto common = dataset_files(tables, tables.front().task, WALE_VERSION);
-  files.insert(files.end(), common.begin(), common.end());
+  files.insert(files.begin(), common.begin(), common.end());  // first, so that an export cut short may be made again
   if (const auto done = is_for_data_set(options.out); !done) return refuse(done.error());
   for (const BidsFile& each : files) {
     const std::filesystem::path path = std::filesystem::path(options.out) / each.path;

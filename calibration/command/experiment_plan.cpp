@@ -12,6 +12,7 @@
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/text/readable.hpp"
+#include "compiler/text/resolver.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale::command {
@@ -27,7 +28,9 @@ struct ExperimentPlanOptions {
 
 /// The sizes of the stimuli in a table: the first column of numbers, or that of --over.
 Result<std::vector<double>> sizes_in(const ExperimentPlanOptions& options, const CheckedExperiment& experiment) {
-  const auto table = analysis::read_table_file(options.stimuli);
+  auto file = read_file(options.stimuli);
+  if (!file) return std::move(file).error();
+  const auto table = analysis::read_table(options.stimuli, std::move(file->bytes));
   if (!table) return table.error();
   const auto names = table->column("stimulus");
   if (!names) return analysis::table_error(*table, 0, "the table of stimuli has no column `stimulus`", "");

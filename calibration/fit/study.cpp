@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <unordered_map>
 
 #include "calibration/experiment/bids.hpp"
 #include "calibration/experiment/trial_table.hpp"
+#include "compiler/text/resolver.hpp"
 #include "schema/visible_text.hpp"
 #include "wale/session_log.hpp"
 
@@ -20,7 +19,7 @@ namespace {
 
 using analysis::Table;
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
 std::uint64_t hash_of(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325u;
@@ -29,20 +28,9 @@ std::uint64_t hash_of(std::string_view bytes) {
 }
 
 Result<std::string> bytes_in(const std::string& path) {
-  std::error_code failed;
-  const auto unreadable = [&](std::string why) {
-    return Error{
-        .code = Code::unreadable_file, .sentence = "this file cannot be read: " + why, .place = {.name = path}};
-  };
-  const auto kind = std::filesystem::status(path, failed).type();
-  if (kind == std::filesystem::file_type::directory) return unreadable("it is a folder");
-  // Opening a pipe waits for whoever writes into it, and a device may have no end.
-  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
-    return unreadable("it is no regular file");
-  if (std::filesystem::file_size(path, failed) > most_bytes && !failed) return unreadable("it has more than 1 GiB");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return unreadable("it is not there, or may not be read");
-  return std::string(std::istreambuf_iterator<char>(file), {});
+  auto file = read_file(path, most_bytes);
+  if (!file) return std::move(file).error();
+  return std::move(file->bytes);
 }
 
 /// A cell of a table that is parted by tabs.
@@ -75,7 +63,9 @@ class StudyReader {
 
   Result<Study> read(const std::vector<std::string>& paths) {
     if (!stimuli_path_.empty()) {
-      auto table = analysis::read_table_file(stimuli_path_);
+      auto bytes = bytes_in(stimuli_path_);
+      if (!bytes) return std::move(bytes).error();
+      auto table = analysis::read_table(stimuli_path_, *std::move(bytes));
       if (!table) return table.error();
       stimuli_ = *std::move(table);
       const auto names = stimuli_->column("stimulus");

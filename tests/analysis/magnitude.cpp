@@ -8,13 +8,14 @@
 #include <sstream>
 
 #include "calibration/analysis/random.hpp"
+#include "tests/analysis/published.hpp"
 
 namespace wale::analysis {
 namespace {
 
 /// The amplitudes of Minsky 1995, table 6, in program units.
 std::vector<double> amplitudes_of_table6() {
-  const auto table = read_table_file(WALE_SOURCE_DIR "/calibration/maps/minsky1995_table6.csv");
+  const auto table = published("calibration/maps/minsky1995_table6.csv");
   EXPECT_TRUE(table) << in_words(table.error());
   std::vector<double> result;
   for (std::size_t row = 0; row < table->rows(); ++row) result.push_back(*number_in(table->cell(row, *table->column("program_units"))));

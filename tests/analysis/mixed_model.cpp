@@ -10,12 +10,13 @@
 #include "calibration/analysis/distributions.hpp"
 #include "calibration/analysis/random.hpp"
 #include "calibration/analysis/trials.hpp"
+#include "tests/analysis/published.hpp"
 
 namespace wale::analysis {
 namespace {
 
 MixedData sleepstudy() {
-  const auto table = read_table_file(WALE_SOURCE_DIR "/tests/analysis/sleepstudy.csv");
+  const auto table = published("tests/analysis/sleepstudy.csv");
   EXPECT_TRUE(table) << explained(table.error());
   TrialColumns columns;
   columns.sizes = {{"days"}};

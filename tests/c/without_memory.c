@@ -142,6 +142,20 @@ static void real_time_calls_allocate_nothing(void) {
   wale_stage_free(own);
 }
 
+/* Whoever ends a run ends its force, whether or not there is memory for the figures. */
+static void stops_end_the_run(void) {
+  for (long enough = 0; enough < 3; ++enough) {
+    WaleRun* run = NULL;
+    CHECK_GOOD(wale_stage_start(stage, &error));
+    allowed = enough;
+    const WaleCode code = wale_stage_stop(stage, &run, NULL);
+    allowed = -1;
+    CHECK(code == 0 || code == WALE_CODE_short_of_resources);
+    CHECK(!wale_stage_is_running(stage));
+    wale_run_free(run);
+  }
+}
+
 int main(void) {
   WaleRunOptions options = {.size = sizeof options, .seconds = 0.1, .virtual_time = 1};
   CHECK_GOOD(wale_library_create(NULL, &library, &error));
@@ -162,6 +176,7 @@ int main(void) {
   starve("edit", edit);
   starve("add", add);
   starve("look", look);
+  stops_end_the_run();
   starve("find", find);
   CHECK_GOOD(wale_stage_run(stage, &options, NULL, &error)); /* the stage is whole */
   free(bytes);

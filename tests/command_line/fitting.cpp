@@ -82,6 +82,19 @@ TEST(Fitting, MapOfPlantedObserversHoldsTheirExponentAndIsSimulated) {
   exporting.insert(exporting.end(), words.begin() + 2, words.begin() + 6);
   exporting.insert(exporting.end(), {"-o", folder / "bids", "--without-motion"});
   ASSERT_EQ(wale(exporting).status, 0);
+  // What somebody else has written stays: a README of the data set, and all of a folder that holds none.
+  const std::string readme = folder.write("bids/README", "what we found\n");
+  EXPECT_EQ(wale(exporting).status, 0);
+  EXPECT_EQ(bytes_of(readme), "what we found\n");
+  fs::create_directory(folder / "project");
+  const std::string other = folder.write("project/dataset_description.json", "{\"GeneratedBy\": [{\"Name\": \"us\"}]}\n");
+  std::vector<std::string> into_project = exporting;
+  into_project[into_project.size() - 2] = folder / "project";
+  const Outcome refused = wale(into_project);
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_TRUE(contains(refused.err, "W0505")) << refused.err;
+  EXPECT_EQ(bytes_of(other), "{\"GeneratedBy\": [{\"Name\": \"us\"}]}\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "project"), {}), 1);
   std::vector<std::string> of_tables;
   for (int person = 1; person <= 4; ++person)
     of_tables.push_back(folder / ("bids/sub-P" + std::to_string(person) + "/beh/sub-P" + std::to_string(person) +

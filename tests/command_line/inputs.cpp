@@ -23,7 +23,11 @@ std::vector<std::vector<std::string>> readers_of(const std::string& file, const 
           {"feel", file, "--virtual-time", "--seconds", "0.1"},
           {"sample", file, "--at", "0 mm, 0 mm"},
           {"sample", corduroy, "--trace", file},
-          {"replay", file}};
+          {"replay", file},
+          {"calibrate", "fit", file},
+          {"calibrate", "fit", "--stimuli", file, "--task", "magnitude_estimation", "--size", "x",
+           folder.write("trials.csv", "participant,trial,x,response\nA,1,1,1\n")},
+          {"calibrate", "device", "--device", "simulated", "--table", file}};
 }
 
 TEST(Inputs, ThatAreNoRegularFilesAreErrorsAtOnce) {

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -327,6 +328,18 @@ TEST(OutputFiles, ThatAreInputsAreRefusedByWhateverName) {
   const std::string picture = in.folder / "linked.png", table = in.folder / "linked.csv";
   fs::create_symlink(in.own, picture);
   fs::create_symlink(in.own, table);
+  // What a material reads is an input of whoever reads the material, also where it cannot be built.
+  const std::string leaf = in.folder.write("leaf.png", bytes_of(std::string(WALE_SOURCE_DIR) + "/examples/learn/leaf.png"));
+  const std::string relief = "wale 1\nmaterial leafy {\n  physical {\n    let leaf = relief(\"leaf.png\", scale: 0.5 mm/px, "
+                             "height: 1 mm)\n    force = lateral(leaf";
+  const std::string shown = in.folder.write("shown.wale", relief + "(hand), amplitude: 1 N)\n  }\n}\n"),
+                    broken = in.folder.write("broken.wale", relief + ")\n  }\n}\n");
+  std::string answers = "participant,stimulus,response,period\n";
+  for (const char* person : {"a", "b", "c"})
+    for (int i = 1; i <= 6; ++i)
+      answers += std::string(person) + ",s" + std::to_string(i) + "," +
+                 std::to_string(std::sqrt(i) * (1 + 0.01 * i * person[0] / 97)) + "," + std::to_string(i) + "\n";
+  const std::string trials = in.folder.write("trials.csv", answers);
   const std::vector<Words> commands{
       {"build", in.own, "-o", in.own},
       {"build", in.own, "-o", picture},
@@ -337,6 +350,13 @@ TEST(OutputFiles, ThatAreInputsAreRefusedByWhateverName) {
       {"sample", in.own, "--at", "0 mm, 0 mm", "-o", in.own},
       {"feel", in.own, "--virtual-time", "--seconds", "0.1", "--record", table},
       {"feel", in.own, "--hand", in.trace, "--virtual-time", "--seconds", "0.1", "--record", in.trace},
+      {"library", "sheet", shown, "-o", leaf},
+      {"library", "sheet", broken, "-o", leaf},
+      {"library", "coverage", shown, "-o", leaf},
+      {"calibrate", "report", trials, "--task", "magnitude_estimation", "--of", "roughness", "--carrier", "period",
+       "--size", "period:mm", "--materials", shown, "-o", leaf},
+      {"calibrate", "report", trials, "--task", "magnitude_estimation", "--of", "roughness", "--carrier", "period",
+       "--size", "period:mm", "--materials", shown, "-o", shown},
       {"replay", in.run, "--csv", in.run},
       {"replay", in.run, "--csv", csv},
       {"replay", in.run, "--wav", link}};

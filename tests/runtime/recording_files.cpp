@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <csignal>
 
 #include "schema/without_place.hpp"
 #include "tests/runtime/programs.hpp"
@@ -344,7 +343,6 @@ TEST(RecordingFile, OnAFullDiskTheRunContinuesAndReportsTheRecordedTicks) {
   const TemporaryFolder folder;
   rlimit usual{};
   getrlimit(RLIMIT_FSIZE, &usual);
-  const auto old = std::signal(SIGXFSZ, SIG_IGN);
   rlimit small = usual;
   small.rlim_cur = first_chunk + 8 * chunk_size + 100;  // one chunk of events, seven of ticks
   for (const bool virtual_time : {true, false}) {
@@ -371,7 +369,6 @@ TEST(RecordingFile, OnAFullDiskTheRunContinuesAndReportsTheRecordedTicks) {
     EXPECT_FALSE(recording.complete());
     expect_same(recording);
   }
-  std::signal(SIGXFSZ, old);
 }
 
 }  // namespace

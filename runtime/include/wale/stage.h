@@ -82,7 +82,8 @@ WALE_API void wale_stage_interrupt(WaleStage* stage);
 /* Begins an endless run in real time and returns; it may begin without a patch, and keeps no record. Errors as above. */
 WALE_API WaleCode wale_stage_start(WaleStage* stage, WaleError** error);
 /* Ends the run that wale_stage_start began and waits for its end. `run` may be NULL.
-   Errors: wrong_moment if none began since the last stop; short_of_resources if the run failed. */
+   Errors: wrong_moment if none began since the last stop; short_of_resources if the run failed, or if there is no memory for
+   its figures: the run has ended then too. */
 WALE_API WaleCode wale_stage_stop(WaleStage* stage, WaleRun** run, WaleError** error);
 /* 1 while a run is under way. */
 WALE_API int32_t wale_stage_is_running(const WaleStage* stage);
