@@ -117,7 +117,7 @@ Comparison Comparer::compare(const Cues& a, const Cues& b) const {
   const Sizes of_a = sizes_of(a, speed_), of_b = sizes_of(b, speed_);
   each_cue(a, b, [&](const CueFacts& facts, std::optional<double> noticeable) {
     CueDifference found{
-        facts.kind, value_of(facts.kind, a), value_of(facts.kind, b), noticeable, nullptr, Evidence::estimated, {}};
+        facts.kind, value_of(facts.kind, a), value_of(facts.kind, b), noticeable, nullptr, Evidence::estimated, {}, nullptr, 0};
     const Discrimination& people = people_[static_cast<std::size_t>(facts.kind)];
     // Equal cues need no threshold, and a direction has none.
     const bool compared = facts.exerts || (found.a && found.b);
@@ -125,6 +125,8 @@ Comparison Comparer::compare(const Cues& a, const Cues& b) const {
     if (found.threshold) {
       found.evidence = people.evidence(*found.threshold);
       found.outside = found.threshold->unmet(found.a.value_or(0), found.b.value_or(0), of_a, of_b);
+      found.floor = people.floor_between(found.a.value_or(0), found.b.value_or(0));
+      if (found.floor) found.least = people.floor(*found.threshold);
     }
     unknown |= !noticeable;
     comparison.cues.push_back(found);

@@ -21,6 +21,10 @@ struct CueDifference {
   /// The conditions of the threshold's measurement that the materials do not meet, as written; beyond them it is
   /// extrapolated.
   std::vector<std::string> outside;
+  /// The publication whose smallest difference gives `noticeable`, and not the fraction of `threshold`; null if the
+  /// fraction does.
+  const Threshold* floor = nullptr;
+  double least = 0;  ///< SI: that difference, at d' = 1
 };
 
 enum class Verdict {
@@ -122,6 +126,10 @@ class ComparisonMatrix {
 /// How well a threshold is known here, in words: "transferred", "extrapolated from amplitude 2.5 N .. 10 N", and what
 /// of it is not stated in the publication.
 std::string threshold_words(const Threshold& threshold, Evidence evidence, const std::vector<std::string>& outside);
+/// "0.1 N at least, assumed: Tan 1992": the smallest difference that is noticed, in a unit, and who says so.
+std::string floor_words(const Threshold& floor, double least, const std::string& unit);
+/// The same as a member `floor` of a JSON object.
+void write_floor(nlohmann::ordered_json& json, const Threshold& floor, double least);
 /// The conditions under which a threshold was measured, in words: "amplitude 2.5 N .. 10 N, criterion assumed".
 std::string threshold_conditions(const Threshold& threshold);
 /// How well a threshold is known here, as members of a JSON object: the fraction at d' = 1, the grade, what was

@@ -80,7 +80,9 @@ void write_cues(std::string& text, const ComparisonMatrix& matrix, std::size_t f
     const auto [of_a, of_b] = cue_texts(cue);
     text += fmt::format("  {:<20} {:<{}}  {:<{}}  {}", facts_of(cue.kind).name, of_a, width, of_b, width,
                         noticeable_text(cue.noticeable));
-    if (cue.threshold)
+    if (cue.floor)
+      text += fmt::format("  ({})", floor_words(*cue.floor, cue.least, facts_of(cue.kind).unit));
+    else if (cue.threshold)
       text += readable("  ({:.2g} at d' = 1, {}: {})", cue.threshold->weber,
                        threshold_words(*cue.threshold, cue.evidence, cue.outside), cue.threshold->source);
     text += '\n';
@@ -137,6 +139,7 @@ nlohmann::ordered_json pair_json(const ComparisonMatrix& matrix, std::size_t a, 
     Json& each = cues[facts_of(cue.kind).name] = {
         {"a", value(cue.a)}, {"b", value(cue.b)}, {"noticeable", value(cue.noticeable)}};
     if (cue.threshold) write_threshold(each, *cue.threshold, cue.evidence, cue.outside);
+    if (cue.floor) write_floor(each, *cue.floor, cue.least);
   }
   return json;
 }
@@ -199,6 +202,17 @@ void write_threshold(nlohmann::ordered_json& json, const Threshold& threshold, E
   json["outside"] = outside;
   json["assumed"] = assumed;
   json["source"] = threshold.source;
+}
+
+std::string floor_words(const Threshold& floor, double least, const std::string& unit) {
+  return readable("by the smallest difference at d' = 1, {:.2g}{}{}, {}: {}", least, unit.empty() ? "" : " ", unit,
+                  floor.floor_assumed ? "assumed" : evidence_word(std::max(floor.evidence, floor.handle)), floor.source);
+}
+
+void write_floor(nlohmann::ordered_json& json, const Threshold& floor, double least) {
+  json["floor"] = {{"least", least},
+                   {"evidence", floor.floor_assumed ? "assumed" : evidence_word(std::max(floor.evidence, floor.handle))},
+                   {"source", floor.source}};
 }
 
 std::string comparison_text(const ComparisonMatrix& matrix, bool with_table) {

@@ -46,11 +46,13 @@ std::string proposal_text(const LevelProposal& proposal) {
     text += fmt::format("  {:<14} {:>8.{}f}  {:>14}  {:>5}", fmt::format("level_{}", i + 1),
                         proposal.reversed ? 1 - each.level : each.level, proposal.digits,
                         fmt::format("{} {}", with_digits(each.size, 3), proposal.unit), apart);
-    if (i > 0 && after.threshold)
+    if (i > 0 && after.floor)
+      text += fmt::format("  ({})", floor_words(*after.floor, after.least, proposal.unit));
+    else if (i > 0 && after.threshold)
       text += fmt::format("  ({}: {})", after.outside.empty() ? evidence_word(after.evidence) : "extrapolated",
                           after.threshold->source);
     text += '\n';
-    if (after.threshold) thresholds.insert(after.threshold);
+    if (after.threshold && !after.floor) thresholds.insert(after.threshold);
   }
   text += "  apart: just noticeable differences at d' = 1 from the level before";
   for (const Threshold* each : thresholds)
@@ -98,6 +100,7 @@ std::string proposal_json(const LevelProposal& proposal) {
     if (proposal.reversed) level[proposal.asked] = 1 - each.level;
     level["apart"] = levels.size() == 1 ? Json(nullptr) : Json(each.apart);
     if (each.threshold) write_threshold(level, *each.threshold, each.evidence, each.outside);
+    if (each.floor) write_floor(level, *each.floor, each.least);
   }
   json["wale"] = levels_line(proposal);
   return json_lines(json);

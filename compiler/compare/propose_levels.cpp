@@ -180,6 +180,8 @@ Result<LevelProposal> propose_levels(const std::string& name, const std::string&
       if (each.threshold) {
         each.evidence = scale.people().evidence(*each.threshold);
         each.outside = each.threshold->unmet(before, each.size, {}, {});
+        each.floor = scale.people().floor_between(before, each.size);
+        if (each.floor) each.least = scale.people().floor(*each.threshold);
       }
     }
     proposal.levels.push_back(each);

@@ -16,6 +16,8 @@ struct ProposedLevel {
   double apart = 0;                         ///< from the level before, in just noticeable differences; 0 for the first
   const Threshold* threshold = nullptr;     ///< that gives `apart`; null for the first
   Evidence evidence = Evidence::estimated;  ///< of the threshold on this device
+  const Threshold* floor = nullptr;         ///< whose smallest difference gives `apart`; null if the fraction does
+  double least = 0;                         ///< SI: that difference
   std::vector<std::string> outside;         ///< the conditions of its measurement that are not met, as written
 };
 

@@ -27,7 +27,7 @@ Discrimination::Discrimination(const Declarations& declarations, std::string_vie
   each_threshold(declarations, [&](const Threshold& each) {
     if (each.recognised > 0) return;
     if (each.cue == cue) thresholds_.push_back(&each);
-    if (each.cue == force_cue) least_force = std::max(least_force, each.floor);
+    if (each.cue == force_cue && each.floor > least_force) least_force = each.floor, of_least_ = &each;
   });
   if (exerts > 0) least_ = least_force / exerts;
   std::ranges::stable_sort(thresholds_, {}, [&](const Threshold* each) {
@@ -63,6 +63,14 @@ Evidence Discrimination::evidence(const Threshold& threshold) const {
 }
 
 double Discrimination::floor(const Threshold& threshold) const { return std::max(threshold.floor, least_); }
+
+const Threshold* Discrimination::floor_between(double a, double b) const {
+  const Threshold* found = a == b ? nullptr : threshold(a, b);
+  if (!found || !(floor(*found) > 0)) return nullptr;
+  const double large = std::max(std::abs(a), std::abs(b)), small = std::min(std::abs(a), std::abs(b));
+  if (a * b > 0 && std::log(large / small) / std::log1p(found->weber) <= std::abs(a - b) / floor(*found)) return nullptr;
+  return found->floor >= least_ ? found : of_least_;
+}
 
 std::optional<double> Discrimination::distance(double a, double b) const {
   if (a == b) return 0;

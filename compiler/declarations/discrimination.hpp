@@ -37,6 +37,10 @@ class Discrimination {
   /// unknown.
   double floor(const Threshold& threshold) const;
 
+  /// The publication whose floor decides how far two sizes are apart, and not the fraction of `threshold(a, b)`; null if
+  /// the fraction does.
+  const Threshold* floor_between(double a, double b) const;
+
   /// The distance in just noticeable differences at d' = 1: ln(ratio) / ln(1 + w), or the difference divided by the
   /// floor if that is less, or if one size is 0 or their signs differ. Empty if there is no threshold.
   std::optional<double> distance(double a, double b) const;
@@ -50,6 +54,7 @@ class Discrimination {
   std::string device_;
   std::vector<const Threshold*> thresholds_;  ///< the best first, apart from the range of sizes
   double least_ = 0;                          ///< size of the cue that exerts the smallest noticeable force
+  const Threshold* of_least_ = nullptr;       ///< the publication of that force
 };
 
 /// How many sizes of a cue people recognise when each is felt alone, by the best publication: one measured on the

@@ -1,3 +1,4 @@
+#include "compiler/describe/describe_figure.hpp"
 #include "compiler/describe/describe_extracted.hpp"
 
 #include <fmt/format.h>
@@ -142,12 +143,13 @@ std::optional<glm::dvec2> rest_of(const ForceReading& found, const PatchSize& pa
     if (stiffness >= least_stiffness) return push / stiffness;
     return std::abs(push) < least_force ? std::optional(0.0) : std::nullopt;
   };
-  const auto one = along_one(glm::dot(found.constant, axis), found.stiffness);
-  const auto other = along_one(glm::dot(found.constant, across), found.stiffness_across);
+  // Where its force is cut in the middle, the law says where it pulls to, and not what is felt there.
+  const auto one = along_one(glm::dot(found.asked_in_middle, axis), found.stiffness);
+  const auto other = along_one(glm::dot(found.asked_in_middle, across), found.stiffness_across);
   if (!(found.stiffness >= least_stiffness) || !one || !other) return std::nullopt;
   const glm::dvec2 rest = axis * *one + across * *other;
   const bool inside = std::abs(rest.x) <= patch.width / 2 && std::abs(rest.y) <= patch.height / 2;
-  return inside ? std::optional(rest) : std::nullopt;
+  return inside ? std::optional(without_rounding(rest)) : std::nullopt;
 }
 
 /// What of a reading no percept tells.
@@ -176,7 +178,7 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
   description.spring_force = cues[CueKind::spring_force].value_or(0);
   description.small_feature = cues[CueKind::small_feature].value_or(0);
   if (glm::length(found.constant) >= least_force) {
-    description.constant_push = found.constant;
+    description.constant_push = without_rounding(found.constant);
     description.rest = rest_of(found, description.patch);
   }
   const auto counting = [](double force) { return force >= least_force ? force : 0; };

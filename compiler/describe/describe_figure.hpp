@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/vec2.hpp>
 #include <string>
 
 #include "compiler/text/readable.hpp"
@@ -19,6 +20,13 @@ inline double figure(double value) {
 }
 /// A part of a direction, to six digits behind the point: less is rounding.
 inline double direction_figure(double part) { return std::round(part * 1e6) / 1e6 + 0.0; }
+
+/// A place or a force without the part along an axis that only rounding leaves: a millionth of its length.
+inline glm::dvec2 without_rounding(glm::dvec2 whole) {
+  constexpr double rounding = 1e-6;
+  const double least = rounding * std::hypot(whole.x, whole.y);
+  return {std::abs(whole.x) > least ? whole.x : 0, std::abs(whole.y) > least ? whole.y : 0};
+}
 
 /// `value` with so many decimals, and no minus before a number that rounds to zero.
 inline std::string with_decimals(double value, int decimals) {

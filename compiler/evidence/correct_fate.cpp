@@ -22,7 +22,7 @@ std::optional<FateCorrection> correct_fate(FateRecord& fate, const Bank& bank, s
   if (fate.fate == Fate::kept) fate.fate = Fate::approximated;
   // Of what is unknown there is no level, so only the reason says it.
   if (fate.fate != Fate::saturated && !correction.told.unknown)
-    fate.given = static_cast<float>(std::max(as_kept(correction.told.level), 0.0));
+    fate.given = static_cast<float>(std::max(correction.told.level, 0.0));
   fate.reason = fate.reason.empty() ? correction.why : fmt::format("{}; {}", correction.why, fate.reason);
   return correction;
 }

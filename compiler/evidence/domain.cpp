@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <vector>
 
 #include "compiler/read/tolerances.hpp"
@@ -42,6 +43,13 @@ SurfaceProfile profile_of(const PatchProgram& program, const Relief& relief) {
   if (samples_a_picture(program)) return SurfaceProfile::photograph;
   if (relief.period == 0) return SurfaceProfile::bump;
   return relief.regular() ? SurfaceProfile::grating : SurfaceProfile::noise;
+}
+
+/// Whether a relief of lines pushes along them: the slope of a height pushes across its lines.
+bool pushes_aside(const Relief& relief) {
+  constexpr double aside = 0.25;  // rad: of an axis that is read a little awry the cosine is still 0.97
+  if (!relief.push || !(relief.anisotropy >= along_lines)) return false;
+  return std::abs(std::remainder(*relief.push - relief.orientation, std::numbers::pi)) > aside;
 }
 
 /// Whether a cue tells a drag that no one friction and viscosity tell.
@@ -112,6 +120,8 @@ DomainJudgement judge_domain(const PerceptRecord& record, double size, const Ban
                              domain.crest_assumed ? "assumed to feel alike from" : "measured from", domain.crest_low,
                              domain.crest_high));
   }
+  if (why.empty() && domain.profiles != 0 && pushes_aside(relief))
+    why.emplace_back("a push across the direction in which it changes, measured with slopes of a height");
   // Of another kind of surface, that it is another kind is enough.
   if (why.empty() && domain.dimensions != 0 && relief.amplitude > 0) {
     const int dimensions = relief.anisotropy >= along_lines ? 1 : 2;

@@ -184,6 +184,13 @@ bool is_vector_by_default(const FunctionDecl& function, std::size_t i, const Syn
   return call && call->callee.text == "vector";
 }
 
+/// Whether a formal is one number: a place on a line, or what has a number as its default.
+bool is_of_a_line(const FunctionDecl& function, std::size_t i, const SyntaxTree& home) {
+  if (use_of(function.parameters[i]) != FormalUse::any) return true;
+  const auto& value = function.parameters[i].default_value;
+  return value && std::holds_alternative<NumberLiteral>(home.expr(*value));
+}
+
 }  // namespace
 
 bool fit(ExpressionReading& reading, const CallArguments& arguments, const Scope& scope) {
@@ -221,6 +228,15 @@ bool fit(ExpressionReading& reading, const CallArguments& arguments, const Scope
 bool are_vectors_where_needed(ExpressionReading& reading, const CallArguments& arguments, const SyntaxTree& home) {
   for (std::size_t i = 0; i < arguments.actuals.size(); ++i) {
     const Actual& actual = arguments.actuals[i];
+    if (actual.given && actual.value.type == Value::Type::vector && is_of_a_line(arguments.function, i, home)) {
+      const std::string text(reading.surroundings.sources.text(actual.span));
+      reading.calls.report(
+          Code::wrong_type, actual.span,
+          fmt::format("expected a number as `{}`, found a vector", arguments.function.parameters[i].name.text), "",
+          Advice(fmt::format("take what it is along one axis, as in `{}.x`", text))
+              .fix(insert_after(actual.span, ".x", {}, false)));
+      return false;
+    }
     if (!actual.given || actual.value.type != Value::Type::number || !is_vector_by_default(arguments.function, i, home))
       continue;
     const std::string text(reading.surroundings.sources.text(actual.span));

@@ -153,12 +153,11 @@ class ModuleLoader {
       if (resolved.error().code == Code::too_much_read) return report_too_much(module, resolved.error()), nullptr;
       if (auto embedded = embedded_module(module)) return *embedded;
       diagnostics_.report(
-          {.code = Code::unknown_import,
-           .span = module.span,
-           .message = fmt::format("`{}` cannot be imported: {}", module.text, resolved.error().sentence),
-           .help = "dots separate folders: `import fabric.denim` means the file fabric/denim.wale; if that is in the "
-                   "folder "
-                   "of a library, name it with `--library DIR` or in the environment's `WALE_LIBRARY`"});
+          did_you_mean(module.span, module.text, embedded_modules(),
+                       "dots separate folders: `import fabric.denim` means the file fabric/denim.wale; if that is in "
+                       "the folder of a library, name it with `--library DIR` or in the environment's `WALE_LIBRARY`")
+              .about(Code::unknown_import, module.span,
+                     fmt::format("`{}` cannot be imported: {}", module.text, resolved.error().sentence)));
       return nullptr;
     }
     ResolvedFile& file = *resolved;
@@ -166,6 +165,20 @@ class ModuleLoader {
     if (circular(module, file.name)) return nullptr;
     const SourceId source = sources_.add(file.name, std::move(file.bytes));
     return add(parsed(source));
+  }
+
+  /// The names under which the modules that are part of the binary are imported.
+  static std::vector<std::string> embedded_modules() {
+    constexpr std::string_view folder = "library/", ending = ".wale";
+    std::vector<std::string> names;
+    for (const EmbeddedFile& file : embedded_files()) {
+      std::string name(file.name);
+      if (file.common || !name.starts_with(folder) || !name.ends_with(ending)) continue;
+      name = name.substr(folder.size(), name.size() - folder.size() - ending.size());
+      std::ranges::replace(name, '/', '.');
+      names.push_back(std::move(name));
+    }
+    return names;
   }
 
   /// A module that is part of the binary, such as `std.friction`, unless the importing file is that module itself.

@@ -138,7 +138,7 @@ ForceReading times_as_strong(ForceReading found, double times) {
     scale(held->opposing, times), scale(held->inertia, times), scale(held->sway, times);
     scale(held->vibration, times), scale(held->slow, times);
   }
-  for (glm::dvec2* each : {&found.constant, &found.other.button_push, &found.other.slow_push, &found.coming.later_push,
+  for (glm::dvec2* each : {&found.constant, &found.asked_in_middle, &found.other.button_push, &found.other.slow_push, &found.coming.later_push,
                            &found.directions.steps, &found.directions.step_push})
     *each *= times;
   const auto scale_wall = [&](WallFace& wall) {

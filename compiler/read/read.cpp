@@ -202,11 +202,13 @@ void tell_trend(const Bank& bank, ForceReading& found, const AtFirst& at_first) 
     // Where it is cut, the middle is pushed less than the law asks for.
     const std::optional<glm::dvec2> even = even_mean(bank, at_first.means, still.trend,
                                                      std::max(found.sway.amplitude, found.vibration.amplitude));
-    const glm::dvec2 push = limit.cut(alike_beside(
-        still.obstacles.steps, even ? *even : at_first.slow.remaining(still.trend.mean - at_first.force), half));
+    const glm::dvec2 asked = alike_beside(
+        still.obstacles.steps, even ? *even : at_first.slow.remaining(still.trend.mean - at_first.force), half);
+    const glm::dvec2 push = limit.cut(asked);
     // Means over time at places need no certainty about the first moment's.
     const double sure = even ? misfit_of_swing * std::max(found.sway.amplitude, found.vibration.amplitude) : certain;
-    if (glm::length(push) >= std::max(least_force, sure)) found.constant = push;
+    if (glm::length(push) >= std::max(least_force, sure))
+      found.constant = push, found.asked_in_middle = asked;
   } else {
     found.stiffness = found.stiffness_across = even_stiffness(still, patch);
   }

@@ -27,6 +27,8 @@ struct ForceReading {
   double at_first = 0;           ///< N: how much more it pushes a hand that has just come than in the mean over time
   /// N: what pushes everywhere alike. Beside a spring, what pushes in the patch's middle.
   glm::dvec2 constant{0};
+  /// N: what the law of a spring asks for where `constant` is felt, before any limit cuts it.
+  glm::dvec2 asked_in_middle{0};
   std::optional<WallFace> wall;      ///< the stiffest
   double wall_push = 0;              ///< N: with which it pushes a hand at most, that goes in to the patch's edge
   std::vector<WallFace> more_walls;  ///< that stand beside it, the stiffest first

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -59,12 +60,15 @@ struct Relief {
   /// The size within a band, N: the amplitude times the root of the band's share of the mean square.
   double within(const PeriodBand& band) const;
   /// Whether it repeats, so that it has a period.
+  /// 0 .. 1: the share of the mean square in waves, if these do not all repeat after one short period. Otherwise 0, and
+  /// it is the regularity.
+  double repeating = 0;
   /// N: of the waves beside the strongest one, as of the amplitude.
   double beside_strongest() const;
   /// N: the largest force found, if that is much larger than the amplitude: of a feature that fills less than a
   /// hundredth of the patch; or what such a one adds to waves. 0 otherwise.
   double small_feature() const;
-  bool regular() const { return amplitude > 0 && regularity >= 0.5; }
+  bool regular() const { return amplitude > 0 && std::max(regularity, repeating) >= 0.5; }
   /// Whether it changes mostly in one direction, so that this direction has a meaning.
   bool oriented() const { return amplitude > 0 && anisotropy >= 0.5; }
 };

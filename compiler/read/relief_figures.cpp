@@ -220,9 +220,46 @@ class ReliefFigures {
     if (relief_.regular()) {
       const bool lattice = from_.waves.lattice && (from_.waves.waves.empty() || from_.waves.share > 0.5);
       relief_.period = lattice ? from_.waves.lattice->period() : from_.waves.period(from_.whole.size);
+      if (!lattice && !from_.waves.local) tell_sum();
     } else if (!hilly) {
       relief_.period = irregular.middle();
     }
+  }
+
+  /// Of several waves along one direction that do not repeat together after the period told, the waveform is that of
+  /// all, over as much as the patch holds.
+  void tell_sum() {
+    const glm::dvec2 way = glm::normalize(from_.waves.waves.front().felt()), common = way / relief_.period;
+    double together = 0, all = 0;
+    std::vector<const FoundWave*> along;
+    for (const FoundWave& each : from_.waves.waves) {
+      all += each.power;
+      const glm::dvec2 across = each.felt() - glm::dot(each.felt(), way) * way;
+      const bool aside = glm::length(across * from_.whole.size) > out_of_place;
+      if (!aside) along.push_back(&each);
+      if (aside || whole_periods(common, each.felt(), from_.whole.size) != 0) together += each.power;
+    }
+    if (!(together < (1 - weak) * all)) return;
+    relief_.repeating = relief_.regularity;
+    relief_.regularity *= together / all;
+    constexpr double parts = 64;  // of a period
+    const double length = length_along(from_.whole.size, way);
+    const auto count = static_cast<std::size_t>(parts * length / relief_.period);
+    std::vector<glm::dvec2> places, forces(count);
+    for (std::size_t i = 0; i < count; ++i)
+      places.push_back(from_.whole.centre + (static_cast<double>(i) / parts * relief_.period - 0.5 * length) * way);
+    for (const FoundWave* each : along) each->wave.add_to(places, forces, 1);
+    std::vector<double> sizes;
+    double change = 0;
+    constexpr std::size_t apart = 4;  // a 16th of a period, as `abruptness_of` looks at
+    for (std::size_t i = 0; i < count; ++i) {
+      sizes.push_back(glm::length(forces[i]));
+      if (i >= apart) change = std::max(change, glm::length(forces[i] - forces[i - apart]));
+    }
+    const double most = percentile(sizes, percentile_of_amplitude), rms = std::sqrt(mean_square(forces));
+    if (!(rms > 0)) return;
+    relief_.crest = most / rms;
+    relief_.abruptness = change / (2 * most * std::sin(std::numbers::pi * apart / parts));
   }
 
   void tell_wave(const FoundWave& each, double share, const std::vector<WavePart>& parts) {

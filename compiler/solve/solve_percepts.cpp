@@ -30,6 +30,9 @@ std::string sources_of(const std::vector<const Map*>& maps) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
+/// "lateral" for "lateral amplitude".
+std::string function_of(const std::string& carrier) { return carrier.substr(0, carrier.find(' ')); }
+
 /// "`lateral`, by its amplitude" for "lateral amplitude".
 std::string carrier_words(const std::string& carrier) {
   const std::size_t space = carrier.find(' ');
@@ -245,10 +248,29 @@ void PerceptSolver::match(const AskedPercept& asked) {
                   Advice("leave it out: `wale describe` and `wale compare` report it for finished materials")
                       .see(percept.span, "declared here"));
   }
-  if (mine.empty())
-    return report(Code::percept_unrealised, asked.place(),
-                  fmt::format("expected a force that carries {}, found none", asked.name),
+  if (mine.empty()) {
+    const std::string message = fmt::format("expected a force that carries {}, found none", asked.name);
+    // Its author meant a force whose size is open for it: that is one mistake.
+    const Carrier* meant = nullptr;
+    for (const Carrier& carrier : *carriers_) {
+      const auto tells = [&](const AskedPercept& each) {
+        const Percept* of = declarations_.percepts.find(each.name);
+        return of && of->carrier == carrier.name;
+      };
+      const bool fits = carrier.open && carrier.dimension == percept.carrier_dimension;
+      if (fits && std::ranges::none_of(material_.percepts, tells)) meant = &carrier;
+    }
+    if (meant) {
+      settle(*meant);
+      return report(Code::percept_unrealised, asked.place(), message,
+                    Advice(fmt::format("{} is carried by {}; write `{}` instead of `{}`", asked.name,
+                                       carrier_words(percept.carrier), function_of(percept.carrier),
+                                       function_of(meant->name)))
+                        .see(meant->span, "this force has no size yet"));
+    }
+    return report(Code::percept_unrealised, asked.place(), message,
                   fmt::format("{} is carried by {}; add such a force", asked.name, carrier_words(percept.carrier)));
+  }
   if (open.size() > 1) {
     settle_all();
     return report(Code::several_open, open[1]->span,

@@ -329,7 +329,7 @@ Run declare_find(CLI::App& verb) {
   offer_json(verb, options->json, "an array with all facts about each material");
   verb.footer(
       "By feel, the nearest come first, in just noticeable differences. A cue that is unknown for one of the two is named:\n"
-      "nobody knows how much more they differ.\n"
+      "nobody knows how much more they differ, and in the order it counts as one difference more.\n"
       "for example: wale find ribbed;  wale find --kind fabric cotton;  wale find --near corduroy;\n"
       "             wale find --roughness 0.4..0.6 --stickiness 0.2 --kind paper");
   return [options] { return find(*options); };

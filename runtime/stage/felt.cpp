@@ -229,10 +229,14 @@ std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long leas
   std::vector<LevelBack> levels;
   const auto& percepts = bank.program().description().percepts;
   for (std::size_t i = 0; i < percepts.size(); ++i) {
-    const Result<float> size = felt.vibration ? size_from_vibration(percepts[i], *felt.vibration)
-                                              : size_from_run(percepts[i], felt, least_crossings);
+    const float aimed = amplitude(bank, i);
+    // What a device had no force left for is not hidden by the other forces: it is not there.
+    const Result<float> size =
+        felt.vibration ? size_from_vibration(percepts[i], *felt.vibration)
+        : aimed == 0   ? not_measured(percepts[i], "nothing in the finished program carries " + percepts[i].name)
+                       : size_from_run(percepts[i], felt, least_crossings);
     Result<Prediction> back = size ? Result<Prediction>(predict(bank, i, *size)) : size.error();
-    levels.push_back({i, percepts[i].name, amplitude(bank, i), size ? *size : 0, std::move(back)});
+    levels.push_back({i, percepts[i].name, aimed, size ? *size : 0, std::move(back)});
   }
   return levels;
 }

@@ -119,6 +119,23 @@ TEST(Compare, SmallForcesAreComparedWithTheFloorOfTheThreshold) {
   EXPECT_EQ(comparison.verdict, Verdict::alike);
 }
 
+TEST(Compare, WhoSaysHowSmallADifferenceIsNoticedIsNamed) {
+  Cues a{"a", "sandpaper", {}}, b = a;
+  a[CueKind::amplitude] = 0.5, b[CueKind::amplitude] = 0.58;
+  const Comparison small = compare(a, b);
+  const CueDifference* amplitude = cue(small, CueKind::amplitude);
+  ASSERT_TRUE(amplitude && amplitude->noticeable && amplitude->floor);
+  // 0.08 N over the floor of tan1992.wale, 0.1 N; by Pang's 7 % it would be 2.2.
+  EXPECT_NEAR(*amplitude->noticeable, 0.08 / amplitude->least, 1e-6);
+  EXPECT_NEAR(amplitude->least, 0.1, 1e-6);
+  EXPECT_NE(amplitude->floor->source.find("Tan 1992"), std::string::npos);
+  EXPECT_NE(floor_words(*amplitude->floor, amplitude->least, "N").find("assumed: Tan 1992"), std::string::npos);
+  a[CueKind::amplitude] = 3, b[CueKind::amplitude] = 4;
+  const Comparison large = compare(a, b);
+  ASSERT_TRUE(cue(large, CueKind::amplitude));
+  EXPECT_EQ(cue(large, CueKind::amplitude)->floor, nullptr);
+}
+
 TEST(Compare, ACueThatOneMaterialLacksIsComparedByForce) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::stiffness] = 100;

@@ -37,6 +37,36 @@ const DescribedPercept* percept(const Description& description, const std::strin
   return nullptr;
 }
 
+TEST(DescribingForces, ASpringWhoseForceIsCutInTheMiddlePullsToWhereItsLawSays) {
+  struct Cut {
+    const char* force;
+    double x, y;  // mm
+  };
+  for (const Cut& cut : {Cut{"spring(120 N/m, rest: vector(30 mm, 0 mm)) limit 1.5 N", 30, 0},
+                         Cut{"spring(500 N/m, rest: vector(50 mm, 20 mm))", 50, 20},
+                         Cut{"spring(200 N/m, rest: vector(0 mm, -40 mm)) limit 2 N", 0, -40},
+                         Cut{"spring(100 N/m, rest: vector(-25 mm, 10 mm))", -25, 10}}) {
+    const Description description = described(std::string("force = ") + cut.force);
+    ASSERT_TRUE(description.rest) << cut.force;
+    EXPECT_NEAR(1e3 * description.rest->x, cut.x, 0.3) << cut.force;
+    EXPECT_NEAR(1e3 * description.rest->y, cut.y, 0.3) << cut.force;
+    if (cut.x == 0) EXPECT_EQ(description.rest->x, 0) << cut.force;
+    if (cut.y == 0) EXPECT_EQ(description.rest->y, 0) << cut.force;
+  }
+}
+
+TEST(DescribingForces, APushAlongItsLinesIsNoSlopeAsTheMapWasMeasuredWith) {
+  const auto roughness_of = [](const std::string& force) {
+    const Description description = described("force = " + force);
+    const DescribedPercept* found = percept(description, "roughness");
+    return found && found->domain ? *found->domain : Evidence::estimated;
+  };
+  EXPECT_EQ(roughness_of("vector(0 N, 0.7 N * sin(2 * pi * x / 4 mm))"), Evidence::extrapolated);
+  EXPECT_EQ(roughness_of("vector(0.7 N * sin(2 * pi * y / 3 mm), 0 N)"), Evidence::extrapolated);
+  EXPECT_EQ(roughness_of("vector(0.7 N * sin(2 * pi * x / 4 mm), 0 N)"), Evidence::measured);
+  EXPECT_EQ(roughness_of("vector(0 N, 0.7 N * sin(2 * pi * y / 4 mm))"), Evidence::measured);
+}
+
 TEST(DescribingForces, TheRoughestStimulusOfTable6IsLevelOneHoweverItIsWritten) {
   const Description description = described(grating(194, 9.5));
   const DescribedPercept* roughness = percept(description, "roughness");

@@ -41,5 +41,32 @@ TEST(Sums, OfAFineWaveOnACoarseOneAreTheseTwo) {
   }
 }
 
+TEST(Sums, WithoutASmallCommonMultipleAreNeverWhollyRegular) {
+  struct Pair {
+    double one, other;  // mm
+  };
+  // They repeat together after 9 to 42 mm, which is five of the longer or more: sin a + sin b is
+  // 2 sin((a + b) / 2) cos((a - b) / 2), at most 2 over a root mean square of 1.
+  for (const Pair& pair : {Pair{3, 3.6}, {2, 2.4}, {5, 7}, {6, 7}, {5, 8}, {3, 3.375}, {2.1, 2.7}}) {
+    const std::string force = "force = vector(0.6 N * (sin(2 * pi * x / " + std::to_string(pair.one) +
+                              " mm) + sin(2 * pi * x / " + std::to_string(pair.other) + " mm)), 0 N)";
+    const Relief relief =
+        static_force(Bank(standard::material("material m { physical {\n    " + force + "\n} }", "m"))).relief;
+    EXPECT_TRUE(relief.regular()) << force;
+    EXPECT_LT(relief.regularity, 0.95) << force;
+    EXPECT_NEAR(relief.crest, 1.94, 0.05) << force;
+    EXPECT_NEAR(relief.crest, relief.amplitude / relief.rms, 0.05) << force;
+    EXPECT_GT(relief.period, 0.99e-3 * pair.one) << force;
+  }
+  for (const Pair& pair : {Pair{4, 5}, {2, 3}}) {
+    const std::string force = "force = vector(0.6 N * (sin(2 * pi * x / " + std::to_string(pair.one) +
+                              " mm) + sin(2 * pi * x / " + std::to_string(pair.other) + " mm)), 0 N)";
+    const Relief relief =
+        static_force(Bank(standard::material("material m { physical {\n    " + force + "\n} }", "m"))).relief;
+    EXPECT_GT(relief.regularity, 0.98) << force;
+    EXPECT_NEAR(relief.period, 1e-3 * pair.one * pair.other, 1e-4) << force;
+  }
+}
+
 }  // namespace
 }  // namespace wale::sums_test
