@@ -5,7 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 #include <vector>
+
+#include "compiler/grade/exploring_place.hpp"
+#include "compiler/read/dependence.hpp"
 
 namespace wale {
 namespace {
@@ -30,8 +34,9 @@ struct Circle {
   double joule = 0, both_ways = 0;  ///< gained, and the sum of its sizes
 };
 
-/// Integrates the force along the circle by the rule of midpoints, which is exact for few waves.
-void integrate(const Bank& bank, std::span<Circle> circles, std::size_t points) {
+/// Integrates the force along the circle by the rule of midpoints, which is exact for few waves. The hand goes along it
+/// at `speed`, m/s; below 0 the other way round.
+void integrate(const Bank& bank, std::span<Circle> circles, std::size_t points, double speed = 0) {
   std::vector<Hand> hands;
   std::vector<glm::dvec2> steps;
   for (const Circle& circle : circles)
@@ -41,6 +46,7 @@ void integrate(const Bank& bank, std::span<Circle> circles, std::size_t points) 
       hand.position = hand.workspace =
           glm::vec2(circle.centre + circle.radius * glm::dvec2(std::cos(angle), std::sin(angle)));
       hand.button = circle.button;
+      hand.velocity = hand.raw_velocity = glm::vec2(speed * glm::dvec2(-std::sin(angle), std::cos(angle)));
       steps.push_back(circle.radius * 2 * pi / static_cast<double>(points) *
                       glm::dvec2(-std::sin(angle), std::cos(angle)));
     }
@@ -55,14 +61,32 @@ void integrate(const Bank& bank, std::span<Circle> circles, std::size_t points) 
   }
 }
 
+/// The power, W, that is left of `watt`, which a hand gains on the circle at `speed` (m/s) without drag, when it goes
+/// at the pace at which drag leaves most. A force that pushes along the motion is no matter of the curl.
+double less_drag(const Bank& bank, const Circle& circle, double watt, double speed) {
+  if (!depends_on_motion(bank.program().description())) return watt;
+  const double way_round = circle.joule < 0 ? -1 : 1;
+  Circle still = circle;
+  integrate(bank, {&still, 1}, first_points);
+  double most = 0;
+  for (const double pace : slower_paces) {
+    Circle moving = circle;
+    integrate(bank, {&moving, 1}, first_points, way_round * pace * speed);
+    const double drag = way_round * (still.joule - moving.joule) * pace * speed / (2 * pi * circle.radius);
+    most = std::max(most, pace * watt - std::max(0.0, drag));
+  }
+  return most;
+}
+
 /// Half the sides of the patch less its rim, m. In the rim heights fade, and limits at their amplitude give a curl
 /// there that no author means.
 glm::vec2 inside(const Bank& bank) {
   return 0.5f * glm::vec2(bank.size().width, bank.size().height) - glm::vec2(bank.size().rim);
 }
 
-/// The circle around one of `centres` that gains the most power, W.
-double strongest_circle(const Bank& bank, std::span<const Hand> centres, const GradingHand& hand, double least_watt) {
+/// The most power, W, that a circle around one of `centres` gives after drag; nothing if none gives any without.
+std::optional<double> strongest_circle(const Bank& bank, std::span<const Hand> centres, const GradingHand& hand,
+                                       double least_watt) {
   const glm::dvec2 half(inside(bank));
   const double least = fewest_counts_of_radius * bank.program().description().device.position_step();
   std::vector<Circle> circles;
@@ -82,16 +106,16 @@ double strongest_circle(const Bank& bank, std::span<const Hand> centres, const G
   std::erase_if(circles, [&](const Circle& circle) { return !counts(circle); });
   std::ranges::stable_sort(circles, [&](const Circle& a, const Circle& b) { return watt(a) > watt(b); });
   circles.resize(std::min(circles.size(), checked_circles));
-  double best = 0;
+  std::optional<double> best;
   for (Circle& circle : circles) {
-    if (watt(circle) <= best) continue;
+    if (watt(circle) <= best.value_or(0)) continue;
     // A detail between two points may look like a gain, so the points are doubled until the integral stays.
     double before = circle.joule;
     for (std::size_t points = 2 * first_points; points <= most_points; points *= 2) {
       integrate(bank, {&circle, 1}, points);
       if (!counts(circle)) break;
       if (std::abs(circle.joule - before) <= settled * std::abs(circle.joule)) {
-        best = std::max(best, watt(circle));
+        best = std::max(best.value_or(0), less_drag(bank, circle, watt(circle), hand.speed()));
         break;
       }
       before = circle.joule;
@@ -149,8 +173,8 @@ Curls curls_of(const LookedAt& looked_at, bool button, glm::vec2 extent, glm::ve
     const double mean = all.sum / all.count;
     const double error = std::sqrt(std::max(0.0, all.squares / all.count - mean * mean) / all.count);
     if (std::abs(mean) > significant * error && std::abs(mean) > least)
-      found.over_blocks = std::max(found.over_blocks,
-                                   0.5 * std::abs(mean) * std::min(radius, static_cast<double>(side) * half_tile));
+      found.over_blocks =
+          std::max(found.over_blocks, 0.5 * std::abs(mean) * std::min(radius, static_cast<double>(side) * half_tile));
   };
   for (std::size_t side = 1; side <= tiles; ++side)
     for (std::size_t row = 0; row + side <= tiles; ++row)
@@ -169,7 +193,8 @@ double curl_with_button(const Bank& bank, const LookedAt& looked_at, bool button
   const glm::vec2 extent = 0.5f * glm::vec2(bank.size().width, bank.size().height);
   const glm::vec2 room = inside(bank);
   // A hand circles where there is room, and gains no more than the force gives all along its way.
-  const Curls curls = curls_of(looked_at, button, extent, room, std::min(hand.radius, double{std::min(room.x, room.y)}));
+  const Curls curls =
+      curls_of(looked_at, button, extent, room, std::min(hand.radius, double{std::min(room.x, room.y)}));
   const double on_tiles = std::min(curls.over_blocks, curls.largest) * hand.speed();
   std::vector<Hand> centres;
   const auto circle_at = [&](const Hand& at) { centres.emplace_back(at).button = button; };
@@ -182,8 +207,9 @@ double curl_with_button(const Bank& bank, const LookedAt& looked_at, bool button
   if (on_tiles > 0) circle_at(Hand{});
   if (centres.empty()) return 0;
   // The mean over a tile tells less than a circle, but finds a weak curl under a strong texture.
-  const double on_circles = strongest_circle(bank, centres, hand, least_watt);
-  return on_circles > 0 ? on_circles : on_tiles;
+  if (const auto on_circles = strongest_circle(bank, centres, hand, least_watt)) return *on_circles;
+  const Circle largest{glm::dvec2(0), std::min(hand.radius, double{std::min(room.x, room.y)}), button};
+  return on_tiles > 0 ? less_drag(bank, largest, on_tiles, hand.speed()) : 0;
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ namespace wale {
 /// integral. A curl of short waves cancels there too, and a jump has none beside it; therefore the force is also
 /// integrated along circles, from the hand's own down to a few encoder counts wide, around the places of most curl and
 /// around `jumps`. At the hand's speed, a circle counts from `least_watt` on, if it gains a good part of the work done
-/// on the way, inside the patch's rim. Of `looked_at`, the hands at rest are used. Deterministic.
+/// on the way, inside the patch's rim. What drag takes on the way is subtracted, at the pace at which most is left,
+/// which is the hand's or a slower one. Of `looked_at`, the hands at rest are used. Deterministic.
 double curl_watt(const Bank& bank, const LookedAt& looked_at, std::span<const ForceStep> jumps, const GradingHand& hand,
                  double least_watt);
 

@@ -54,9 +54,9 @@ double gained_for_good(const Bank& bank, glm::dvec2 from, std::vector<Gained> al
 
 /// The energies of a hand since some moment, J.
 struct Energies {
-  double work = 0, moved = 0, pushed = 0;
+  double work = 0, moved = 0;
 
-  void add(double joule) { work += joule, moved += std::abs(joule), pushed += std::max(0.0, joule); }
+  void add(double joule) { work += joule, moved += std::abs(joule); }
 };
 
 /// Runs a program under a hand on its way, and sums up the energies that it gets.
@@ -124,7 +124,7 @@ class Explorer {
 };
 
 ExploredPower power(double gained, const Energies& energies, double seconds) {
-  return {gained / seconds, energies.moved / seconds, energies.pushed / seconds};
+  return {gained / seconds, energies.moved / seconds};
 }
 
 /// The ranges that states went through.
@@ -167,10 +167,10 @@ bool runs_on(const std::vector<std::vector<float>>& by_second, const Ranges& fir
 void ExploredPower::add(const ExploredPower& other) {
   gained = std::max(gained, other.gained);
   moved = std::max(moved, other.moved);
-  pushed = std::max(pushed, other.pushed);
 }
 
 void Exploration::add(Exploration other) {
+  for (const Run& run : other.runs) runs.push_back({run.begin + hands.size(), run.end + hands.size(), run.usual});
   hands.insert(hands.end(), other.hands.begin(), other.hands.end());
   states.insert(states.end(), other.states.begin(), other.states.end());
   changing.resize(other.changing.size(), false);
@@ -198,6 +198,7 @@ Exploration explore(const Bank& bank, const GradingHand& hand, bool button) {
       if ((i + 1) % each == 0) gained.push_back({energies.work, explorer.here()});
       if (i < settled) ranges.add(explorer.states());
     });
+    found.runs.push_back({hands_before, found.hands.size(), !button});
     const double kept = gained_for_good(bank, at(0), std::move(gained), explorer.hand(button));
     (button ? found.beyond : found.usual).add(power(kept, first, exploring_seconds));
     if (!timed && !ranges.left_by(explorer.states())) continue;
@@ -208,7 +209,9 @@ Exploration explore(const Bank& bank, const GradingHand& hand, bool button) {
     const long ticks = std::lround(turns * program.device.rate);
     std::vector<std::vector<float>> by_second;
     while (explorer.seconds() < still_seconds) {
+      const std::size_t begin = found.hands.size();
       const Energies later = explorer.run(ticks, button, later_hands, [](const Energies&, long) {});
+      found.runs.push_back({begin, found.hands.size(), false});
       in_all += later.work;
       found.beyond.add(power(std::min(later.work, in_all), later, turns));
       by_second.emplace_back(explorer.states().begin(), explorer.states().end());
@@ -219,6 +222,7 @@ Exploration explore(const Bank& bank, const GradingHand& hand, bool button) {
     // Nothing new began; the hands of the first second are enough.
     found.hands.resize(hands_before + static_cast<std::size_t>(second));
     found.states.resize(found.hands.size() * program.states.size());
+    std::erase_if(found.runs, [&](const Exploration::Run& run) { return run.end > found.hands.size(); });
   }
   return found;
 }
@@ -240,11 +244,13 @@ Exploration visit(const Bank& bank, const GradingHand& hand, std::span<const Han
     Explorer explorer(bank, at, found);
     const auto run_part = [&](long part, bool button, double earlier, glm::dvec2 from) {
       std::vector<Gained> since, in_all;
+      const std::size_t begin = found.hands.size();
       const Energies energies = explorer.run(part, button, later_hands, [&](const Energies& now, long i) {
         if ((i + 1) % 8 != 0) return;
         since.push_back({now.work, explorer.here()});
         in_all.push_back({now.work + earlier, explorer.here()});
       });
+      found.runs.push_back({begin, found.hands.size(), false});
       double gained = gained_for_good(bank, from, std::move(since), explorer.hand(button));
       if (earlier != 0)
         gained = std::min(gained, gained_for_good(bank, from, std::move(in_all), explorer.hand(button)));

@@ -11,7 +11,6 @@ namespace wale {
 struct ExploredPower {
   double gained = 0;  ///< net energy that the hand keeps when it goes back to where it began, by time
   double moved = 0;   ///< energies in both directions, by time
-  double pushed = 0;  ///< energies from the program to the hand alone, by time
 
   void add(const ExploredPower& other);
 };
@@ -24,6 +23,12 @@ struct Exploration {
   std::vector<Hand> hands;     ///< one per tick of the first second, then some of them
   std::vector<float> states;   ///< before each tick, hand by hand
   std::vector<char> changing;  ///< for each state, whether it changed after it was entered
+  /// Hands of one way, evenly spaced in time.
+  struct Run {
+    std::size_t begin = 0, end = 0;  ///< of its hands
+    bool usual = false;              ///< of the first second around the centre, with the button up
+  };
+  std::vector<Run> runs;
   ExploredPower usual;         ///< of the first second around the centre
   ExploredPower beyond;        ///< of later seconds, other places and pressed buttons
   bool runs_on = false;        ///< a state runs on at the end as it did before, so that more may come

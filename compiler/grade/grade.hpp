@@ -46,11 +46,11 @@ struct GradingHand {
 
 /// Energy that a program gives to the hand by itself, at a hand's own pace.
 struct Energy {
-  bool conservative = true;  ///< the force at rest has no curl, so no closed path gains energy
-  double curl_watt = 0;      ///< power gained by a hand that circles where the curl is largest
+  bool conservative = true;  ///< the force at rest has no curl of which drag leaves any power
+  double curl_watt = 0;      ///< power gained by a hand that circles where the curl is largest, less what drag takes
   double motion_watt = 0;    ///< largest power of the part of the force that motion adds
-  double source_watt = 0;    ///< net power of exploring, from memory and from sources that move by themselves, where
-                             ///< and when it is largest; for the latter at least half of that in both directions
+  double source_watt = 0;    ///< net power of exploring, from memory, where and when it is largest; for sources that
+                             ///< move by themselves at least the mean of what they push, less what drag takes then
   double button_watt = 0;    ///< power gained by a hand that strokes, and holds the button on the ways back alone
   std::vector<std::string> reasons;  ///< why it gives energy, in words; empty if it gives none
 

@@ -26,10 +26,9 @@ double turned_into(double angle, double whole) {
 }
 
 /// What turns with a hand, and the axis of what resists it, from strokes along both axes.
-void tell_strokes(const Bank& bank, Directions& found) {
-  const Outside everywhere;
-  const std::vector<Stroke> strokes = strokes_over(bank, {1, 0}, everywhere, Room(bank), 0);
-  const std::vector<glm::dvec2> opposed = opposed_on(bank, strokes, everywhere);
+void tell_strokes(const Bank& bank, const Outside& outside, Directions& found) {
+  const std::vector<Stroke> strokes = strokes_over(bank, {1, 0}, outside, Room(bank), 0);
+  const std::vector<glm::dvec2> opposed = opposed_on(bank, strokes, outside);
   const std::size_t half = strokes.size() / 2;
   glm::dvec2 along{0}, across{0};
   double count = 0;
@@ -144,15 +143,19 @@ std::optional<double> travel_of(const Bank& bank, double frequency) {
 
 }  // namespace
 
+void tell_directions_of_drag(Directions& found, const Bank& bank, const OpposingForce& opposing, const WallFace* wall) {
+  found.drag = {}, found.aside = 0;
+  const bool by_itself = !opposing.explained && std::abs(opposing.unexplained_at(turning_speed)) >= least_force;
+  if (opposing.aside < least_force && !by_itself) return;
+  tell_strokes(bank, Outside{wall}, found);
+  if (!by_itself) found.drag = {};
+  if (opposing.aside < least_force) found.aside = 0;
+}
+
 Directions directions_of_motion(const Bank& bank, const OpposingForce& opposing, const Swing& sway,
                                 const Swing& vibration, const OtherForce& other) {
   Directions found;
-  const bool by_itself = !opposing.explained && std::abs(opposing.unexplained_at(turning_speed)) >= least_force;
-  if (opposing.aside >= least_force || by_itself) {
-    tell_strokes(bank, found);
-    if (!by_itself) found.drag = {};
-    if (opposing.aside < least_force) found.aside = 0;
-  }
+  tell_directions_of_drag(found, bank, opposing, nullptr);
   const bool swings = sway.amplitude >= least_force || (vibration.amplitude >= least_force && !vibration.noise);
   if (swings || other.slowly >= least_force)
     found.travel = travel_of(bank, vibration.amplitude > sway.amplitude ? vibration.frequency : sway.frequency);

@@ -26,6 +26,8 @@ struct Directions {
 /// Of a moving hand, and of what time changes.
 Directions directions_of_motion(const Bank& bank, const OpposingForce& opposing, const Swing& sway,
                                 const Swing& vibration, const OtherForce& other);
+/// Tells `aside` and `drag` anew, of strokes where `opposing` was read: outside of `wall`, if there is one.
+void tell_directions_of_drag(Directions& found, const Bank& bank, const OpposingForce& opposing, const WallFace* wall);
 /// Adds those of resting hands: `steps` beside a linear field.
 void tell_still_directions(Directions& found, const std::vector<StaticStep>& steps, const LinearForce& trend,
                            glm::dvec2 half);

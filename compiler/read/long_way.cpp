@@ -24,6 +24,7 @@ constexpr double growing = 1.01;               // times what it was some bins be
 constexpr std::size_t some_bins = 3;
 constexpr double long_enough = 0.015, times_as_long = 4;  // m, and of the path: it will not grow more
 constexpr double alike_at_speeds = 0.05;                  // relative
+constexpr double given_back = 0.1;  // of the force on the way forth, by which that on the way back may differ
 
 /// The force against hands that go both ways along an axis, beyond what they would feel if they had just come: its
 /// means over bins of the way.
@@ -45,17 +46,36 @@ class LongStroke {
   bool ends() const { return next_ >= bins_; }
 
   /// The mean over the next bin, N.
-  double go_on() {
+  double go_on() { return mean_over(next_++, true); }
+
+  /// Whether what is remembered stayed on the way forth, and the hands feel the same on the way back over the same
+  /// places as on the way forth, whose means these are: then a spring holds them to a place, and no friction takes
+  /// their energy. A bristle that is longer than the patch gives all back too, but is still bending.
+  bool gives_back(const std::vector<double>& means) {
+    for (std::size_t k = 0; k < ways_.size(); ++k)
+      if (!std::ranges::equal(memories_[k].states(), entered_[k])) return false;
+    double size = 0, apart = 0;
+    for (const double each : means) size += std::abs(each);
+    for (std::size_t back = means.size(); back-- > 0 && apart <= given_back * size;)
+      apart += std::abs(mean_over(back, false) - means[back]);
+    return apart <= given_back * size;
+  }
+
+ private:
+  double mean_over(std::size_t number, bool forth) {
     std::vector<Hand> fresh;
     std::vector<Force> felt;
-    for (std::size_t i = 0; i < a_bin_; ++i)
+    for (std::size_t i = 0; i < a_bin_; ++i, ++now_)
       for (std::size_t k = 0; k < ways_.size(); ++k) {
-        const double seconds = static_cast<double>(next_ * a_bin_ + i) / rate_;
+        const double seconds = static_cast<double>(number * a_bin_ + (forth ? i : a_bin_ - 1 - i)) / rate_;
         Hand& hand = fresh.emplace_back();
         hand.position = hand.workspace = glm::vec2(from_[k] + seconds * speed_ * ways_[k]);
-        hand.velocity = hand.raw_velocity = glm::vec2(speed_ * ways_[k]);
-        hand.time = seconds;
-        if (next_ == 0 && i == 0) memories_[k].enter(own_, hand);
+        hand.velocity = hand.raw_velocity = glm::vec2((forth ? speed_ : -speed_) * ways_[k]);
+        hand.time = static_cast<double>(now_) / rate_;
+        if (now_ == 0) {
+          memories_[k].enter(own_, hand);
+          entered_.emplace_back(memories_[k].states().begin(), memories_[k].states().end());
+        }
         felt.push_back(tick(own_, memories_[k], hand));
       }
     std::vector<Force> unheld(fresh.size());
@@ -63,17 +83,16 @@ class LongStroke {
     double sum = 0;
     for (std::size_t i = 0; i < fresh.size(); ++i)
       sum -= glm::dot(glm::dvec2(felt[i] - unheld[i]), ways_[i % ways_.size()]);
-    ++next_;
     return sum / static_cast<double>(fresh.size());
   }
 
- private:
   const Bank& bank_;
   Bank own_;
   double speed_, rate_;
   std::vector<glm::dvec2> from_, ways_;
   std::vector<Memory> memories_;
-  std::size_t a_bin_ = 1, bins_ = 0, next_ = 0;
+  std::vector<std::vector<float>> entered_;  ///< what they remembered when the hands had come
+  std::size_t a_bin_ = 1, bins_ = 0, next_ = 0, now_ = 0;
 };
 
 /// Where the means come to the last of them.
@@ -103,7 +122,8 @@ LongWay long_way_along(const Bank& bank, const Room& room, glm::dvec2 way, doubl
     const LongWay found = told_by_means(means, stroke.width(), most);
     if (!found.grows && gone > times_as_long * found.path) break;
   }
-  return told_by_means(means, stroke.width(), most);
+  const LongWay found = told_by_means(means, stroke.width(), most);
+  return found.path > usual_path && stroke.gives_back(means) ? LongWay{} : found;
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ struct LongWay {
 inline constexpr double usual_path = 3e-3;
 
 /// For a way along x, and one along y, through the whole patch. Forces that a hand feels on entering, wherever it does,
-/// are none of it, nor what is no more than felt. Nothing of a program that remembers no more than time.
+/// are none of it, nor what is no more than felt, nor a spring that draws a hand back to where it came: on the way back
+/// over the same places that gives all back. Nothing of a program that remembers no more than time.
 std::array<LongWay, 2> long_ways(const Bank& bank, const Room& room);
 
 }  // namespace wale

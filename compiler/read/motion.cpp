@@ -238,7 +238,15 @@ OpposingForce opposing_law(const Bank& bank, const Outside& outside, std::vector
   }
   const double chance = chance_of(strokes, along_strokes(strokes, opposed));
   const bool no_differences = differences.forward == differences.backward && differences.least == differences.most;
-  const auto two = !in_time.changes && settling == 0 && no_differences ? two_axes(strokes, opposed) : std::nullopt;
+  const bool everywhere = !in_time.changes && settling == 0 && no_differences;
+  auto two = everywhere ? two_axes(strokes, opposed) : std::nullopt;
+  if (everywhere && !two) {
+    two = two_frictions(strokes, opposed);
+    if (two) {
+      const std::vector<Stroke> turned = strokes_over(bank, two->friction.axis, outside, space, 0);
+      if (!shows(*two, turned, opposed_on(bank, turned, outside))) two.reset();
+    }
+  }
   if (two) {
     OpposingForce found{.friction = two->friction.greatest, .damping = two->damping.greatest};
     found.friction_across = two->friction.across, found.friction_axis = two->friction.axis;

@@ -465,8 +465,10 @@ ForceReading read_again(const Bank& bank, const Declarations&, ReadParts wanted,
     found.directions.swirl = 0;
   found.outward = outward_push(bank, found);
   // What damps the hand in a wall is the wall's.
-  if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping)
+  if (wanted.moving && found.wall && std::max(found.wall->damping, found.wall->release) >= least_damping) {
     found.opposing = opposing_force(bank, &*found.wall);
+    tell_directions_of_drag(found.directions, bank, found.opposing, &*found.wall);
+  }
   if (wanted.moving) tell_force_on_moving(bank, found), tell_held_button(bank, found);
   return found;
 }

@@ -67,4 +67,32 @@ std::optional<TwoAxes> two_axes(const std::vector<Stroke>& strokes, const std::v
   return TwoAxes{{0.5 * (size + across), 0, axis}, damping};
 }
 
+std::optional<TwoAxes> two_frictions(const std::vector<Stroke>& strokes, const std::vector<glm::dvec2>& opposed) {
+  const std::size_t half = strokes.size() / 2;
+  const auto along_x = line_over(strokes, opposed, 0, half);
+  const auto along_y = line_over(strokes, opposed, half, strokes.size());
+  if (!along_x || !along_y) return std::nullopt;
+  const glm::dvec2 one = along_x->friction, other = along_y->friction;
+  const double size = glm::length(one);
+  if (size < least_force || std::abs(size - glm::length(other)) > alike_frictions * size) return std::nullopt;
+  // Both strokes feel both frictions, one of them turned about: half the sum is one, half the difference the other.
+  const glm::dvec2 sum = 0.5 * (one + other), difference = 0.5 * (other - one);
+  const bool first = glm::length(sum) >= glm::length(difference);
+  const glm::dvec2 greater = first ? sum : difference, smaller = first ? difference : sum;
+  if (glm::length(smaller) < least_force) return std::nullopt;
+  const glm::dvec2 axis = glm::normalize(greater);
+  if (std::min(std::abs(axis.x), std::abs(axis.y)) < plainly_other) return std::nullopt;
+  return TwoAxes{{glm::length(greater), glm::length(smaller), axis},
+                 principal_of(along_x->damping, along_y->damping, least_damping)};
+}
+
+bool shows(const TwoAxes& told, const std::vector<Stroke>& strokes, const std::vector<glm::dvec2>& opposed) {
+  const std::size_t half = strokes.size() / 2;
+  const auto along = line_over(strokes, opposed, 0, half), across = line_over(strokes, opposed, half, strokes.size());
+  if (!along || !across) return false;
+  const double near = alike_frictions * told.friction.greatest;
+  return std::abs(glm::dot(along->friction, strokes.front().direction) - told.friction.greatest) < near &&
+         std::abs(glm::dot(across->friction, strokes[half].direction) - told.friction.across) < near;
+}
+
 }  // namespace wale

@@ -15,7 +15,9 @@ namespace wale {
 /// Evaluates terms at places of the patch, with a hand at rest at time 0 and the parameters at their defaults.
 class PlaceEvaluator {
  public:
-  PlaceEvaluator(const CheckedMaterial& material, const DeviceProfile& device, std::vector<TermId> roots)
+  /// With `heights`, the slopes and peaks of heights are evaluated too, by differences in the place.
+  PlaceEvaluator(const CheckedMaterial& material, const DeviceProfile& device, std::vector<TermId> roots,
+                 bool heights = false)
       : terms_(material.terms), roots_(std::move(roots)) {
     const double width = material.patch ? (*material.patch)[0] : device.patch_width;
     const double height = material.patch ? (*material.patch)[1] : device.patch_height;
@@ -23,7 +25,7 @@ class PlaceEvaluator {
     half_width_ = width / 2;
     half_height_ = height / 2;
     seconds_per_tick_ = device.rate > 0 ? 1 / device.rate : 0;
-    collect(material);
+    collect(material, device, heights);
   }
 
   /// Whether all that the roots need can be evaluated.
@@ -36,7 +38,7 @@ class PlaceEvaluator {
   /// The value of a root after `at`.
   double operator[](std::size_t root) const { return values_[roots_[root]]; }
   void at(double x, double y) {
-    for (const TermId id : varying_) values_[id] = value_of(terms_[id], x, y);
+    for (const TermId id : varying_) values_[id] = value_at_place(id, x, y);
   }
   double value_at(double x, double y) {
     at(x, y);
@@ -65,7 +67,7 @@ class PlaceEvaluator {
 
  private:
   /// Finds the terms that the roots need, evaluates those that are the same everywhere, and lists the others in order.
-  void collect(const CheckedMaterial& material) {
+  void collect(const CheckedMaterial& material, const DeviceProfile& device, bool heights) {
     values_.resize(terms_.size());
     std::vector<char> needed(terms_.size());
     TermId last = 0;
@@ -79,6 +81,11 @@ class PlaceEvaluator {
                                term.operation == Operation::cell || term.operation == Operation::peak);
       const bool is_known_kind = term.kind == TermKind::literal || term.kind == TermKind::input ||
                                  term.kind == TermKind::parameter || term.kind == TermKind::operation;
+      if (heights && (term.kind == TermKind::gradient || term.kind == TermKind::peak)) {
+        PlaceEvaluator& height = heights_.emplace_back(id, PlaceEvaluator(material, device, {term.a}, true)).second;
+        possible_ = possible_ && height.possible();
+        continue;
+      }
       if (is_look_up || !is_known_kind) {
         possible_ = false;
         return;
@@ -90,15 +97,43 @@ class PlaceEvaluator {
       const Term& term = terms_[id];
       if (const auto level = level_of_table(term, material))
         values_[id] = *level;
+      else if (term.kind == TermKind::peak)
+        values_[id] = height_of(id)->peak();
       else if (term.kind == TermKind::parameter)
         values_[id] = term.index < material.parameters.size() ? material.parameters[term.index].value : 0;
       else if (term.known())
         values_[id] = term.value;
       else if (!term.dependence.on(Dependence::position))
-        values_[id] = value_of(term, 0, 0);
+        values_[id] = value_at_place(id, 0, 0);
       else
         varying_.push_back(id);
     }
+  }
+
+  PlaceEvaluator* height_of(TermId id) {
+    const auto found = std::ranges::find(heights_, id, &std::pair<TermId, PlaceEvaluator>::first);
+    return found == heights_.end() ? nullptr : &found->second;
+  }
+
+  double value_at_place(TermId id, double x, double y) {
+    PlaceEvaluator* height = height_of(id);
+    if (height == nullptr) return value_of(terms_[id], x, y);
+    constexpr double beside = 1e-6;  // m
+    const double dx = terms_[id].index == 0 ? beside : 0, dy = beside - dx;
+    return (height->value_at(x + dx, y + dy) - height->value_at(x - dx, y - dy)) / (2 * beside);
+  }
+
+  /// The 99th percentile of the first root over the patch less its rim.
+  double peak() {
+    constexpr int side = 48;
+    std::vector<double> values;
+    for (int i = 0; i < side; ++i)
+      for (int j = 0; j < side; ++j)
+        values.push_back(
+            value_at(reach_x() * (2.0 * i + 0.9 - side) / side, reach_y() * (2.0 * j + 1.1 - side) / side));
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size()));
+    std::ranges::nth_element(values, at);
+    return *at;
   }
 
   /// What a look-up in a level table, as a picture of one grey is, gives everywhere: its height or, for a slope, 0.
@@ -130,6 +165,7 @@ class PlaceEvaluator {
 
   const Terms& terms_;
   std::vector<TermId> roots_, varying_;
+  std::vector<std::pair<TermId, PlaceEvaluator>> heights_;  ///< of each slope and peak
   std::vector<double> values_, sizes_;
   double half_width_ = 0, half_height_ = 0, rim_ = 0, seconds_per_tick_ = 0;
   bool possible_ = true;

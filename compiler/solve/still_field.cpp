@@ -88,7 +88,7 @@ std::optional<Span> driving_away(const CheckedMaterial& material, const DevicePr
 
 bool has_no_curl(const CheckedMaterial& material, const DeviceProfile& device, double limit) {
   if (!material.force) return false;
-  PlaceEvaluator force(material, device, {(*material.force)[0], (*material.force)[1]});
+  PlaceEvaluator force(material, device, {(*material.force)[0], (*material.force)[1]}, true);
   if (!force.possible()) return false;
   constexpr int side = 40;
   constexpr double beside = 1e-5;       // m: half the step of a difference

@@ -1,11 +1,14 @@
 // Energy that shows only later, elsewhere, or with the button: whether a law gives any follows from its formula.
 
+#include <cmath>
+
 #include "tests/grade/grading.hpp"
 
 namespace wale::sought_energy_test {
 namespace {
 
 using grading::graded;
+using grading::hand;
 
 /// `law` in parts of the patch, of the time, or of the button's states.
 std::string only(const std::string& when, const std::string& law) {
@@ -81,6 +84,79 @@ TEST(SoughtEnergy, IsNoneWhereTheButtonSwitchesWhatOnlyTakes) {
   for (const char* force : {"if button then viscous(3 N s/m) else vector(0 N, 0 N)",
                             "spring(100 N/m) + (if button then viscous(3 N s/m) else viscous(1 N s/m))"})
     EXPECT_FALSE(graded(std::string("force = ") + force).energy.active()) << force;
+}
+
+/// What the compiler says of the energy that a material gives, with its mend; empty if nothing.
+std::string said_of_energy(const std::string& physical) {
+  compiling::Files files;
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const SourceId source = sources.add("test.wale", "wale 1\nmaterial m {\n  physical {\n" + physical + "\n  }\n}\n");
+  if (!compile(sources, source, "", default_device, files, diagnostics)) throw std::runtime_error(physical);
+  for (const auto& diagnostic : diagnostics.all())
+    if (diagnostic.code == Code::undeclared_energy) return render_text(diagnostic, sources, false);
+  return "";
+}
+
+std::string with_drag(const std::string& force, double drag) {
+  return "force = " + force + " + viscous(" + std::to_string(drag) + " N s/m)";
+}
+
+// A force f along the motion gives f v - b v^2 at most, which is f^2 / (4 b) at v = f / (2 b) and no more at any speed.
+TEST(SoughtEnergy, OfASourceIsLessTheMoreDragThereIs) {
+  for (const double f : {0.3, 1.0, 2.0}) {
+    double before = HUGE_VAL;
+    for (const double b : {0.0, 3.0, 10.0, 20.0, 40.0}) {
+      const std::string source = "vector(" + std::to_string(f) + " N * sin(2 pi * phase(3 Hz)), 0 N)";
+      const double watt = graded(with_drag(source, b)).energy.watt();
+      const double most = std::min(f * hand.speed(), b > 0 ? f * f / (4 * b) : HUGE_VAL);
+      EXPECT_LE(watt, most * 1.01) << f << " N, " << b << " N s/m";
+      EXPECT_LE(watt, before * 1.01) << f << " N, " << b << " N s/m";
+      if (most > 0.05) EXPECT_GT(watt, 0.1 * most) << f << " N, " << b << " N s/m";
+      before = watt;
+    }
+  }
+}
+
+// What a spring stores and returns is no energy of the source beside it.
+TEST(SoughtEnergy, OfASourceIsThatWithoutTheSpringBesideIt) {
+  const double alone = graded("force = " + shaking).energy.watt();
+  for (const char* spring : {"spring(50 N/m)", "spring(150 N/m)", "-100 N/m * hand"})
+    EXPECT_NEAR(graded("force = " + shaking + " + " + spring).energy.watt(), alone, 0.15 * alone) << spring;
+  EXPECT_FALSE(graded("force = spring(200 N/m) + vector(1 mN * sin(2 pi * phase(3 Hz)), 0 N)").energy.active());
+}
+
+// On circles of radius r at speed v a swirl of c N/m gives c r v, and drag takes b v^2. A button of f N gives 2 r f on
+// each stroke to and fro, of which drag takes b (2 pi r)^2 / 2 at 1 Hz; the largest of all r is f^2 / (b pi^2 / 2) / 4.
+TEST(SoughtEnergy, OfASwirlAndOfAButtonIsLessWhatDragTakes) {
+  EXPECT_NEAR(graded("force = 10 N/m * perpendicular(hand)").energy.watt(), 10 * 0.04 * hand.speed(), 0.01);
+  for (const double b : {1.0, 3.0, 10.0, 40.0}) {
+    const double swirled = graded(with_drag("10 N/m * perpendicular(hand)", b)).energy.watt();
+    EXPECT_LE(swirled, 0.4 * 0.4 / (4 * b) * 1.02) << b;
+    const std::string push = "(if button then vector(1 N, 0 N) else vector(0 N, 0 N))";
+    const double pushed = graded(with_drag(push, b)).energy.watt();
+    EXPECT_LE(pushed, 0.04 / b * 2) << b;
+    EXPECT_LE(pushed, 0.081) << b;
+    if (b <= 3) {
+      EXPECT_GT(swirled, 0.4 * 0.4 / (4 * b) * 0.5) << b;
+      EXPECT_GT(pushed, 0.008) << b;
+    }
+  }
+}
+
+// Forces towards a centre have no curl; only the device's limit along x and y makes one.
+TEST(SoughtEnergy, OfCentralForcesIsThatOfTheLimitAlsoBesideATexture) {
+  const std::string wall = "-700 N/m * max(0 mm, length(hand) - 25 mm) * hand / max(length(hand), 0.1 mm)";
+  for (const std::string& rings : {std::string(), std::string(" + lateral(grating(length(hand), period: 5 mm), "
+                                                              "amplitude: 0.7 N)")}) {
+    const std::string said = said_of_energy("force = " + wall + rings);
+    EXPECT_NE(said.find("limits its force along x and y separately"), std::string::npos) << rings << said;
+    EXPECT_NE(said.find("limit 10 N"), std::string::npos) << rings << said;
+  }
+  EXPECT_NE(said_of_energy("force = 20 N/m * perpendicular(hand) + lateral(grating(length(hand), period: 5 mm), "
+                           "amplitude: 0.7 N)")
+                .find("has a curl"),
+            std::string::npos);
 }
 
 }  // namespace

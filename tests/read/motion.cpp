@@ -56,6 +56,70 @@ TEST(ReadingMotion, ABristleThatOutlastsThePatchIsSoMuchAtLeast) {
   EXPECT_NE(description_text(told).find("the friction is at least 0.4"), std::string::npos);
 }
 
+// A spring gives back on the way back what it took on the way forth, wherever its rest is; no friction does.
+TEST(ReadingMotion, ASpringToARememberedPlaceIsNoFriction) {
+  const std::string pressed = "state g : position = hand in -100 mm .. 100 mm\nnext g = if button then g else hand\n";
+  for (const double stiffness : {20.0, 50.0, 120.0}) {
+    const std::string came =
+        fmt::format("state g : position = hand in -100 mm .. 100 mm\nforce = {} N/m * (g - hand)", stiffness);
+    const OpposingForce found = found_in(came).opposing;
+    EXPECT_EQ(found.friction, 0) << came;
+    EXPECT_FALSE(found.friction_grows || found.friction_cut) << came;
+    EXPECT_EQ(description_text(described(came)).find("stickiness"), std::string::npos) << came;
+    const OpposingForce damped = found_in(came + " + viscous(3 N s/m)").opposing;
+    EXPECT_EQ(damped.friction, 0) << came;
+    EXPECT_NEAR(damped.damping, 3, 0.1) << came;
+    const std::string text = description_text(
+        described(pressed + fmt::format("force = (if button then {} N/m else 0 N/m) * (g - hand)", stiffness)));
+    EXPECT_EQ(text.find("friction"), std::string::npos) << text;
+  }
+  // Its rest slips when it is 30 mm behind, as that of a bristle does.
+  const OpposingForce slips = found_in(
+                                  "state g : position = hand in -100 mm .. 100 mm\n"
+                                  "next g = hand + (g - hand) * min(1, 30 mm / max(length(g - hand), 0.01 mm))\n"
+                                  "force = 50 N/m * (g - hand)")
+                                  .opposing;
+  EXPECT_NEAR(slips.friction, 1.5, 0.06);
+}
+
+// A friction along an oblique axis and another across it, each by the sign of the hand's speed along its own axis
+// alone.
+TEST(ReadingMotion, TwoFrictionsAlongObliqueAxesAreToldAlongThese) {
+  std::mt19937 random(31);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
+  for (int i = 0; i < 10; ++i) {
+    const double size = between(0.5, 2), across = size * between(0.2, 0.8), degrees = between(8, 82);
+    const double damping = i % 2 == 0 ? 0 : between(0.5, 3);
+    const std::string text = fmt::format(
+        "let u = rotate(vector(1, 0), {0} deg)\nlet w = rotate(vector(0, 1), {0} deg)\nforce = -{1} N * "
+        "sign(dot(velocity, u)) * u - {2} N * sign(dot(velocity, w)) * w + viscous({3} N s/m)",
+        degrees, size, across, damping);
+    const OpposingForce found = found_in(text).opposing;
+    EXPECT_NEAR(found.friction, size, 0.03 * size) << text;
+    EXPECT_NEAR(found.friction_across, across, 0.03 * size) << text;
+    const double axis = std::atan2(found.friction_axis.y, found.friction_axis.x) * 180 / 3.14159265;
+    EXPECT_NEAR(std::remainder(axis - degrees, 180), 0, 2) << text;
+    EXPECT_NEAR(found.damping, damping, 0.05) << text;
+  }
+}
+
+// What a wall takes from a hand that goes into it is the wall's, and no drag of the room before it.
+TEST(ReadingMotion, AnObliqueWallsDampingIsNoDragBesideIt) {
+  for (const char* way : {"vector(0.6, 0.8)", "vector(0.8, -0.6)", "vector(-0.28, 0.96)"}) {
+    const auto wall = [&](const char* damping) {
+      return fmt::format(
+          "let d = {}\nlet into = dot(hand, d) - 20 mm\nforce = (if into > 0 mm then -250 N/m * into - {} N s/m * "
+          "max(0 m/s, dot(velocity, d)) else 0 N) * d + viscous(1 N s/m)",
+          way, damping);
+    };
+    const Cues damped = cues_in(wall("3")), plain = cues_in(wall("0"));
+    for (const CueKind kind : {CueKind::drag, CueKind::drag_across, CueKind::drag_axis, CueKind::viscosity_across}) {
+      EXPECT_EQ(damped[kind].has_value(), plain[kind].has_value()) << way << " " << static_cast<int>(kind);
+    }
+    EXPECT_NEAR(damped[CueKind::viscosity].value_or(0), 1, 0.1) << way;
+  }
+}
+
 TEST(ReadingMotion, ADragAlongOneAxisKeepsItsAxisOnALongWay) {
   const OpposingForce found = found_in("force = vector(sticky(4 N).x, 0 N)").opposing;
   EXPECT_NEAR(found.friction, 4, 0.12);
