@@ -76,7 +76,7 @@ TEST(Compare, DampingBeyondAFaceIsToldApartWithoutAWall) {
 
 TEST(Compare, BeyondWhatWasComparedAThresholdIsExtrapolated) {
   Cues a{"a", "sandpaper", {}}, b{"b", "sandpaper", {}};
-  a[CueKind::amplitude] = 3, b[CueKind::amplitude] = 4, a[CueKind::mass] = 0.1, b[CueKind::mass] = 0.2;
+  a[CueKind::amplitude] = 3, b[CueKind::amplitude] = 4, a[CueKind::mass] = 1, b[CueKind::mass] = 2;
   const auto text = [&] { return comparison_text(ComparisonMatrix({a, b}, declarations())); };
   const auto json = [&] {
     return nlohmann::json::parse(comparison_json(ComparisonMatrix({a, b}, declarations())))["pairs"][0]["cues"];

@@ -53,7 +53,7 @@ class DrivenWindow : public ::testing::Test {
       return std::ranges::all_of(contents().placed, [&](const PlacedRef& each) {
         return !each->is_laid_out() || window->feeling().material(each->id);
       });
-    })) << "materials are not compiled";
+    }, 60000)) << "materials are not compiled";
   }
 
   const Contents& contents() { return window->document().contents(); }

@@ -15,8 +15,14 @@ class ShippedWorkspace : public DrivenWindow, public ::testing::WithParamInterfa
  protected:
   QString file() const { return QString::fromStdString((folder_of_window / (GetParam() + ".wale")).string()); }
 
-  /// Rubs over each patch until a force comes, in newtons; that of the strongest.
+  /// Rubs over each patch until a force comes, in newtons; that of the strongest. On a busy machine the mouse leaps, so
+  /// it rubs over all of them again before it gives up.
   double felt() {
+    double most = 0;
+    for (int times = 0; times < 4 && most <= least_told; ++times) most = std::max(most, felt_once());
+    return most;
+  }
+  double felt_once() {
     double most = 0;
     for (const PlacedRef& each : contents().placed) {
       if (!each->is_laid_out()) continue;
@@ -64,7 +70,8 @@ TEST_P(ShippedWorkspace, OpensAndIsFeltFrameByFrame) {
     wait_for_programs();
     if (!window->feeling().is_on()) trigger("feel");
     ASSERT_TRUE(window->feeling().is_on()) << frames[i] << ": " << announced().toStdString();
-    EXPECT_GT(felt(), least_told) << frames[i];
+    EXPECT_GT(felt(), least_told) << frames[i] << ": " << announced().toStdString() << ", after "
+                                  << window->feeling().now().ticks_run << " ticks";
   }
   EXPECT_EQ(window->document().text(), text);  // stepping through changes nothing
 }
