@@ -26,6 +26,7 @@ constexpr long moving_apart = 211;  // ticks: a prime, so that no vibration keep
 constexpr double stopping = 0.4;    // s
 constexpr std::size_t some_ticks = 8;
 constexpr double straight_back = 0.7;  // cosine
+constexpr double creeping_speed = 0.02, creeping_length = 8e-3, turning_length = 2e-3;  // m/s, m
 
 glm::dvec2 half_without_rim(const Bank& bank) {
   const PatchSize patch = bank.size();
@@ -76,8 +77,29 @@ glm::dvec2 beyond_entry(Bank& own, Force felt, const Hand& hand) {
   return glm::dvec2(felt - tick(own, fresh, hand));
 }
 
-/// What a hand that came from elsewhere feels at rest. If that holds the hand back on the way that it came, with no
-/// more than it did on that way, it is friction's.
+/// How much otherwise a hand that rests after a tour feels a short stroke than one that has just come to the same place,
+/// N. Friction holds both back alike, once it has turned about.
+double beyond_entry_on_stroke(Bank& own, Memory& memory, const Hand& rest, glm::dvec2 towards) {
+  const double rate = own.program().description().device.rate;
+  Memory fresh(own.program());
+  fresh.enter(own, rest);
+  const auto ticks = static_cast<long>(creeping_length / creeping_speed * rate),
+             turned = static_cast<long>(turning_length / creeping_speed * rate);
+  double largest = 0;
+  Hand hand = rest;
+  hand.velocity = hand.raw_velocity = glm::vec2(creeping_speed * towards);
+  for (long now = 1; now <= ticks; ++now) {
+    const double gone = static_cast<double>(now) / rate;
+    hand.position = hand.workspace = glm::vec2(glm::dvec2(rest.position) + creeping_speed * gone * towards);
+    hand.time = rest.time + gone;
+    const Force felt = tick(own, memory, hand), at_first = tick(own, fresh, hand);
+    if (now > turned) largest = std::max(largest, double{glm::length(felt - at_first)});
+  }
+  return largest;
+}
+
+/// What a hand that came from elsewhere feels at rest and on a short stroke. If that holds a resting hand back on the
+/// way that it came, with no more than it did on that way, it is friction's.
 double by_memory(const Bank& bank, double& rehearsed) {
   const PatchProgram& program = bank.program().description();
   if (!remembers_anything(program) || remembers_time_only(program)) return 0;
@@ -106,7 +128,9 @@ double by_memory(const Bank& bank, double& rehearsed) {
     const glm::dvec2 left = beyond_entry(own, felt, hand);
     const bool friction =
         -glm::dot(left, way) > straight_back * glm::length(left) && glm::length(left) < plainly_more * held;
-    if (!friction) largest = std::max(largest, glm::length(left));
+    if (friction) continue;
+    // Where the hand happens to rest, a texture that wears off may be flat. What the hand changed lies where it came.
+    largest = std::max({largest, glm::length(left), beyond_entry_on_stroke(own, memory, hand, -way)});
   }
   return largest;
 }

@@ -331,6 +331,13 @@ TEST(DescribingForces, WhatGoesByTimeAloneHasNoMemoryAndOneLargestForce) {
   EXPECT_GT(rubbed.other.remembered, 0.1);
   EXPECT_GE(rubbed.force.max_newton, rubbed.other.remembered - 1e-4);
   EXPECT_GE(rubbed.bound.found.newton, rubbed.force.max_newton - 1e-4);
+  // A texture that is worn off after 0.1 m is missed wherever the hand then strokes, by its whole size at its slopes.
+  for (const double newton : {0.5, 2.0}) {
+    const Description worn = described(
+        "state gone = 0 in 0 .. 1\ngone' = min(length(velocity) / 0.1 m, (1 - gone) / dt)\nforce = vector(" +
+        std::to_string(newton) + " N * (1 - gone) * sin(2 * pi * x / 4 mm), 0 N)");
+    EXPECT_NEAR(worn.other.remembered, newton, 0.03 * newton);
+  }
   // A soft bristle is friction, which no other cue tells again.
   const Description soft = described("force = sticky(0.5 N, 6 N/m)");
   ASSERT_TRUE(percept(soft, "stickiness"));
