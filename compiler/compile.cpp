@@ -41,7 +41,11 @@ void warn_of_undeclared_energy(const Bank& bank, const CheckedMaterial& checked,
   const Energy energy = energy_of(bank, hand);
   if (!energy.active() || (material.active_watt > 0 && energy.watt() <= material.active_watt)) return;
   const double watt = std::max(energy.watt(), least_declared_watt);
-  const std::string mend = typeable("active {:.2g} W", std::ceil(watt * 100) / 100);
+  // Upwards to two digits, so that what is declared then is enough.
+  const double step = std::max(0.01, std::pow(10, std::floor(std::log10(watt)) - 1));
+  const std::string mend = typeable("active {:.6g} W", std::ceil(watt / step) * step);
+  // Of what is declared, it may be a little more.
+  const int digits = material.active_watt > 0 ? 3 : 2;
   // A device's limit cuts x and y separately, and so turns a slanted force.
   if (energy.reasons.size() == 1 && energy.curl_watt > 0 && has_no_curl(checked, material.device)) {
     // A limited force keeps its direction, but one that differs with the direction turns in circles all the same.
@@ -61,10 +65,10 @@ void warn_of_undeclared_energy(const Bank& bank, const CheckedMaterial& checked,
   }
   diagnostics.report({.code = Code::undeclared_energy,
                       .span = material.force_span,
-                      .message = readable("`{}` gives energy to the hand, up to {:.2g} W at an ordinary pace: {}",
-                                          material.name, energy.watt(), energy.reasons.front()),
+                      .message = readable("`{}` gives energy to the hand, up to {:.{}g} W at an ordinary pace: {}",
+                                          material.name, energy.watt(), digits, energy.reasons.front()),
                       .help = material.active_watt > 0
-                                  ? readable("it declares {:.2g} W; write `{}`", material.active_watt, mend)
+                                  ? readable("it declares {:.3g} W; write `{}`", material.active_watt, mend)
                                   : fmt::format("write `{}` in its physical block", mend)});
 }
 
