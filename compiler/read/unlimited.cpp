@@ -173,11 +173,17 @@ std::optional<Unlimited> without_limit(PatchProgram program, const Bank& bank, i
   for (std::size_t i = added.size(); i-- > 0;)
     program.tick.insert(program.tick.begin() + static_cast<std::ptrdiff_t>(added[i].first), added[i].second);
   program.places = {};  // those of the instructions before
+  // Setup is as it was, and so are its peaks, which cost most: its registers are taken over.
+  for (Instruction& each : program.setup)
+    if (is(each, Operation::peak)) each = smaller(each.destination, seconds);
+  program.peaks = {};
   const std::vector<float> parameters = parameters_of(bank);
   const double ticks = std::pow(program.device.rate, times);
   Result<Program> loaded = Program::load(std::move(program));
   if (!loaded) return std::nullopt;
-  return Unlimited{Bank(*loaded, parameters, bank.size()), ticks};
+  Unlimited found{Bank(*loaded, parameters, bank.size()), ticks};
+  std::ranges::copy(bank.registers(), found.bank.registers().begin());
+  return found;
 }
 
 }  // namespace
