@@ -45,7 +45,8 @@ void warn_of_undeclared_energy(const Bank& bank, const CheckedMaterial& checked,
   const double step = std::max(0.01, std::pow(10, std::floor(std::log10(watt)) - 1));
   const std::string mend = typeable("active {:.6g} W", std::ceil(watt / step) * step);
   // Of what is declared, it may be a little more.
-  const int digits = material.active_watt > 0 ? 3 : 2;
+  const std::string given =
+      material.active_watt > 0 ? readable("{:.3g}", energy.watt()) : readable("{:.2g}", energy.watt());
   // A device's limit cuts x and y separately, and so turns a slanted force.
   if (energy.reasons.size() == 1 && energy.curl_watt > 0 && has_no_curl(checked, material.device)) {
     // A limited force keeps its direction, but one that differs with the direction turns in circles all the same.
@@ -65,8 +66,8 @@ void warn_of_undeclared_energy(const Bank& bank, const CheckedMaterial& checked,
   }
   diagnostics.report({.code = Code::undeclared_energy,
                       .span = material.force_span,
-                      .message = readable("`{}` gives energy to the hand, up to {:.{}g} W at an ordinary pace: {}",
-                                          material.name, energy.watt(), digits, energy.reasons.front()),
+                      .message = fmt::format("`{}` gives energy to the hand, up to {} W at an ordinary pace: {}",
+                                             material.name, given, energy.reasons.front()),
                       .help = material.active_watt > 0
                                   ? readable("it declares {:.3g} W; write `{}`", material.active_watt, mend)
                                   : fmt::format("write `{}` in its physical block", mend)});

@@ -10,10 +10,10 @@
 namespace wale {
 namespace {
 
-constexpr double slowest_whole = 0.05;   // m/s: no friction rises longer
-constexpr double not_on_a_line = 0.01;        // of the greatest force
-constexpr double alike_frictions = 0.02; // relative, and as the sine of an angle
-constexpr double plainly_other = 0.035;  // rad: two degrees
+constexpr double slowest_whole = 0.05;    // m/s: no friction rises longer
+constexpr double not_on_a_line = 0.01;   // of the greatest force
+constexpr double alike_frictions = 0.02;  // relative, and as the sine of an angle
+constexpr double plainly_other = 0.035;   // rad: two degrees
 
 /// What a friction leaves at rest, and what is in proportion to the speed.
 struct OverSpeeds {
@@ -88,7 +88,11 @@ std::optional<TwoAxes> two_frictions(const std::vector<Stroke>& strokes, const s
 
 bool shows(const TwoAxes& told, const std::vector<Stroke>& strokes, const std::vector<glm::dvec2>& opposed) {
   const std::size_t half = strokes.size() / 2;
-  const auto along = line_over(strokes, opposed, 0, half), across = line_over(strokes, opposed, half, strokes.size());
+  // On a stroke along one axis the sign along the other is that of what rounding leaves.
+  std::vector<glm::dvec2> straight;
+  for (std::size_t i = 0; i < opposed.size(); ++i)
+    straight.push_back(glm::dot(opposed[i], strokes[i].direction) * strokes[i].direction);
+  const auto along = line_over(strokes, straight, 0, half), across = line_over(strokes, straight, half, strokes.size());
   if (!along || !across) return false;
   const double near = alike_frictions * told.friction.greatest;
   return std::abs(glm::dot(along->friction, strokes.front().direction) - told.friction.greatest) < near &&
