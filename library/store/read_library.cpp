@@ -43,7 +43,8 @@ ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, 
 Result<> read_library_files(const std::vector<LibraryFile>& files, const std::vector<std::size_t>& which,
                             const FileRequest& request, bool to_pass_on, const StoreProgress& tell,
                             const std::function<Result<>(std::size_t which, ReadFile read)>& keep) {
-  std::atomic<std::size_t> next{0}, done{0};
+  std::atomic<std::size_t> next{0};
+  std::size_t done = 0;
   std::mutex lock;
   std::optional<Error> trouble;
   in_parallel(which.size(), [&](std::size_t, std::size_t) {
@@ -54,8 +55,13 @@ Result<> read_library_files(const std::vector<LibraryFile>& files, const std::ve
         if (trouble) return;
         if (const auto kept = keep(which[i], std::move(read)); !kept) trouble = kept.error();
       }
-      const std::size_t count = ++done;
-      if (tell) tell(count, which.size());
+      const std::lock_guard guard(lock);
+      if (trouble) return;
+      if (tell && !tell(++done, which.size()) && done < which.size())
+        trouble = Error{.code = Code::stopped,
+                        .sentence = "stopped before the library was read",
+                        .mend = "begin again: what was read is kept",
+                        .place = {.name = "index"}};
     }
   });
   return trouble ? Result<>(*std::move(trouble)) : Result<>();
@@ -89,15 +95,16 @@ bool is_unchanged(const KnownFile& known, const std::string& module, const std::
   });
 }
 
-std::vector<Entry> read_library(const std::vector<LibraryFile>& files, const FileRequest& request,
+Result<std::vector<Entry>> read_library(const std::vector<LibraryFile>& files, const FileRequest& request,
                                 const StoreProgress& tell) {
   std::vector<std::size_t> all(files.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   std::vector<ReadFile> read(files.size());
-  static_cast<void>(read_library_files(files, all, request, false, tell, [&](std::size_t i, ReadFile each) -> Result<> {
+  const auto done = read_library_files(files, all, request, false, tell, [&](std::size_t i, ReadFile each) -> Result<> {
     read[i] = std::move(each);
     return {};
-  }));  // keeping cannot fail
+  });
+  if (!done) return done.error();
   std::vector<Entry> entries;
   for (ReadFile& each : read)
     for (Entry& entry : each.entries) entries.push_back(std::move(entry));

@@ -21,7 +21,7 @@ struct ReadFile {
 ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, bool to_pass_on = false);
 
 /// Reads `files[i]` for each `i` of `which`, on all cores, and hands each to `keep`, one at a time, in any order. Ends at
-/// the first error of `keep`, which it returns.
+/// the first error of `keep`, which it returns, or with W0706 where `tell` ends it.
 Result<> read_library_files(const std::vector<LibraryFile>& files, const std::vector<std::size_t>& which,
                             const FileRequest& request, bool to_pass_on, const StoreProgress& tell,
                             const std::function<Result<>(std::size_t which, ReadFile read)>& keep);
