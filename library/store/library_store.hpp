@@ -55,8 +55,8 @@ class LibraryStore {
 
   /// Brings it up to date with these files for `request.device`: reads those that are new, or of which anything that
   /// they rest on has changed, on all cores. An index in a file forgets all others; a shared one has also what others gave
-  /// it, and of one file the old or the new materials, never a part. Errors: W0706 if `tell` ends it, and all but the last
-  /// files that were read are kept; W0505 and those of the database; of a shared index also W0910 for a file outside any
+  /// it, and of one file the old or the new materials, never a part. Errors: W0706 if `tell` ends it, and what was read is
+  /// kept; W0505 and those of the database; of a shared index also W0910 for a file outside any
   /// library, and W0607 for another device than the index has.
   virtual Result<StoreReport> bring_up_to_date(const std::vector<LibraryFile>& files, const FileRequest& request,
                                                const StoreProgress& tell = {}, const Shelf& shelf = {}) = 0;

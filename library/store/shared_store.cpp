@@ -249,8 +249,9 @@ Result<StoreReport> SharedStore::bring_up_to_date(const std::vector<LibraryFile>
     constexpr std::size_t files_at_once = 32;
     return waiting.size() < files_at_once ? Result<>() : put();
   });
-  if (!read) return read.error();
+  if (!read && read.error().code != Code::stopped) return read.error();
   if (const auto done = put(); !done) return done.error();
+  if (!read) return read.error();
   if (shelf.is_whole && !gone.empty()) {
     const std::vector<std::string> lost(gone.begin(), gone.end());
     if (shelf.forgets) {

@@ -264,7 +264,7 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
     // A change that a killed process leaves unfinished has another generation than the columns.
     if (const auto begun = database_.execute("BEGIN IMMEDIATE"); !begun) return begun.error();
     if (const auto updated = update(); !updated) {
-      (void)database_.execute("ROLLBACK");
+      (void)database_.execute(updated.error().code == Code::stopped ? "COMMIT" : "ROLLBACK");
       return updated.error();
     }
     if (const auto committed = database_.execute("COMMIT"); !committed) return committed.error();
