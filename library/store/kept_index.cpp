@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "compiler/text/resolver.hpp"
-#include "library/by_name/missing_folder.hpp"
 #include "library/index/content_hash.hpp"
 #include "library/index/find.hpp"
 #include "schema/visible_text.hpp"
@@ -73,7 +72,7 @@ std::string kept_index(const FileRequest& request, const std::vector<LibraryFile
   // One for each library. Files that are only in this binary are the same everywhere; others have relative names.
   ContentHash hash;
   hash.take(request.device);
-  for (const std::string& root : whole_paths(request.roots)) hash.take(root);
+  for (const std::string& root : request.roots) hash.take(fs::absolute(root, trouble).string());
   const bool has_files = std::ranges::any_of(files, [&](const LibraryFile& each) { return fs::exists(each.path, trouble); });
   if (has_files) hash.take(fs::current_path(trouble).string());
   return (folder / fmt::format("library-{}.index", hash.digits().substr(0, 16))).string();
