@@ -40,11 +40,12 @@ StoreProgress shown_progress() {
   };
   const bool is_terminal = isatty(STDERR_FILENO) == 1;
   return [shown = std::make_shared<Shown>(), is_terminal](std::size_t done, std::size_t all) {
-    constexpr std::chrono::duration<double> moment(0.7), between(0.1);
+    constexpr std::chrono::duration<double> moment(0.7), between(0.1), long_enough(3);
+    constexpr std::size_t enough_to_guess = 16;
     const auto now = Clock::now();
     if (is_terminal && done == all) {
       if (shown->said) print_as_is(stderr, "\r\033[K");
-    } else if (now - shown->begun > moment && now - shown->last > between) {
+    } else if (now - shown->begun > (done < enough_to_guess ? long_enough : moment) && now - shown->last > between) {
       const double seconds = std::chrono::duration<double>(now - shown->begun).count();
       const double left = seconds / static_cast<double>(done) * static_cast<double>(all - done);
       if (is_terminal)

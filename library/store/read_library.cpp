@@ -78,20 +78,31 @@ FileHashes hashes_of(const std::vector<LibraryFile>& files, const std::vector<st
   return hashes;
 }
 
+std::string HashesOnce::of(const std::string& path) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = known_.find(path); known != known_.end()) return known->second;
+  }
+  std::string hash = hash_of_file(path);
+  const std::lock_guard lock(mutex_);
+  return known_.try_emplace(path, std::move(hash)).first->second;
+}
+
 std::string rests_on_text(const std::vector<std::pair<std::string, std::string>>& rests_on) {
   using Json = nlohmann::json;
   return Json(rests_on).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 bool is_unchanged(const KnownFile& known, const std::string& module, const std::string& name, const std::string& hash,
-                  const std::string& others, const std::function<std::string(const std::string& name)>& path_of) {
+                  const std::string& others, HashesOnce& hashes,
+                  const std::function<std::string(const std::string& name)>& path_of) {
   if (known.module != module || (!known.others.empty() && known.others != others)) return false;
   const auto rests_on = nlohmann::json::parse(known.rests_on, nullptr, false);
   if (!rests_on.is_array()) return false;
   return std::ranges::all_of(rests_on, [&](const nlohmann::json& each) {
     if (!each.is_array() || each.size() != 2 || !each[0].is_string() || !each[1].is_string()) return false;
     const auto& path = each[0].get_ref<const std::string&>();
-    return (path == name ? hash : hash_of_file(path_of(path))) == each[1].get_ref<const std::string&>();
+    return (path == name ? hash : hashes.of(path_of(path))) == each[1].get_ref<const std::string&>();
   });
 }
 
