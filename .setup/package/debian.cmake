@@ -99,7 +99,7 @@ set(CPACK_DEBIAN_PAGES_PACKAGE_SHLIBDEPS OFF)
 debian_package(development libwale-dev libdevel "headers and libraries of the haptics language Wale"
   "This package has what programs are built with: headers, static libraries, the
 CMake package Wale, and wale.pc and wale-runtime.pc for pkg-config."
-  DEPENDS "${all_development}" RECOMMENDS wale-doc SUGGESTS "libusb-1.0-0-dev, libfmt-dev, libkissfft-dev, libutf8proc-dev, nettle-dev, libexpat1-dev")
+  DEPENDS "${all_development}" RECOMMENDS wale-doc SUGGESTS "libusb-1.0-0-dev, libfmt-dev, libkissfft-dev, libutf8proc-dev, nettle-dev, libexpat1-dev, libsqlite3-dev, libpq-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 # The libraries refer to each other before they are installed.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR})

@@ -13,9 +13,11 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/open_file.hpp"
 #include "library/by_name/missing_folder.hpp"
+#include "library/by_name/seeker.hpp"
 #include "library/by_name/told.hpp"
 #include "library/by_name/worker.hpp"
 #include "library/by_name/workspaces.hpp"
+#include "library/store/library_store.hpp"
 #include "schema/name_text.hpp"
 #include "schema/owners_devices_file.hpp"
 
@@ -93,13 +95,15 @@ struct Library::Parts {
   std::optional<Error> missing;  ///< about the first of the given folders, or those of WALE_LIBRARY, that is none
   Sandbox sandbox = Sandbox::required;
   Result<TrustedDeclarations> trusted;
+  Seeker seeker;
   std::unique_ptr<Worker> worker = std::make_unique<Worker>();
 
   explicit Parts(const LibraryOptions& options)
       : roots(whole_paths(library_folders(options.folders, std::getenv("WALE_LIBRARY")))),
         missing(missing_folder(options.folders)),
         sandbox(options.unsandboxed_pictures ? Sandbox::if_possible : Sandbox::required),
-        trusted(trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")))) {
+        trusted(trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")))),
+        seeker(is_shared_address(options.index) || options.index.empty() ? options.index : whole_paths({options.index}).front()) {
     if (missing) return;
     missing = missing_folder(library_folders({}, std::getenv("WALE_LIBRARY")), "WALE_LIBRARY");
     if (missing) missing->mend = "make it, or leave it out of the environment variable WALE_LIBRARY";
@@ -126,6 +130,16 @@ struct Library::Parts {
     FileRequest request{.device = options.device.empty() ? default_device : options.device, .roots = roots};
     request.sandbox = sandbox;
     if (trusted && !common->declarations.devices.contains(request.device)) request.devices = trusted->files;
+    return request;
+  }
+
+  /// How a search reads files. Errors: the library's own; an unknown device.
+  Result<FileRequest> search_request(const SearchOptions& options) const {
+    const CompileOptions compiled{.device = options.device};
+    if (auto sound = is_sound(compiled); !sound) return std::move(sound.error());
+    FileRequest request = this->request(compiled);
+    const auto known = device_names();
+    if (std::ranges::find(known, request.device) == known.end()) return unknown_device(request.device, known);
     return request;
   }
 
@@ -193,7 +207,10 @@ Result<> Library::folders_exist() const {
   return {};
 }
 
-Library::~Library() { parts_->worker.reset(); }  // its work uses the other parts
+Library::~Library() {
+  parts_->seeker.end();
+  parts_->worker.reset();  // its work uses the other parts
+}
 
 Result<Compiled> Library::find(const std::string& name, const CompileOptions& options) const {
   if (auto is_name = is_name_text("name", name); !is_name) return std::move(is_name.error());
@@ -290,29 +307,60 @@ Result<Presentation> Library::presentation(std::string_view text, const std::str
 }
 
 std::future<Result<Compiled>> Library::find_later(std::string name, CompileOptions options) const {
-  return parts_->worker->begin(
+  return parts_->worker->begin<Compiled>(
       [this, name = std::move(name), options = std::move(options)] { return find(name, options); });
 }
 
 std::future<Result<Compiled>> Library::level_later(std::string percept, std::string level,
                                                    CompileOptions options) const {
-  return parts_->worker->begin([this, percept = std::move(percept), level = std::move(level),
+  return parts_->worker->begin<Compiled>([this, percept = std::move(percept), level = std::move(level),
                                 options = std::move(options)] { return this->level(percept, level, options); });
 }
 
 std::future<Result<Compiled>> Library::compile_later(std::string text, CompileOptions options) const {
-  return parts_->worker->begin(
+  return parts_->worker->begin<Compiled>(
       [this, text = std::move(text), options = std::move(options)] { return compile(text, options); });
 }
 
 std::future<Result<Compiled>> Library::open_later(std::string path, CompileOptions options) const {
-  return parts_->worker->begin(
+  return parts_->worker->begin<Compiled>(
       [this, path = std::move(path), options = std::move(options)] { return open(path, options); });
 }
 
 std::future<Result<Compiled>> Library::open_later(std::vector<std::byte> bytes, CompileOptions options) const {
-  return parts_->worker->begin(
+  return parts_->worker->begin<Compiled>(
       [this, bytes = std::move(bytes), options = std::move(options)] { return open(std::span(bytes), options); });
+}
+
+Result<SearchResult> Library::search(const std::string& text, const SearchOptions& options) const {
+  const auto request = parts_->search_request(options);
+  return request ? parts_->seeker.search(text, options, *request) : request.error();
+}
+
+Result<SearchResult> Library::nearest(const std::string& material, const SearchOptions& options) const {
+  const auto request = parts_->search_request(options);
+  return request ? parts_->seeker.nearest(material, options, *request) : request.error();
+}
+
+Result<SearchResult> Library::between(const std::string& one, const std::string& other,
+                                      const SearchOptions& options) const {
+  const auto request = parts_->search_request(options);
+  return request ? parts_->seeker.between(one, other, options, *request) : request.error();
+}
+
+std::future<Result<SearchResult>> Library::search_later(std::string text, SearchOptions options) const {
+  return parts_->worker->begin<SearchResult>(
+      [this, text = std::move(text), options = std::move(options)] { return search(text, options); });
+}
+
+std::future<Result<SearchResult>> Library::nearest_later(std::string material, SearchOptions options) const {
+  return parts_->worker->begin<SearchResult>(
+      [this, material = std::move(material), options = std::move(options)] { return nearest(material, options); });
+}
+
+std::future<Result<SearchResult>> Library::between_later(std::string one, std::string other, SearchOptions options) const {
+  return parts_->worker->begin<SearchResult>([this, one = std::move(one), other = std::move(other),
+                                              options = std::move(options)] { return between(one, other, options); });
 }
 
 std::vector<DeclaredDevice> Library::devices() const {

@@ -1,6 +1,5 @@
 #include "library/by_name/worker.hpp"
 
-#include <exception>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -14,35 +13,31 @@ Worker::Queue::~Queue() {
     dropped_.swap(waiting_);
   }
   news_.notify_all();
-  for (Piece& each : dropped_) {
+  for (const auto& each : dropped_) {
     try {
-      each.result.set_value(Error{Code::wrong_moment,
-                                  "the library was destroyed before this was begun",
-                                  "keep the library until its futures are ready",
-                                  {.name = "library"}});
+      each->end({Code::wrong_moment,
+                 "the library was destroyed before this was begun",
+                 "keep the library until its futures are ready",
+                 {.name = "library"}});
     } catch (const std::bad_alloc&) {
-      each.result.set_exception(std::current_exception());
+      // Its future then throws that nobody kept its promise.
     }
   }
   thread_.reset();
 }
 
-std::future<Result<Compiled>> Worker::Queue::begin(Work work) {
-  Piece piece{std::move(work), {}};
-  auto result = piece.result.get_future();
+void Worker::Queue::begin(std::unique_ptr<Piece> piece) {
   const std::lock_guard lock(mutex_);
   try {
     if (!thread_) thread_.emplace([this] { serve(); });
   } catch (const std::system_error& refused) {
-    piece.result.set_value(Error{Code::short_of_resources,
-                                 std::string("the system gives no thread: ") + refused.what(),
-                                 "end other programs, or raise the limit on processes (ulimit -u)",
-                                 {.name = "library"}});
-    return result;
+    return piece->end({Code::short_of_resources,
+                       std::string("the system gives no thread: ") + refused.what(),
+                       "end other programs, or raise the limit on processes (ulimit -u)",
+                       {.name = "library"}});
   }
   waiting_.push_back(std::move(piece));
   news_.notify_one();
-  return result;
 }
 
 void Worker::Queue::serve() {
@@ -50,14 +45,10 @@ void Worker::Queue::serve() {
     std::unique_lock lock(mutex_);
     news_.wait(lock, [&] { return ends_ || !waiting_.empty(); });
     if (ends_) return;
-    Piece piece = std::move(waiting_.front());
+    const std::unique_ptr<Piece> piece = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
-    try {
-      piece.result.set_value(piece.work());
-    } catch (...) {
-      piece.result.set_exception(std::current_exception());
-    }
+    piece->run();
   }
 }
 

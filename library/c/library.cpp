@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "library/by_name/told.hpp"
+#include "library/c/future.hpp"
 #include "runtime/c/device.hpp"
 #include "runtime/c/profile.hpp"
 #include "runtime/c/program.hpp"
@@ -14,16 +16,6 @@
 #include "runtime/c/workspace.hpp"
 #include "schema/home_process.hpp"
 #include "wale/library.h"
-
-struct WaleLibrary {
-  wale::Library library;
-  std::vector<wale::DeclaredDevice> devices = library.devices();
-};
-
-struct WaleFuture {
-  std::future<wale::Result<wale::Compiled>> future;
-  wale::HomeProcess home = {};
-};
 
 namespace wale::c {
 namespace {
@@ -43,6 +35,9 @@ Result<LibraryOptions> read_library_options(const WaleLibraryOptions* options) {
     if (!folder) return std::move(folder).error();
     read.folders.push_back(*std::move(folder));
   }
+  auto index = read_path("index", given->index);
+  if (!index) return std::move(index).error();
+  read.index = *std::move(index);
   return read;
 }
 
@@ -131,12 +126,28 @@ WaleCode make_future(WaleLibrary* library, const WaleCompileOptions* options, Wa
     if (!read) return read.error();
     Result<Later> begun = make(library->library, *read);
     if (!begun) return std::move(begun).error();
-    hand_out(std::make_unique<WaleFuture>(WaleFuture{*std::move(begun)}), future);
+    hand_out(std::make_unique<WaleFuture>(WaleFuture{.program = *std::move(begun)}), future);
     return {};
   });
 }
 
 }  // namespace
+
+Result<> is_to_take(const WaleFuture* future, bool of_search) {
+  if (auto given = is_given("future", future); !given) return given;
+  const auto at_wrong_moment = [](const char* sentence, const char* mend) {
+    return about_argument("future", sentence, mend, Code::wrong_moment);
+  };
+  if (!future->home.is_here())
+    return at_wrong_moment("it is the parent process's, and this is a child of its fork", "begin it again in the child");
+  if (of_search != (future->state != nullptr))
+    return of_search ? at_wrong_moment("it is of a program", "take it by wale_future_take")
+                     : at_wrong_moment("it is of a search", "take it by wale_future_take_matches");
+  if (future->is_valid()) return {};
+  return of_search ? at_wrong_moment("its matches were taken already", "take them once, and keep them")
+                   : at_wrong_moment("its program was taken already", "take it once, and keep it");
+}
+
 }  // namespace wale::c
 
 using namespace wale::c;
@@ -263,23 +274,18 @@ int32_t wale_future_poll(const WaleFuture* future) { return wale_future_wait(fut
 int32_t wale_future_wait(const WaleFuture* future, double seconds) {
   if (future == nullptr) return 0;
   // It was ready when it was taken. One of another process is ready to say so.
-  if (!future->future.valid() || !future->home.is_here()) return 1;
+  if (!future->is_valid() || !future->home.is_here()) return 1;
   constexpr double longest = 1e9;         // s; 30 years do for ever
   const std::chrono::duration<double> time(seconds > 0 ? std::min(seconds, longest) : 0);
-  return future->future.wait_for(time) == std::future_status::ready;
+  const auto state = future->program.valid() ? future->program.wait_for(time) : future->matches.wait_for(time);
+  return state == std::future_status::ready;
 }
 
 WaleCode wale_future_take(WaleFuture* future, WaleProgram** program, WaleError** error) {
   return call(error, [&]() -> wale::Result<> {
     if (auto clear = clear_result("program", program); !clear) return clear;
-    if (auto given = is_given("future", future); !given) return given;
-    if (!future->home.is_here())
-      return about_argument("future", "it is the parent process's, and this is a child of its fork",
-                            "begin it again in the child", wale::Code::wrong_moment);
-    if (!future->future.valid())
-      return about_argument("future", "its program was taken already", "take it once, and keep it",
-                            wale::Code::wrong_moment);
-    return hand_out_program(future->future.get(), program);
+    if (auto ready = is_to_take(future, false); !ready) return ready;
+    return hand_out_program(future->program.get(), program);
   });
 }
 

@@ -1,15 +1,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "compiler/command/print.hpp"
-#include "compiler/modules/load_modules.hpp"
 #include "compiler/text/json_text.hpp"
 #include "library/command/index_here.hpp"
-#include "library/index/find.hpp"
+#include "library/store/seek.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale::command {
@@ -24,50 +24,34 @@ struct BetweenOptions {
 
 int between(const BetweenOptions& options) {
   warn_of_library_variable();
-  const auto here = index_here(options.choice);
+  const auto here = index_here(options.choice, {options.one, options.other});
   if (!here) return refuse(here.error());
-  const MaterialIndex& index = here->index();
-  const auto one = felt_material(index, options.choice, options.one);
-  if (!one) return refuse(one.error());
-  const auto other = felt_material(index, options.choice, options.other);
-  if (!other) return refuse(other.error());
-  const auto declared = common_modules();
-  const Comparer comparer(declared->declarations, index.device());
-  const BetweenProbe probe(comparer, one->cues, other->cues);
-  constexpr std::uint64_t usually_given = 10;
-  MaterialQuery sought{.texts = {}, .kind = options.kind, .feel = &probe, .without = one->is,
-                .most = options.most.value_or(usually_given)};
-  sought.without.insert(sought.without.end(), other->is.begin(), other->is.end());
-  const auto found = find_entries(index, sought);
+  const auto found = seek_between(here->index(), request_of(options.choice), options.one, options.other, options.kind,
+                                  options.most.value_or(usually_between));
   if (!found) return refuse(found.error());
-  const auto from = [&](const NearProbe& end, const FoundEntry& each) {
-    const MaterialIndex& all = index;
-    const auto meant = meant_entry(all, each.entry.module + "." + each.entry.name);
-    return end.tell(all.columns(), meant ? all.columns().row_of(*meant).value_or(0) : 0);
-  };
   if (options.json) {
     auto json = nlohmann::ordered_json::array();
-    for (const FoundEntry& each : found->entries)
-      json.push_back({{"name", each.entry.name},
-                      {"title", each.entry.title},
-                      {"kind", each.entry.kind},
-                      {"from_first", distance_json(from(probe.one(), each))},
-                      {"from_second", distance_json(from(probe.other(), each))}});
+    for (const FoundBetween::Each& each : found->found)
+      json.push_back({{"name", each.found.entry.name},
+                      {"title", each.found.entry.title},
+                      {"kind", each.found.entry.kind},
+                      {"from_first", distance_json(each.from_one)},
+                      {"from_second", distance_json(each.from_other)}});
     print_out(json_lines(json));
   }
-  if (found->entries.empty())
+  if (found->found.empty())
     return refuse(Error{.code = Code::unknown_name,
                         .sentence = fmt::format("no material lies between `{}` and `{}`: none is nearer to both than they are "
                                                 "to each other",
-                                                visible_text(one->name), visible_text(other->name)),
+                                                visible_text(found->one), visible_text(found->other)),
                         .mend = "`between(A, B, 0.5)` in a Wale file makes one of two settings of one material, `0.5 A + 0.5 B` "
                                 "mixes any two"});
   if (options.json) return done;
   std::size_t width = 0;
-  for (const FoundEntry& each : found->entries) width = std::max(width, each.entry.name.size());
-  for (const FoundEntry& each : found->entries)
-    print_out("{:{}}  from {}: {}\n{:{}}  from {}: {}\n", each.entry.name, width, one->name,
-              distance_text(from(probe.one(), each)), "", width, other->name, distance_text(from(probe.other(), each)));
+  for (const FoundBetween::Each& each : found->found) width = std::max(width, each.found.entry.name.size());
+  for (const FoundBetween::Each& each : found->found)
+    print_out("{:{}}  from {}: {}\n{:{}}  from {}: {}\n", each.found.entry.name, width, found->one,
+              distance_text(each.from_one), "", width, found->other, distance_text(each.from_other));
   return done;
 }
 

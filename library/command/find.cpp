@@ -11,7 +11,6 @@
 
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
-#include "compiler/modules/find_materials.hpp"
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/text/json_text.hpp"
@@ -19,8 +18,7 @@
 #include "compiler/typed_number.hpp"
 #include "library/command/index_here.hpp"
 #include "library/index/entry_json.hpp"
-#include "library/index/find.hpp"
-#include "library/index/words.hpp"
+#include "library/store/seek.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 
@@ -202,8 +200,6 @@ std::string felt_json(const FoundEntries& found) {
   return json_lines(all);
 }
 
-constexpr std::uint64_t usually_given = 20;
-
 int tell_found(const FindOptions& options, const Result<FoundEntries>& found) {
   if (!found) return refuse(found.error());
   if (options.json) print_out(felt_json(*found));
@@ -212,6 +208,9 @@ int tell_found(const FindOptions& options, const Result<FoundEntries>& found) {
                         .sentence = "no material is like that",
                         .mend = "ask for a wider range, or for fewer things at once"});
   if (!options.json) print_out(felt_text(*found));
+  if (!options.json && options.by_feel())
+    print_out("in the order of the least that they can differ by, in just noticeable differences; each cue that is unknown "
+              "counts as one more\n");
   return done;
 }
 
@@ -223,58 +222,16 @@ int find_by_feel(const FindOptions& options) {
     if (!level) return refuse(level.error());
     levels.push_back(*level);
   }
-  const auto here = index_here(options.choice);
+  std::vector<std::string> meant;
+  if (!options.near.empty()) meant.push_back(options.near);
+  const auto here = index_here(options.choice, meant);
   if (!here) return refuse(here.error());
-  const MaterialIndex& index = here->index();
-  const auto declared = common_modules();
-  const Comparer comparer(declared->declarations, index.device());
-  std::vector<std::unique_ptr<Probe>> probes;
-  MaterialQuery sought{.texts = options.texts, .kind = options.kind, .without = {}, .most = options.most.value_or(usually_given)};
-  if (!options.near.empty()) {
-    const auto felt = felt_material(index, options.choice, options.near);
-    if (!felt) return refuse(felt.error());
-    probes.push_back(std::make_unique<NearProbe>(comparer, felt->cues));
-    sought.without = felt->is;
-  }
-  if (!levels.empty()) {
-    auto probe = LevelProbe::make(levels, declared->declarations, index.device());
-    if (!probe) return refuse(probe.error());
-    probes.push_back(*std::move(probe));
-  }
-  std::unique_ptr<Probe> probe = std::move(probes.front());
-  if (probes.size() > 1) probe = std::make_unique<BothProbe>(std::move(probe), std::move(probes.back()));
-  sought.feel = probe.get();
-  return tell_found(options, find_entries(index, sought));
-}
-
-/// Whether a material has at least half of the words, or words that begin so.
-bool has_half_of(const Entry& entry, const std::vector<std::string>& words) {
-  const WordCounts counted = count_words(entry);
-  const auto has = [&](const std::string& word) {
-    return std::ranges::any_of(counted.weights, [&](const auto& each) { return each.first.starts_with(word); });
-  };
-  return 2 * static_cast<std::size_t>(std::ranges::count_if(words, has)) >= words.size();
-}
-
-/// Of texts of several words that no material has as they stand: those that have most of the words, the best first.
-Result<FoundEntries> found_by_words(const FindOptions& options, const LibraryIndex& catalogue) {
-  std::vector<std::string> words;
-  for (const std::string& text : options.texts)
-    for (std::string& word : words_of(text)) words.push_back(std::move(word));
-  std::vector<Entry> entries;
-  for (const IndexedMaterial& each : catalogue.materials())
-    if (each.origin != Origin::hidden) entries.push_back(entry_of(each));
-  const auto index = index_of(std::move(entries), default_device);
-  auto found = find_entries(*index, {.texts = options.texts,
-                                     .kind = options.kind,
-                                     .without = {},
-                                     .most = options.most.value_or(usually_given)});
-  if (found) std::erase_if(found->entries, [&](const FoundEntry& each) { return !has_half_of(each.entry, words); });
-  return found;
+  return tell_found(options, seek_by_feel(here->index(), request_of(options.choice),
+                                          {options.texts, options.kind, options.near, levels, options.most}));
 }
 
 int find(const FindOptions& options) {
-  if (options.by_feel()) return find_by_feel(options);
+  if (options.by_feel() || !options.choice.file.empty()) return find_by_feel(options);
   const std::vector<std::string> roots = library_folders(options.choice.folders, std::getenv("WALE_LIBRARY"));
   const auto resolver = file_resolver(roots);
   // The index of what a file in the current folder could import; there need not be such a file.
@@ -284,14 +241,11 @@ int find(const FindOptions& options) {
                             visible_text(left_out.front()),
                             left_out.size() > 1 ? fmt::format(" and {} more are", left_out.size() - 1) : " is",
                             most_indexed >> 20));
-  std::vector<FoundMaterial> found = find_materials(*index, options.texts, options.kind);
+  const FoundByWords words = seek_by_words(*index, {options.texts, options.kind, {}, {}, options.most});
+  const std::vector<FoundMaterial>& found = words.as_they_stand;
   warn_of_library_variable();
   say_unread(roots);
-  const bool has_phrase = std::ranges::any_of(options.texts, [](const std::string& each) { return each.find(' ') != std::string::npos; });
-  if (found.empty() && has_phrase)
-    if (const auto words = found_by_words(options, *index); words && !words->entries.empty())
-      return tell_found(options, words);
-  if (options.most && found.size() > *options.most) found.resize(*options.most);
+  if (!words.most_words.empty()) return tell_found(options, FoundEntries{words.most_words, words.most_words.size()});
   if (options.json) print_out(found_json(found));
   if (found.empty()) return refuse(why_nothing_is_found(*index, options.texts, options.kind));
   if (!options.json) print_out(found_text(found));

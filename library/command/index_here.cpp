@@ -5,34 +5,22 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "compiler/command/print.hpp"
 #include "compiler/modules/library_folders.hpp"
-#include "compiler/modules/load_modules.hpp"
 #include "compiler/text/readable.hpp"
-#include "library/index/content_hash.hpp"
-#include "library/index/find.hpp"
-#include "schema/visible_text.hpp"
 
 namespace wale::command {
-namespace {
-
-namespace fs = std::filesystem;
-
 FileRequest request_of(const IndexChoice& choice) {
   FileRequest request;
   request.device = choice.device, request.sandbox = choice.sandbox;
   request.roots = library_folders(choice.folders, std::getenv("WALE_LIBRARY"));
   return request;
 }
-
-}  // namespace
 
 void offer_index(CLI::App& verb, IndexChoice& choice) {
   must_say(verb.add_option("--index", choice.file,
@@ -45,102 +33,40 @@ void offer_index(CLI::App& verb, IndexChoice& choice) {
 }
 
 StoreProgress shown_progress() {
-  if (isatty(STDERR_FILENO) != 1) return {};
-  const auto told = std::make_shared<std::atomic<std::size_t>>(0);
-  return [told](std::size_t done, std::size_t all) {
-    if ((done % 16 == 0 || done == all) && done > told->exchange(done))
-      print_as_is(stderr, fmt::format("\r{} of {} files\033[K{}", done, all, done == all ? "\r\033[K" : ""));
+  using Clock = std::chrono::steady_clock;
+  struct Shown {
+    Clock::time_point begun = Clock::now(), last = begun;
+    bool said = false;
+  };
+  const bool is_terminal = isatty(STDERR_FILENO) == 1;
+  return [shown = std::make_shared<Shown>(), is_terminal](std::size_t done, std::size_t all) {
+    constexpr std::chrono::duration<double> moment(0.7), between(0.1), long_enough(3);
+    constexpr std::size_t enough_to_guess = 16;
+    const auto now = Clock::now();
+    if (is_terminal && done == all) {
+      if (shown->said) print_as_is(stderr, "\r\033[K");
+    } else if (now - shown->begun > (done < enough_to_guess ? long_enough : moment) && now - shown->last > between) {
+      const double seconds = std::chrono::duration<double>(now - shown->begun).count();
+      const double left = seconds / static_cast<double>(done) * static_cast<double>(all - done);
+      if (is_terminal)
+        print_as_is(stderr, fmt::format("\rreading the library for its index: {} of {} files, {:.0f} s left\033[K", done, all, left));
+      else if (!shown->said)
+        print_as_is(stderr, fmt::format("wale: the library is read for its index: {} files, about {:.0f} s; the next time "
+                                        "only what has changed is read\n", all, seconds + left));
+      shown->said = true, shown->last = now;
+    }
+    return true;
   };
 }
 
-std::string cache_folder() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  fs::path folder;
-  if (cache && *cache)
-    folder = fs::path(cache) / "wale";
-  else if (home && *home)
-    folder = fs::path(home) / ".cache" / "wale";
-  else
-    return {};
-  std::error_code ignored;
-  fs::create_directories(folder, ignored);
-  return folder.string();
-}
-
-std::string kept_index(const IndexChoice& choice, const std::vector<LibraryFile>& files) {
-  const fs::path folder = cache_folder();
-  if (folder.empty()) return {};
-  std::error_code trouble;
-  // One for each library. Files that are only in this binary are the same everywhere; others have relative names.
-  ContentHash hash;
-  hash.take(choice.device);
-  for (const std::string& root : library_folders(choice.folders, std::getenv("WALE_LIBRARY")))
-    hash.take(fs::absolute(root, trouble).string());
-  const bool has_files = std::ranges::any_of(files, [&](const LibraryFile& each) { return fs::exists(each.path, trouble); });
-  if (has_files) hash.take(fs::current_path(trouble).string());
-  return (folder / fmt::format("library-{}.index", hash.digits().substr(0, 16))).string();
-}
-
-Result<IndexHere> index_here(const IndexChoice& choice) {
+Result<IndexHere> index_here(const IndexChoice& choice, const std::vector<std::string>& meant) {
   IndexHere here;
-  if (!choice.file.empty()) {
-    auto opened = LibraryStore::open(choice.file, false, cache_folder());
-    if (!opened) return opened.error();
-    here.store = *std::move(opened);
-    if (!here.store->is_of_this_wale())
-      print_error("wale: warning: {} is of another build of Wale, whose maps may give other levels; `wale library index` "
-                  "brings it up to date\n",
-                  visible_text(without_password(choice.file)));
-    return here;
-  }
-  const FileRequest request = request_of(choice);
-  const auto resolver = file_resolver(request.roots);
-  const auto catalogue = library_index(*resolver, "here");
-  const std::vector<LibraryFile> files = library_files_in(*catalogue);
-  std::optional<Error> why;
-  if (const std::string path = kept_index(choice, files); path.empty()) {
-    why = Error{.code = Code::unwritable_file, .sentence = "neither XDG_CACHE_HOME nor HOME names a folder for it"};
-  } else if (auto opened = LibraryStore::open(path, true); !opened) {
-    why = opened.error();
-  } else if (auto report = (*opened)->bring_up_to_date(files, request, shown_progress()); !report) {
-    why = report.error();
-  } else {
-    here.store = *std::move(opened), here.report = *std::move(report);
-    return here;
-  }
-  print_error("wale: no index can be kept, so the whole library is read, which takes some seconds: {}\n",
-              visible_text(why->sentence));
-  here.in_memory = index_of(read_library(files, request, shown_progress()), choice.device);
+  const auto warn = [](const Error& warning) {
+    print_error("wale: {}{}\n", warning.sentence, warning.mend.empty() ? "" : "; " + warning.mend);
+  };
+  if (auto opened = open_index(here, choice.file, request_of(choice), meant, {shown_progress(), warn}); !opened)
+    return opened.error();
   return here;
-}
-
-Result<FeltMaterial> felt_material(const MaterialIndex& index, const IndexChoice& choice, const std::string& text) {
-  const auto unknown = [&](const std::string& name, const std::string& why) {
-    return Error{.code = Code::unknown_material,
-                 .sentence = fmt::format("it is not known what `{}` feels like: {}", visible_text(name), visible_text(why)),
-                 .mend = "take one that pushes",
-                 .place = {.name = text}};
-  };
-  const auto felt = [&](Entry entry, std::vector<std::uint32_t> is) -> Result<FeltMaterial> {
-    if (!entry.felt.cues)
-      return unknown(entry.name, entry.trouble.empty() ? "it only vibrates" : entry.trouble);
-    return FeltMaterial{entry.name, *std::move(entry.felt.cues), std::move(is)};
-  };
-  const auto meant = meant_entry(index, text);
-  if (meant) {
-    auto entry = index.entry(*meant);
-    if (!entry) return entry.error();
-    return felt(*std::move(entry), {*meant});
-  }
-  const std::string path = text.substr(0, text.find(".wale") == std::string::npos ? 0 : text.find(".wale") + 5);
-  if (path.empty()) return meant.error();
-  FileRequest request = request_of(choice);
-  request.device = index.device(), request.file = text;
-  auto read = read_entries(request, fs::path(path).stem().string());
-  if (!read) return read.error();
-  if (read->entries.empty()) return unknown(text, "the file declares no material");
-  return felt(std::move(read->entries.front()), {});
 }
 
 std::string distance_text(const Probe::Told& told) {

@@ -2,13 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "compiler/command/print.hpp"
-#include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
@@ -82,9 +80,7 @@ int make_index(LibraryIndexOptions& options) {
   if (options.roles) return print_out(roles_of_shared_index()), done;
   if (const auto fits = without_contradiction(options); !fits) return refuse(fits.error());
   warn_of_library_variable();
-  FileRequest request;
-  request.device = options.choice.device, request.sandbox = options.choice.sandbox;
-  request.roots = library_folders(options.choice.folders, std::getenv("WALE_LIBRARY"));
+  const FileRequest request = request_of(options.choice);
   const auto declared = common_modules();
   if (!declared->declarations.devices.contains(request.device))
     return refuse(Error{.code = Code::unknown_device,
@@ -101,7 +97,7 @@ int make_index(LibraryIndexOptions& options) {
     files = *std::move(named);
   }
   std::string path = options.out.empty() ? options.shared : options.out;
-  if (path.empty()) path = kept_index(options.choice, files);
+  if (path.empty()) path = kept_index(request, files);
   if (path.empty())
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = "expected a file for the index, since neither XDG_CACHE_HOME nor HOME names a place",

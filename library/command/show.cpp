@@ -68,7 +68,7 @@ std::string entry_text(const Entry& entry) {
 
 int show(const ShowOptions& options) {
   warn_of_library_variable();
-  const auto here = index_here(options.choice);
+  const auto here = index_here(options.choice, {options.name});
   if (!here) return refuse(here.error());
   const MaterialIndex& index = here->index();
   const auto meant = meant_entry(index, options.name);

@@ -5,5 +5,6 @@
 
 #include "wale/library.h"
 #include "wale/runtime.h"
+#include "wale/search.h"
 
 #endif

@@ -25,9 +25,9 @@ class ContentHash {
   std::unique_ptr<State> state_;
 };
 
-/// What names this build of Wale: the linker's build id of the program or shared library that this code is part of, in
-/// hexadecimal digits, so that another compiler, map, threshold or device is another build. If the linker gave none, the
-/// hash of all files of the language that are part of it.
+/// What names this build of Wale, in hexadecimal digits: the hash of the objects of machine, reader and compiler with all
+/// that is embedded in them, so that another compiler, map, threshold or device is another build. The command line and
+/// the library for programs of one build have the same.
 const std::string& compiler_build();
 
 }  // namespace wale

@@ -119,7 +119,7 @@ Result<FoundEntries> find_entries(const MaterialIndex& index, const MaterialQuer
     FoundEntry& found = all.entries.emplace_back();
     found.why = why_found(*entry, words);
     found.entry = *std::move(entry);
-    found.score = each.score;
+    found.row = each.row, found.score = each.score;
     if (sought.feel) found.apart = sought.feel->tell(columns, each.row);
   }
   return all;
@@ -159,7 +159,8 @@ Result<std::uint32_t> meant_entry(const MaterialIndex& index, std::string_view t
   return Error{.code = Code::unknown_name,
                .sentence = fmt::format("no material of the index is called `{}`", visible_text(text)),
                .mend = near ? fmt::format("the nearest: `{}`", near->second) : "`wale find WORD` searches the library",
-               .place = {.name = std::string(text)}};
+               .place = {.name = std::string(text)},
+               .nearest = near ? std::vector{near->second} : std::vector<std::string>{}};
 }
 
 }  // namespace wale

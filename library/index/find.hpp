@@ -24,6 +24,7 @@ struct MaterialQuery {
 /// A material that was found.
 struct FoundEntry {
   Entry entry;
+  std::size_t row = 0;               ///< of the index's columns
   double score = 0;                  ///< of its words (`search`), the sum over the texts; 0 without texts
   Finding why;                       ///< where its words are
   std::optional<Probe::Told> apart;  ///< if it was sought by feel

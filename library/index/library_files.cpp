@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "compiler/text/embedded_files.hpp"
@@ -15,23 +17,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The module of a file as imports of its library name it: by its way from the nearest folder with a `wale.project`, or
+/// Names modules as imports of their library name them: by their way from the nearest folder with a `wale.project`, or
 /// else from the folder that was named.
-std::string module_of(const fs::path& file, const fs::path& named) {
-  std::error_code ignored;
-  fs::path root = named;
-  for (fs::path folder = fs::absolute(file, ignored).parent_path(); folder != folder.parent_path();
-       folder = folder.parent_path())
-    if (fs::exists(folder / project_marker, ignored)) {
+class ModuleNames {
+ public:
+  std::string of(const fs::path& file, const fs::path& named) {
+    std::error_code ignored;
+    const fs::path whole = fs::absolute(file, ignored).lexically_normal();
+    const std::optional<fs::path>& root = root_of(whole.parent_path());
+    fs::path way = whole.lexically_relative(root ? *root : fs::absolute(named, ignored).lexically_normal());
+    if (way.empty() || way.begin()->string() == "..") way = file.filename();
+    std::string module;
+    for (const fs::path& part : way.replace_extension()) module += (module.empty() ? "" : ".") + part.string();
+    return module;
+  }
+
+ private:
+  /// The nearest folder with a `wale.project`, of a whole path; each is looked into once.
+  const std::optional<fs::path>& root_of(const fs::path& folder) {
+    const auto [known, is_new] = roots_.try_emplace(folder.string());
+    if (!is_new) return known->second;
+    std::error_code ignored;
+    std::optional<fs::path> root;
+    if (fs::exists(folder / project_marker, ignored))
       root = folder;
-      break;
-    }
-  fs::path way = fs::relative(file, root, ignored);
-  if (way.empty() || way.begin()->string() == "..") way = file.filename();
-  std::string module;
-  for (const fs::path& part : way.replace_extension()) module += (module.empty() ? "" : ".") + part.string();
-  return module;
-}
+    else if (folder != folder.parent_path())
+      root = root_of(folder.parent_path());
+    return roots_[folder.string()] = std::move(root);
+  }
+
+  std::map<std::string, std::optional<fs::path>> roots_;
+};
 
 Error nothing_here(const std::string& path, Code code, std::string sentence) {
   return Error{.code = code,
@@ -56,8 +72,9 @@ Result<std::vector<LibraryFile>> library_files_in(const std::vector<std::string>
     return files;
   }
   std::set<std::string> seen;
+  ModuleNames modules;
   const auto add = [&](const fs::path& file, const fs::path& named) {
-    if (seen.insert(file.string()).second) files.push_back({file.string(), module_of(file, named)});
+    if (seen.insert(file.string()).second) files.push_back({file.string(), modules.of(file, named)});
   };
   for (const std::string& path : paths) {
     std::error_code trouble;

@@ -132,15 +132,22 @@ Finding why_found(const Entry& entry, const std::vector<std::string>& sought) {
       return std::tie(has_more, place) > std::tie(other.has_more, other.place);
     }
   };
+  struct Read {
+    FoundIn place;
+    const std::string* text;
+    std::vector<std::string> words;
+  };
+  std::vector<Read> read;
+  if (!sought.empty())
+    each_text(entry, [&](FoundIn place, std::uint32_t, const std::string& text) { read.push_back({place, &text, words_of(text)}); });
   Place shown{false, FoundIn::name, entry.name};
   for (const std::string& word : sought) {
     std::optional<Place> first;
-    each_text(entry, [&](FoundIn place, std::uint32_t, const std::string& text) {
-      const std::vector<std::string> words = words_of(text);
-      if (std::ranges::none_of(words, [&](const std::string& each) { return each.starts_with(word); })) return;
-      Place here{words != sought, place, text};
+    for (const Read& each : read) {
+      if (std::ranges::none_of(each.words, [&](const std::string& has) { return has.starts_with(word); })) continue;
+      Place here{each.words != sought, each.place, *each.text};
       if (!first || first->is_after(here)) first = std::move(here);
-    });
+    }
     if (first && first->is_after(shown)) shown = *std::move(first);
   }
   return {shown.place, std::move(shown.text)};

@@ -29,8 +29,8 @@ struct StoreReport {
   std::vector<Troubled> kept_back;  ///< those that a shared index does not take, since nobody may pass them on
 };
 
-/// Told while files are read: how many of how many. Called from several threads.
-using StoreProgress = std::function<void(std::size_t done, std::size_t all)>;
+/// Told while files are read: how many of how many; returns whether to go on. Called from several threads, one at a time.
+using StoreProgress = std::function<bool(std::size_t done, std::size_t all)>;
 
 /// What a shared index is told of the files that it is given. One in a file holds what it is given and nothing else.
 struct Shelf {
@@ -55,8 +55,9 @@ class LibraryStore {
 
   /// Brings it up to date with these files for `request.device`: reads those that are new, or of which anything that
   /// they rest on has changed, on all cores. An index in a file forgets all others; a shared one has also what others gave
-  /// it, and of one file the old or the new materials, never a part. Errors: W0505 and those of the database; of a shared
-  /// index also W0910 for a file outside any library, and W0607 for another device than the index has.
+  /// it, and of one file the old or the new materials, never a part. Errors: W0706 if `tell` ends it, and what was read is
+  /// kept; W0505 and those of the database; of a shared index also W0910 for a file outside any
+  /// library, and W0607 for another device than the index has.
   virtual Result<StoreReport> bring_up_to_date(const std::vector<LibraryFile>& files, const FileRequest& request,
                                                const StoreProgress& tell = {}, const Shelf& shelf = {}) = 0;
   /// Whether it was brought up to date by this build of Wale. Maps and levels of another one may be others.
@@ -72,8 +73,8 @@ bool is_shared_address(std::string_view text);
 std::string without_password(std::string_view address);
 
 /// The entries of files, without a store: each is compiled and read. A file that cannot be read is one entry with its
-/// trouble. Uses all cores.
-std::vector<Entry> read_library(const std::vector<LibraryFile>& files, const FileRequest& request,
+/// trouble. Uses all cores. Error: W0706 if `tell` ends it.
+Result<std::vector<Entry>> read_library(const std::vector<LibraryFile>& files, const FileRequest& request,
                                 const StoreProgress& tell = {});
 
 }  // namespace wale

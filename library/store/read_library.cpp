@@ -43,7 +43,8 @@ ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, 
 Result<> read_library_files(const std::vector<LibraryFile>& files, const std::vector<std::size_t>& which,
                             const FileRequest& request, bool to_pass_on, const StoreProgress& tell,
                             const std::function<Result<>(std::size_t which, ReadFile read)>& keep) {
-  std::atomic<std::size_t> next{0}, done{0};
+  std::atomic<std::size_t> next{0};
+  std::size_t done = 0;
   std::mutex lock;
   std::optional<Error> trouble;
   in_parallel(which.size(), [&](std::size_t, std::size_t) {
@@ -54,8 +55,13 @@ Result<> read_library_files(const std::vector<LibraryFile>& files, const std::ve
         if (trouble) return;
         if (const auto kept = keep(which[i], std::move(read)); !kept) trouble = kept.error();
       }
-      const std::size_t count = ++done;
-      if (tell) tell(count, which.size());
+      const std::lock_guard guard(lock);
+      if (trouble) return;
+      if (tell && !tell(++done, which.size()) && done < which.size())
+        trouble = Error{.code = Code::stopped,
+                        .sentence = "stopped before the library was read",
+                        .mend = "begin again: what was read is kept",
+                        .place = {.name = "index"}};
     }
   });
   return trouble ? Result<>(*std::move(trouble)) : Result<>();
@@ -72,32 +78,44 @@ FileHashes hashes_of(const std::vector<LibraryFile>& files, const std::vector<st
   return hashes;
 }
 
+std::string HashesOnce::of(const std::string& path) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = known_.find(path); known != known_.end()) return known->second;
+  }
+  std::string hash = hash_of_file(path);
+  const std::lock_guard lock(mutex_);
+  return known_.try_emplace(path, std::move(hash)).first->second;
+}
+
 std::string rests_on_text(const std::vector<std::pair<std::string, std::string>>& rests_on) {
   using Json = nlohmann::json;
   return Json(rests_on).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 bool is_unchanged(const KnownFile& known, const std::string& module, const std::string& name, const std::string& hash,
-                  const std::string& others, const std::function<std::string(const std::string& name)>& path_of) {
+                  const std::string& others, HashesOnce& hashes,
+                  const std::function<std::string(const std::string& name)>& path_of) {
   if (known.module != module || (!known.others.empty() && known.others != others)) return false;
   const auto rests_on = nlohmann::json::parse(known.rests_on, nullptr, false);
   if (!rests_on.is_array()) return false;
   return std::ranges::all_of(rests_on, [&](const nlohmann::json& each) {
     if (!each.is_array() || each.size() != 2 || !each[0].is_string() || !each[1].is_string()) return false;
     const auto& path = each[0].get_ref<const std::string&>();
-    return (path == name ? hash : hash_of_file(path_of(path))) == each[1].get_ref<const std::string&>();
+    return (path == name ? hash : hashes.of(path_of(path))) == each[1].get_ref<const std::string&>();
   });
 }
 
-std::vector<Entry> read_library(const std::vector<LibraryFile>& files, const FileRequest& request,
+Result<std::vector<Entry>> read_library(const std::vector<LibraryFile>& files, const FileRequest& request,
                                 const StoreProgress& tell) {
   std::vector<std::size_t> all(files.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   std::vector<ReadFile> read(files.size());
-  static_cast<void>(read_library_files(files, all, request, false, tell, [&](std::size_t i, ReadFile each) -> Result<> {
+  const auto done = read_library_files(files, all, request, false, tell, [&](std::size_t i, ReadFile each) -> Result<> {
     read[i] = std::move(each);
     return {};
-  }));  // keeping cannot fail
+  });
+  if (!done) return done.error();
   std::vector<Entry> entries;
   for (ReadFile& each : read)
     for (Entry& entry : each.entries) entries.push_back(std::move(entry));

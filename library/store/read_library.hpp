@@ -1,6 +1,8 @@
 #pragma once
 
+#include <mutex>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -21,7 +23,7 @@ struct ReadFile {
 ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, bool to_pass_on = false);
 
 /// Reads `files[i]` for each `i` of `which`, on all cores, and hands each to `keep`, one at a time, in any order. Ends at
-/// the first error of `keep`, which it returns.
+/// the first error of `keep`, which it returns, or with W0706 where `tell` ends it.
 Result<> read_library_files(const std::vector<LibraryFile>& files, const std::vector<std::size_t>& which,
                             const FileRequest& request, bool to_pass_on, const StoreProgress& tell,
                             const std::function<Result<>(std::size_t which, ReadFile read)>& keep);
@@ -32,6 +34,16 @@ struct FileHashes {
   std::string all;
 };
 FileHashes hashes_of(const std::vector<LibraryFile>& files, const std::vector<std::string>& names);
+
+/// The hashes of files that many others rest on, as a library's `wale.project`: each is read once. Thread-safe.
+class HashesOnce {
+ public:
+  std::string of(const std::string& path);
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<std::string, std::string> known_;
+};
 
 /// What an index knows of a file that it holds.
 struct KnownFile {
@@ -46,6 +58,7 @@ std::string rests_on_text(const std::vector<std::pair<std::string, std::string>>
 /// Whether all that a file rests on is as it was: the file itself, of which `hash` is known and `name` is the name in the
 /// index, and the others, whose paths on this machine `path_of` tells. Thread-safe.
 bool is_unchanged(const KnownFile& known, const std::string& module, const std::string& name, const std::string& hash,
-                  const std::string& others, const std::function<std::string(const std::string& name)>& path_of);
+                  const std::string& others, HashesOnce& hashes,
+                  const std::function<std::string(const std::string& name)>& path_of);
 
 }  // namespace wale

@@ -210,12 +210,13 @@ Result<StoreReport> SharedStore::bring_up_to_date(const std::vector<LibraryFile>
                                              std::string(all->text(i, 3))};
   }
   for (const std::string& key : keys) gone.erase(key);
+  HashesOnce hashes_once;
   std::vector<char> changed(files.size(), 1);
   in_parallel(files.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const SharedFile& place = (*places)[i];
       if (const auto found = known.find(keys[i]); found != known.end())
-        changed[i] = !is_unchanged(found->second, files[i].module, place.way, hashes.each[i], hashes.all,
+        changed[i] = !is_unchanged(found->second, files[i].module, place.way, hashes.each[i], hashes.all, hashes_once,
                                    [&](const std::string& way) { return (std::filesystem::path(place.root) / way).string(); });
     }
   });
@@ -249,8 +250,9 @@ Result<StoreReport> SharedStore::bring_up_to_date(const std::vector<LibraryFile>
     constexpr std::size_t files_at_once = 32;
     return waiting.size() < files_at_once ? Result<>() : put();
   });
-  if (!read) return read.error();
+  if (!read && read.error().code != Code::stopped) return read.error();
   if (const auto done = put(); !done) return done.error();
+  if (!read) return read.error();
   if (shelf.is_whole && !gone.empty()) {
     const std::vector<std::string> lost(gone.begin(), gone.end());
     if (shelf.forgets) {

@@ -226,11 +226,12 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
     known[std::string(all.text(0))] = {std::string(all.text(1)), std::string(all.text(2)), std::string(all.text(3))};
   if (const auto came = all.trouble(); !came) return came.error();
 
+  HashesOnce hashes_once;
   std::vector<char> changed(files.size(), 1);
   in_parallel(files.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       if (const auto found = known.find(files[i].path); is_of_this && found != known.end())
-        changed[i] = !is_unchanged(found->second, files[i].module, files[i].path, hashes.each[i], hashes.all,
+        changed[i] = !is_unchanged(found->second, files[i].module, files[i].path, hashes.each[i], hashes.all, hashes_once,
                                    [](const std::string& path) { return path; });
   });
   std::set<std::string> paths;
@@ -264,7 +265,7 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
     // A change that a killed process leaves unfinished has another generation than the columns.
     if (const auto begun = database_.execute("BEGIN IMMEDIATE"); !begun) return begun.error();
     if (const auto updated = update(); !updated) {
-      (void)database_.execute("ROLLBACK");
+      (void)database_.execute(updated.error().code == Code::stopped ? "COMMIT" : "ROLLBACK");
       return updated.error();
     }
     if (const auto committed = database_.execute("COMMIT"); !committed) return committed.error();

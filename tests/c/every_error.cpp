@@ -62,7 +62,8 @@ void keep_given() {
   DO(WaleFuture, future)                                                                                             \
   DO(WaleProgram, program) DO(WaleDevices, devices) DO(WaleDevice, device) DO(WaleStage, stage) DO(WalePatch, patch) \
       DO(WaleEdit, edit) DO(WaleLoop, loop) DO(WaleRun, run) DO(WaleFelt, felt) DO(WaleShape, shape)                 \
-          DO(WaleSnapshot, snapshot) DO(WaleRecording, recording) DO(WaleWorkspace, workspace)
+          DO(WaleSnapshot, snapshot) DO(WaleRecording, recording) DO(WaleWorkspace, workspace) \
+          DO(WaleMatches, matches)
 
 std::string folder;                                    // for files
 std::vector<std::string> paths, texts;                 // of files, and for names
@@ -135,7 +136,7 @@ DRAW_RESULT(WaleProfile)
 DRAW_RESULT(WaleProgramDetails) DRAW_RESULT(WaleParameter) DRAW_RESULT(WalePercept) DRAW_RESULT(WaleRecordingDetails)
     DRAW_RESULT(WaleReplay) DRAW_RESULT(WaleRunFigures) DRAW_RESULT(WaleFeltFigures) DRAW_RESULT(WaleFeltLevel)
         DRAW_RESULT(WaleGrid) DRAW_RESULT(WaleWorkspaceDetails) DRAW_RESULT(WaleWorkspacePatch)
-            DRAW_RESULT(WaleWorkspaceMark)
+            DRAW_RESULT(WaleWorkspaceMark) DRAW_RESULT(WaleMatch)
 
     /// Options: mostly all 0, with some fields set by `set`.
     template <class Struct, class Set>
@@ -186,18 +187,36 @@ void draw(const WaleRunOptions*& to) {
 void draw(const WaleMeasureOptions*& to) {
   draw_options(to, [](WaleMeasureOptions& its) { draw_field(its.settling, its.stuck_seconds, its.stuck_counts); });
 }
+/// A search by feel in it says what is wrong: the library would take too long to be read here.
+std::string no_index;
+WaleLibraryOptions with_no_index() {
+  WaleLibraryOptions its{};
+  its.size = sizeof its, its.index = text_of(no_index);
+  return its;
+}
 void draw(const WaleLibraryOptions*& to) {
   static thread_local WaleText folders[2];
+  static const WaleLibraryOptions usual = with_no_index();
   draw_options(to, [](WaleLibraryOptions& its) {
+    its.index = text_of(no_index);
     for (WaleText& each : folders) draw(each);
     if (below(2)) folders[0] = folders[1] = text_of(folder);
     if (below(2)) its.folders = folders;
     draw_field(its.unsandboxed_pictures, its.reserved, its.folder_count);
     if (its.folder_count > 2) its.folder_count = 2;
   });
+  if (to == nullptr || (to->size == sizeof *to && to->index.length == 0)) to = &usual;
 }
 void draw(const WaleCompileOptions*& to) {
   draw_options(to, [](WaleCompileOptions& its) { draw_field(its.device, its.material, its.name); });
+}
+void draw(const WaleSearchOptions*& to) {
+  static thread_local WalePerceptRange range;
+  draw_options(to, [](WaleSearchOptions& its) {
+    draw(range.percept), draw(range.low), draw(range.high);
+    if (below(3) == 0) its.percepts = &range, its.percept_count = 1;
+    draw_field(its.kind, its.near, its.most, its.device);
+  });
 }
 void draw(const WaleWorkspaceOptions*& to) {
   draw_options(to, [](WaleWorkspaceOptions& its) {
@@ -315,6 +334,7 @@ void prepare() {
   char name[] = "/tmp/wale_every_error_XXXXXX";
   folder = mkdtemp(name);
   if (chdir(folder.c_str()) != 0) std::abort();
+  no_index = folder + "/good.wale";
   setenv("XDG_CONFIG_HOME", (folder + "/config").c_str(), 1);
   texts = {"",
            " ",
@@ -371,7 +391,8 @@ void owner_declares(const std::string& text) {
   write("config/wale/devices.wale", text);
   for (WaleLibrary* each : made<WaleLibrary>) wale_library_free(each);
   made<WaleLibrary>.clear();
-  note("wale_library_create", wale_library_create(nullptr, &given<WaleLibrary>, &error));
+  const WaleLibraryOptions its = with_no_index();
+  note("wale_library_create", wale_library_create(&its, &given<WaleLibrary>, &error));
 }
 
 void try_all() {
@@ -399,7 +420,7 @@ void take_back() {
 }
 #define MAY_BE_SHARED(DO)                                                                                             \
   DO(WaleLibrary) DO(WaleProgram) DO(WaleDevices) DO(WaleDevice) DO(WaleStage) DO(WalePatch) DO(WaleRun) DO(WaleFelt) \
-      DO(WaleShape) DO(WaleRecording) DO(WaleWorkspace)
+      DO(WaleShape) DO(WaleRecording) DO(WaleWorkspace) DO(WaleMatches)
 
 /// Several threads call all functions at the same time, also with the same handles.
 void try_at_once(int times, int threads, unsigned seed) {
@@ -427,7 +448,8 @@ int main(int count, char** arguments) {
   prepare();
 #define FREED(Handle, name) freed_by<Handle> = wale_##name##_free;
   EVERY_HANDLE(FREED)
-  note("wale_library_create", wale_library_create(nullptr, &given<WaleLibrary>, &error));
+  const WaleLibraryOptions its = with_no_index();
+  note("wale_library_create", wale_library_create(&its, &given<WaleLibrary>, &error));
   WaleProgram* corduroy = nullptr;
   if (made<WaleLibrary>.empty() ||
       wale_library_find(made<WaleLibrary>[0], WALE_TEXT("corduroy"), nullptr, &corduroy, nullptr) != 0)

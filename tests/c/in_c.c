@@ -261,6 +261,42 @@ static void futures(void) {
   CHECK_MALFORMED(wale_library_find_later(library, WALE_TEXT("a"), NULL, NULL, &error));
 }
 
+/* By words: what a search by feel finds is tested from Python, which makes the same calls. */
+static void searches(void) {
+  WaleMatches *matches = NULL, *later = NULL;
+  WaleMatch match = {.size = sizeof match};
+  WaleFuture *future = NULL, *of_program = NULL;
+  WaleProgram* program = NULL;
+  size_t done = 7, all = 7;
+  CHECK_GOOD(wale_library_search(library, WALE_TEXT("rough ribbed cotton"), NULL, &matches, &error));
+  CHECK(wale_matches_count(matches) >= 1 && wale_matches_warning(matches, 0) == NULL);
+  CHECK_GOOD(wale_matches_match(matches, 0, &match, &error));
+  CHECK(is_text(match.name, "corduroy") && is_text(match.found_by, "called") && is_text(match.found_in, "ribbed cotton"));
+  CHECK(match.score > 0 && isnan(match.low) && isnan(match.other_high) && match.unknown == 0);
+  CHECK(wale_matches_unknown(matches, 0, 0).length == 0 && wale_matches_other_unknown(matches, 99999, 0).length == 0);
+  CHECK_MALFORMED(wale_matches_match(matches, wale_matches_count(matches), &match, &error));
+  CHECK_GOOD(wale_library_search_later(library, WALE_TEXT("ribbed"), NULL, &future, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_future_take(future, &program, &error));
+  CHECK(wale_future_wait(future, INFINITY) == 1);
+  wale_future_progress(future, &done, &all);
+  CHECK(done == 0 && all == 0); /* words need no index */
+  wale_future_cancel(future);   /* too late */
+  CHECK_GOOD(wale_future_take_matches(future, &later, &error));
+  CHECK(wale_matches_count(later) > 0);
+  wale_matches_free(later);
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_future_take_matches(future, &later, &error));
+  CHECK_GOOD(wale_library_find_later(library, WALE_TEXT("corduroy"), NULL, &of_program, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_future_take_matches(of_program, &later, &error));
+  wale_future_progress(NULL, NULL, NULL), wale_future_cancel(NULL), wale_future_cancel(of_program);
+  const WalePerceptRange range = {.percept = WALE_TEXT("roughness"), .low = 0.7, .high = 0.4};
+  const WaleSearchOptions wrong = {.size = sizeof wrong, .percepts = &range, .percept_count = 1};
+  CHECK_CODE(WALE_CODE_level_out_of_range, wale_library_search(library, WALE_TEXT(""), &wrong, &later, &error));
+  CHECK_CODE(WALE_CODE_unknown_name, wale_library_nearest(library, WALE_TEXT("corderoy"), NULL, &later, &error));
+  CHECK_CODE(WALE_CODE_unknown_name, wale_library_between(library, WALE_TEXT("slate"), WALE_TEXT("nix"), NULL, &later, &error));
+  wale_future_free(future), wale_future_free(of_program), wale_matches_free(matches), wale_matches_free(NULL);
+  CHECK(later == NULL && wale_matches_count(NULL) == 0);
+}
+
 static void* find_denim(void* found) {
   CHECK_GOOD(wale_library_find(library, WALE_TEXT("denim"), NULL, (WaleProgram**)found, &error));
   return NULL;
@@ -279,7 +315,7 @@ int main(void) {
   CHECK(wale_handles() == 0);
   CHECK_GOOD(wale_library_create(NULL, &library, &error));
   CHECK_GOOD(wale_library_find(library, WALE_TEXT("corduroy"), NULL, &corduroy, &error));
-  run_parts((Part[]){errors, texts, sizes, programs, warnings, libraries, futures, two_threads, NULL});
+  run_parts((Part[]){errors, texts, sizes, programs, warnings, libraries, futures, searches, two_threads, NULL});
   failures += stage_parts() + running_parts() + workspace_parts() + null_parts();
   wale_program_free(corduroy);
   wale_library_free(library);

@@ -57,6 +57,19 @@ static void libraries(void) {
   CHECK_NULL("library", wale_library_profile(NULL, name, &profile, &error));
   CHECK_NULL("library", wale_library_open_device(NULL, name, NULL, &device, &error));
   CHECK_NULL("future", wale_future_take(NULL, &program, &error));
+  WaleMatches* matches = NULL;
+  WaleMatch match = {.size = sizeof match};
+  CHECK_NULL("library", wale_library_search(NULL, name, NULL, &matches, &error));
+  CHECK_NULL("library", wale_library_nearest(NULL, name, NULL, &matches, &error));
+  CHECK_NULL("library", wale_library_between(NULL, name, name, NULL, &matches, &error));
+  CHECK_NULL("library", wale_library_search_later(NULL, name, NULL, &future, &error));
+  CHECK_NULL("library", wale_library_nearest_later(NULL, name, NULL, &future, &error));
+  CHECK_NULL("library", wale_library_between_later(NULL, name, name, NULL, &future, &error));
+  CHECK_NULL("future", wale_future_take_matches(NULL, &matches, &error));
+  CHECK_NULL("matches", wale_matches_match(NULL, 0, &match, &error));
+  CHECK_NO_PLACE("matches", wale_library_search(library, name, NULL, NULL, &error));
+  CHECK_NO_PLACE("future", wale_library_search_later(library, name, NULL, NULL, &error));
+  CHECK(matches == NULL);
   CHECK(program == NULL && future == NULL && workspace == NULL && devices == NULL && device == NULL);
 
   CHECK_NO_PLACE("library", wale_library_create(NULL, NULL, &error));

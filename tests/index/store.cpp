@@ -87,7 +87,7 @@ TEST_F(Store, AnswersAsAnIndexInMemoryDoes) {
     write("shelf/m" + std::to_string(i) + ".wale",
           "wale 1\n" + material("m" + std::to_string(i), 0.25 + 0.05 * i, 1.5 + 0.2 * (i * 5 % 12)));
   const auto store = updated();
-  const auto memory = index_of(read_library(files(), {}), default_device);
+  const auto memory = index_of(*read_library(files(), {}), default_device);
   const Declarations& declarations = common_modules()->declarations;
   const Comparer comparer(declarations, default_device);
   for (const MaterialIndex* index : {&store->index(), static_cast<const MaterialIndex*>(memory.get())}) ASSERT_EQ(index->columns().size(), 12u);

@@ -74,8 +74,11 @@ class Maker:
                 "find": ("corduroy",), "level": ("roughness", 0.5), "compile": text["text"], "open_bytes": (bytes(self.corduroy),),
                 "open": (self.folder / "corduroy.wpp",), "workspace": ("wale 1\n",), "open_workspace": (self.folder / "no.wws",),
                 "find_later": ("corduroy",), "level_later": ("roughness", 0.5), "compile_later": text["text"],
-                "open_later": (self.folder / "corduroy.wpp",), "devices": (), "profile": ("sandpaper",), "open_device": ("simulated",)}),
-            wale.Future: (lambda: self.library.find_later("corduroy"), {"poll": (), "wait": (), "take": ()}),
+                "open_later": (self.folder / "corduroy.wpp",), "devices": (), "profile": ("sandpaper",), "open_device": ("simulated",),
+                "search": ("ribbed",), "search_later": ("ribbed",),  # by feel, a library would have to be read first
+                "nearest": ("nix",), "nearest_later": ("nix",), "between": ("nix", "nix"), "between_later": ("nix", "nix")}),
+            wale.Future: (lambda: self.library.find_later("corduroy"), {
+                "poll": (), "wait": (), "take": (), "take_matches": (), "progress": (), "cancel": ()}),
             wale.Program: (lambda: wale.Program.load(bytes(self.nap)), {
                 "load": None, "parameters": None, "percepts": None, "warnings": None, "__bytes__": (), "profile": None}),
             wale.Device: (self.stick, {"profile": None}),

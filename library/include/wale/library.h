@@ -14,7 +14,7 @@ extern "C" {
    thread needs a stack of 8 MB. What they return is independent of the library. */
 typedef struct WaleLibrary WaleLibrary;
 
-/* A program that is being made. One thread at a time uses it. It may outlive its library. */
+/* A program that is being made, or a search (wale/search.h). One thread at a time uses it. It may outlive its library. */
 typedef struct WaleFuture WaleFuture;
 
 /* All 0 is the default. */
@@ -26,6 +26,8 @@ typedef struct WaleLibraryOptions {
   size_t folder_count;
   int32_t unsandboxed_pictures; /* 1: decodes a stranger's picture also where the system offers no sandbox */
   int32_t reserved;             /* 0 */
+  WaleText index; /* in which searches look, as it stands: a file, or postgresql://USER@HOST/DATABASE, that `wale library index`
+                     makes; empty: one in the user's cache, that of the command line, which is brought up to date */
 } WaleLibraryOptions;
 
 /* All 0 is the default. */

@@ -13,6 +13,7 @@
 #include "wale/devices.hpp"
 #include "wale/program.hpp"
 #include "wale/result.hpp"
+#include "wale/search.hpp"
 #include "wale/simulated.hpp"
 
 namespace wale {
@@ -34,6 +35,10 @@ struct LibraryOptions {
   /// Whether a stranger's picture may be decoded where the system offers no sandbox for its decoder. Otherwise a
   /// material that needs it is an error there (W0807).
   bool unsandboxed_pictures = false;
+  /// The index in which `search`, `nearest` and `between` look, as it stands: a file, or postgresql://USER@HOST/DATABASE,
+  /// that `wale library index` makes. Empty: one in the user's cache, which is that of the command line for the same
+  /// folders, and which each search by feel brings up to date.
+  std::string index = {};
 };
 
 /// How a text becomes a program.
@@ -129,6 +134,24 @@ class Library {
   std::future<Result<Compiled>> compile_later(std::string text, CompileOptions options = {}) const;
   std::future<Result<Compiled>> open_later(std::string path, CompileOptions options = {}) const;
   std::future<Result<Compiled>> open_later(std::vector<std::byte> bytes, CompileOptions options = {}) const;
+
+  /// Materials by words, by how they feel, or both, as `wale find`; a blank text means any. By feel, the first search of
+  /// a library reads all of it and keeps that in an index, which takes from seconds to minutes (`SearchOptions::progress`);
+  /// later ones read what has changed. A destructor ends such reading. Searches by feel wait for each other. Errors:
+  /// `unknown_name` for an unknown kind, percept, or material in `near`, `ambiguous_material` for one that may be several;
+  /// `unknown_material` for one that pushes nothing; `level_out_of_range`; `malformed_value`; `stopped` if `progress` ended
+  /// it; `other_device` if the named index is for another device than `options.device`; for an index that was named,
+  /// `unreadable_file`, `damaged_file`, `newer_file`, and `missing_library` in a Wale that was built without its database.
+  Result<SearchResult> search(const std::string& text, const SearchOptions& options = {}) const;
+  /// Those that feel most like a material, as `wale find --near`; it is not among them. Errors: those of `search`.
+  Result<SearchResult> nearest(const std::string& material, const SearchOptions& options = {}) const;
+  /// Those that are nearer to each of two materials than these are to each other, as `wale between`. Errors: those of
+  /// `search`.
+  Result<SearchResult> between(const std::string& one, const std::string& other, const SearchOptions& options = {}) const;
+  /// As the calls without `_later`, on the library's own thread.
+  std::future<Result<SearchResult>> search_later(std::string text, SearchOptions options = {}) const;
+  std::future<Result<SearchResult>> nearest_later(std::string material, SearchOptions options = {}) const;
+  std::future<Result<SearchResult>> between_later(std::string one, std::string other, SearchOptions options = {}) const;
 
   /// The devices that Wale ships, and those of the owner.
   std::vector<DeclaredDevice> devices() const;

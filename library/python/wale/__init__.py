@@ -10,7 +10,7 @@ from wale.batch import batch
 from wale.codes import Code, ContactKind, DeviceKind, MarkKind, ReadingContact
 from wale.device import Device, DeviceInfo, Hand, Motion, Profile, devices, open_device, profile
 from wale.errors import Error, Span
-from wale.library import Future, Library
+from wale.library import FeltDistance, Future, Library, Match, SearchResult
 from wale.loop import Loop
 from wale.program import Parameter, Percept, Program
 from wale.recording import Recording, Replay
@@ -23,8 +23,8 @@ from wale.workspace import SliderMark, Workspace, WorkspacePatch, load_workspace
 __version__: str = _read(_lib.wale_version())
 
 __all__ = [
-    "Code", "Contact", "ContactKind", "Device", "DeviceInfo", "DeviceKind", "Edit", "Error", "Felt", "ForceSize", "Future",
-    "Guards", "Hand", "Level", "Library", "Loop", "Mark", "MarkKind", "Motion", "Now", "Parameter", "Patch", "Percept",
-    "Profile", "Program", "ReadingContact", "Recording", "Replay", "Run", "Shape", "SliderMark", "Snapshot", "Span", "Stage",
+    "Code", "Contact", "ContactKind", "Device", "DeviceInfo", "DeviceKind", "Edit", "Error", "Felt", "FeltDistance", "ForceSize",
+    "Future", "Guards", "Hand", "Level", "Library", "Loop", "Mark", "MarkKind", "Match", "Motion", "Now", "Parameter", "Patch", "Percept",
+    "Profile", "Program", "ReadingContact", "Recording", "Replay", "Run", "SearchResult", "Shape", "SliderMark", "Snapshot", "Span", "Stage",
     "Times", "Workspace", "WorkspacePatch", "batch", "devices", "load_workspace", "open_device", "profile",
 ]

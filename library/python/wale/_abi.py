@@ -70,7 +70,7 @@ class Arguments:
         self._kept += [data, buffer, made]
         return made[0]
 
-    def struct(self, kind: str, **fields: Any) -> Any:
+    def struct(self, kind: str, /, **fields: Any) -> Any:
         """A struct that begins with its size; texts become WaleText, what is not given is 0.
 
         TypeError for a value of another type than the field's, by the field's name; ValueError for one that it cannot hold.

@@ -376,6 +376,7 @@ typedef struct WaleLibraryOptions {
   size_t folder_count;
   int32_t unsandboxed_pictures;
   int32_t reserved;
+  WaleText index;
 } WaleLibraryOptions;
 typedef struct WaleCompileOptions {
   size_t size;
@@ -512,4 +513,50 @@ WaleText wale_snapshot_state_name(const WaleSnapshot* snapshot, size_t index);
 WaleCode wale_snapshot_grid(const WaleSnapshot* snapshot, size_t index, WaleGrid* grid, WaleError** error);
 WaleCode wale_snapshot_surface(WaleSnapshot* snapshot, const WaleVector* places, size_t count, float* heights, float* colours, WaleError** error);
 WaleCode wale_snapshot_show(WaleSnapshot* snapshot, WaleVector position, WaleVector velocity, double time, WaleMark* marks, size_t capacity, size_t* count, WaleError** error);
+typedef struct WaleMatches WaleMatches;
+typedef struct WalePerceptRange {
+  WaleText percept;
+  double low, high;
+} WalePerceptRange;
+typedef struct WaleSearchOptions {
+  size_t size;
+  WaleText kind;
+  const WalePerceptRange* percepts;
+  size_t percept_count;
+  WaleText near;
+  size_t most;
+  WaleText device;
+} WaleSearchOptions;
+typedef struct WaleMatch {
+  size_t size;
+  WaleText name;
+  WaleText module;
+  WaleText file;
+  WaleText title;
+  WaleText kind;
+  WaleText found_by;
+  WaleText found_in;
+  double score;
+  double low, high;
+  WaleText plainest;
+  size_t unknown;
+  double other_low, other_high;
+  WaleText other_plainest;
+  size_t other_unknown;
+} WaleMatch;
+WaleCode wale_library_search(WaleLibrary* library, WaleText text, const WaleSearchOptions* options, WaleMatches** matches, WaleError** error);
+WaleCode wale_library_nearest(WaleLibrary* library, WaleText material, const WaleSearchOptions* options, WaleMatches** matches, WaleError** error);
+WaleCode wale_library_between(WaleLibrary* library, WaleText one, WaleText other, const WaleSearchOptions* options, WaleMatches** matches, WaleError** error);
+WaleCode wale_library_search_later(WaleLibrary* library, WaleText text, const WaleSearchOptions* options, WaleFuture** future, WaleError** error);
+WaleCode wale_library_nearest_later(WaleLibrary* library, WaleText material, const WaleSearchOptions* options, WaleFuture** future, WaleError** error);
+WaleCode wale_library_between_later(WaleLibrary* library, WaleText one, WaleText other, const WaleSearchOptions* options, WaleFuture** future, WaleError** error);
+void wale_future_progress(const WaleFuture* future, size_t* done, size_t* all);
+void wale_future_cancel(WaleFuture* future);
+WaleCode wale_future_take_matches(WaleFuture* future, WaleMatches** matches, WaleError** error);
+void wale_matches_free(WaleMatches* matches);
+size_t wale_matches_count(const WaleMatches* matches);
+WaleCode wale_matches_match(const WaleMatches* matches, size_t index, WaleMatch* match, WaleError** error);
+WaleText wale_matches_unknown(const WaleMatches* matches, size_t index, size_t which);
+WaleText wale_matches_other_unknown(const WaleMatches* matches, size_t index, size_t which);
+const WaleError* wale_matches_warning(const WaleMatches* matches, size_t index);
 """

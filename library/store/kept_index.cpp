@@ -1,0 +1,114 @@
+#include "library/store/kept_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "compiler/text/resolver.hpp"
+#include "library/index/content_hash.hpp"
+#include "library/index/find.hpp"
+#include "schema/visible_text.hpp"
+
+namespace wale {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Error: a text can mean no material of the catalogue, and is no file.
+Result<> is_meant_somewhere(const LibraryIndex& catalogue, const std::string& text) {
+  if (text.find(".wale") != std::string::npos || !catalogue.meant_by(text).empty()) return {};
+  std::vector<Entry> entries;
+  for (const IndexedMaterial& each : catalogue.materials())
+    if (each.origin != Origin::hidden) entries.push_back(entry_of(each));
+  const auto meant = meant_entry(*index_of(std::move(entries), default_device), text);
+  return meant || meant.error().code != Code::unknown_name ? Result<>() : Result<>(meant.error());
+}
+
+/// Brings the kept index up to date. Error: none can be kept.
+Result<> refresh(IndexHere& here, const FileRequest& request, const std::vector<LibraryFile>& files,
+                 const StoreProgress& progress) {
+  const std::string place = kept_index(request, files);
+  if (place.empty())
+    return Error{.code = Code::unwritable_file, .sentence = "neither XDG_CACHE_HOME nor HOME names a folder for it"};
+  if (!here.store || here.place != place) {
+    here.store.reset();
+    auto opened = LibraryStore::open(place, true);
+    if (!opened) return opened.error();
+    here.store = *std::move(opened), here.place = place;
+  }
+  auto report = here.store->bring_up_to_date(files, request, progress);
+  if (!report) {
+    here.store.reset();
+    return report.error();
+  }
+  here.report = *std::move(report);
+  return {};
+}
+
+}  // namespace
+
+std::string cache_folder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  fs::path folder;
+  if (cache && *cache)
+    folder = fs::path(cache) / "wale";
+  else if (home && *home)
+    folder = fs::path(home) / ".cache" / "wale";
+  else
+    return {};
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  return folder.string();
+}
+
+std::string kept_index(const FileRequest& request, const std::vector<LibraryFile>& files) {
+  const fs::path folder = cache_folder();
+  if (folder.empty()) return {};
+  std::error_code trouble;
+  // One for each library. Files that are only in this binary are the same everywhere; others have relative names.
+  ContentHash hash;
+  hash.take(request.device);
+  for (const std::string& root : request.roots) hash.take(fs::absolute(root, trouble).string());
+  const bool has_files = std::ranges::any_of(files, [&](const LibraryFile& each) { return fs::exists(each.path, trouble); });
+  if (has_files) hash.take(fs::current_path(trouble).string());
+  return (folder / fmt::format("library-{}.index", hash.digits().substr(0, 16))).string();
+}
+
+Result<> open_index(IndexHere& here, const std::string& place, const FileRequest& request,
+                    const std::vector<std::string>& meant, const IndexTold& told) {
+  if (!place.empty()) {
+    if (here.store && here.place == place) return {};
+    auto opened = LibraryStore::open(place, false, cache_folder());
+    if (!opened) return opened.error();
+    here = IndexHere{.place = place, .store = *std::move(opened)};
+    if (!here.store->is_of_this_wale())
+      told.warn({.code = Code::newer_file,
+                 .sentence = fmt::format("{} is of another build of Wale, whose maps may give other levels",
+                                         visible_text(without_password(place))),
+                 .mend = "`wale library index` brings it up to date"});
+    return {};
+  }
+  const auto resolver = file_resolver(request.roots);
+  auto catalogue = library_index(*resolver, "here");
+  for (const std::string& text : meant)
+    if (auto known = is_meant_somewhere(*catalogue, text); !known) return known;
+  const bool is_same = here.catalogue == catalogue && here.device == request.device;
+  if (is_same && here.in_memory) return {};
+  if (!is_same) here = IndexHere{.catalogue = catalogue, .device = request.device};
+  const std::vector<LibraryFile> files = library_files_in(*catalogue);
+  auto kept = refresh(here, request, files, told.progress);
+  if (kept || kept.error().code == Code::stopped) return kept;
+  told.warn({.code = Code::unwritable_file,
+             .sentence = "no index can be kept, so the whole library is read, which takes some seconds: " +
+                         visible_text(kept.error().sentence)});
+  auto entries = read_library(files, request, told.progress);
+  if (!entries) return entries.error();
+  here.in_memory = index_of(*std::move(entries), request.device);
+  return {};
+}
+
+}  // namespace wale

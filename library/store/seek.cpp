@@ -1,0 +1,138 @@
+#include "library/store/seek.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "compiler/modules/load_modules.hpp"
+#include "library/index/words.hpp"
+#include "schema/visible_text.hpp"
+
+namespace wale {
+namespace {
+
+/// Whether a material has at least half of the words, or words that begin so.
+bool has_half_of(const Entry& entry, const std::vector<std::string>& words) {
+  const WordCounts counted = count_words(entry);
+  const auto has = [&](const std::string& word) {
+    return std::ranges::any_of(counted.weights, [&](const auto& each) { return each.first.starts_with(word); });
+  };
+  return 2 * static_cast<std::size_t>(std::ranges::count_if(words, has)) >= words.size();
+}
+
+}  // namespace
+
+Result<FeltMaterial> felt_material(const MaterialIndex& index, const FileRequest& request, const std::string& text) {
+  const auto unknown_feel = [&](const std::string& name, const std::string& why) {
+    return Error{.code = Code::unknown_material,
+                 .sentence = fmt::format("it is not known what `{}` feels like: {}", visible_text(name), visible_text(why)),
+                 .mend = "take one that pushes",
+                 .place = {.name = text}};
+  };
+  const auto felt = [&](Entry entry, std::vector<std::uint32_t> is) -> Result<FeltMaterial> {
+    if (!entry.felt.cues)
+      return unknown_feel(entry.name, entry.trouble.empty() ? "it only vibrates" : entry.trouble);
+    return FeltMaterial{entry.name, *std::move(entry.felt.cues), std::move(is)};
+  };
+  const auto meant = meant_entry(index, text);
+  if (meant) {
+    auto entry = index.entry(*meant);
+    if (!entry) return entry.error();
+    return felt(*std::move(entry), {*meant});
+  }
+  const std::string path = text.substr(0, text.find(".wale") == std::string::npos ? 0 : text.find(".wale") + 5);
+  if (path.empty()) return meant.error();
+  FileRequest own = request;
+  own.device = index.device(), own.file = text;
+  auto read = read_entries(own, std::filesystem::path(path).stem().string());
+  if (!read) return read.error();
+  if (read->entries.empty()) return unknown_feel(text, "the file declares no material");
+  return felt(std::move(read->entries.front()), {});
+}
+
+Result<FoundEntries> seek_by_feel(const MaterialIndex& index, const FileRequest& request, const Seeking& sought) {
+  const auto declared = common_modules();
+  const Comparer comparer(declared->declarations, index.device());
+  std::vector<std::unique_ptr<Probe>> probes;
+  const std::uint64_t usual = sought.by_feel() ? usually_near : index.columns().size();
+  MaterialQuery query{.texts = sought.texts, .kind = sought.kind, .without = {}, .most = sought.most.value_or(usual)};
+  if (!sought.near.empty()) {
+    auto felt = felt_material(index, request, sought.near);
+    if (!felt) return felt.error();
+    probes.push_back(std::make_unique<NearProbe>(comparer, felt->cues));
+    query.without = std::move(felt->is);
+  }
+  if (!sought.levels.empty()) {
+    auto probe = LevelProbe::make(sought.levels, declared->declarations, index.device());
+    if (!probe) return probe.error();
+    probes.push_back(*std::move(probe));
+  }
+  std::unique_ptr<Probe> probe;
+  if (!probes.empty()) probe = std::move(probes.front());
+  if (probes.size() > 1) probe = std::make_unique<BothProbe>(std::move(probe), std::move(probes.back()));
+  query.feel = probe.get();
+  return find_entries(index, query);
+}
+
+FoundByWords seek_by_words(const LibraryIndex& catalogue, const Seeking& sought) {
+  FoundByWords all;
+  all.as_they_stand = find_materials(catalogue, sought.texts, sought.kind);
+  const auto most = sought.most.value_or(all.as_they_stand.size());
+  if (all.as_they_stand.size() > most) all.as_they_stand.resize(most);
+  const bool has_phrase = std::ranges::any_of(sought.texts, [](const std::string& each) { return each.find(' ') != std::string::npos; });
+  if (!all.as_they_stand.empty() || !has_phrase) return all;
+  std::vector<std::string> words;
+  for (const std::string& text : sought.texts)
+    for (std::string& word : words_of(text)) words.push_back(std::move(word));
+  std::vector<Entry> entries;
+  for (const IndexedMaterial& each : catalogue.materials())
+    if (each.origin != Origin::hidden) entries.push_back(entry_of(each));
+  const auto index = index_of(std::move(entries), default_device);
+  auto found = find_entries(*index, {.texts = sought.texts,
+                                     .kind = sought.kind,
+                                     .without = {},
+                                     .most = sought.most.value_or(usually_near)});
+  if (!found) return all;  // an index in memory has no errors
+  for (FoundEntry& each : found->entries)
+    if (has_half_of(each.entry, words)) all.most_words.push_back(std::move(each));
+  return all;
+}
+
+Result<FoundBetween> seek_between(const MaterialIndex& index, const FileRequest& request, const std::string& one,
+                                  const std::string& other, const std::string& kind, std::uint64_t most) {
+  const auto first = felt_material(index, request, one);
+  if (!first) return first.error();
+  const auto second = felt_material(index, request, other);
+  if (!second) return second.error();
+  const auto declared = common_modules();
+  const Comparer comparer(declared->declarations, index.device());
+  const BetweenProbe probe(comparer, first->cues, second->cues);
+  MaterialQuery query{.texts = {}, .kind = kind, .feel = &probe, .without = first->is, .most = most};
+  query.without.insert(query.without.end(), second->is.begin(), second->is.end());
+  auto found = find_entries(index, query);
+  if (!found) return found.error();
+  FoundBetween between{.one = first->name, .other = second->name, .found = {}};
+  for (FoundEntry& each : found->entries) {
+    auto from_one = probe.one().tell(index.columns(), each.row), from_other = probe.other().tell(index.columns(), each.row);
+    between.found.push_back({std::move(each), std::move(from_one), std::move(from_other)});
+  }
+  return between;
+}
+
+std::vector<std::string> kinds_in(const MaterialIndex& index) {
+  const FeltColumns& columns = index.columns();
+  std::set<std::string> kinds;
+  for (std::size_t row = 0; row < columns.size(); ++row) {
+    const std::string kind(columns.kind(row));
+    for (std::size_t dot = kind.find('.'); dot != std::string::npos; dot = kind.find('.', dot + 1))
+      kinds.insert(kind.substr(0, dot));
+    if (!kind.empty()) kinds.insert(kind);
+  }
+  return {kinds.begin(), kinds.end()};
+}
+
+}  // namespace wale

@@ -1,0 +1,198 @@
+// `Library::search`, `nearest` and `between` give programs what `wale find` and `wale between` print.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "tests/command_line/running.hpp"
+#include "wale/library.hpp"
+
+namespace wale::for_programs_test {
+namespace {
+
+using command_line::Outcome;
+using Json = nlohmann::json;
+
+/// A variable of the environment, for the time of a test.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) {
+    if (const char* was = std::getenv(name)) was_ = was;
+    setenv(name, value.c_str(), 1);
+  }
+  ~Variable() { was_ ? setenv(name_, was_->c_str(), 1) : unsetenv(name_); }
+
+ private:
+  const char* name_;
+  std::optional<std::string> was_;
+};
+
+/// A shelf of ribs, and of denim, some cues of which are not known beside theirs.
+class ForPrograms : public testing::Test {
+ protected:
+  ForPrograms() {
+    folder_.write("shelf/wale.project", "licence \"CC0-1.0\"\n");
+    for (int i = 1; i <= 5; ++i) {
+      const std::string number = std::to_string(i);
+      folder_.write("shelf/ribs" + number + ".wale",
+                    "wale 1\n/// Ribs.\nmaterial ribs" + number + " {\n  representative {\n    title \"Ribs " + number +
+                        "\"\n    called de \"Rippen " + number + "\"\n    kind trial." + (i % 2 ? "woven" : "knitted") +
+                        "\n  }\n  perceptual { roughness 0." + std::to_string(2 + i) +
+                        " estimated }\n  physical { force = lateral(cos(2 pi * x / 2.5 mm)) }\n}\n");
+    }
+    folder_.write("shelf/denim.wale", command_line::bytes_of(std::string(WALE_SOURCE_DIR) + "/library/fabric/denim.wale"));
+  }
+  void SetUp() override {
+    const Outcome made = command_line::wale({"library", "index", folder_ / "shelf", "-o", index()});
+    ASSERT_NE(made.out.find("materials of 6 files"), std::string::npos) << made.out << made.err;
+  }
+  std::string index() const { return folder_ / "an.index"; }
+  LibraryOptions in_index() const {
+    LibraryOptions options;
+    options.index = index();
+    return options;
+  }
+  Json told(std::vector<std::string> words) const {
+    words.insert(words.end(), {"--index", index(), "--json"});
+    const Outcome printed = command_line::wale(words);
+    EXPECT_EQ(printed.status, 0) << words.at(1) << ": " << printed.err;
+    return printed.status == 0 ? printed.json() : Json::array();
+  }
+  TemporaryFolder folder_;
+};
+
+void expect_same(const FeltDistance& distance, const Json& json) {
+  EXPECT_EQ(distance.low, json.at("low").get<double>());
+  if (json.at("high").is_null())
+    EXPECT_TRUE(std::isinf(distance.high));
+  else
+    EXPECT_EQ(distance.high, json.at("high").get<double>());
+  EXPECT_EQ(distance.unknown, json.at("unknown").get<std::vector<std::string>>());
+  EXPECT_EQ(distance.plainest, json.at("plainest").get<std::string>());
+}
+
+void expect_same(const Result<SearchResult>& result, const Json& printed) {
+  ASSERT_TRUE(result) << in_words(result.error());
+  EXPECT_TRUE(result->warnings.empty()) << in_words(result->warnings.front());
+  ASSERT_EQ(result->matches.size(), printed.size());
+  for (std::size_t i = 0; i < printed.size(); ++i) {
+    const Match& match = result->matches[i];
+    const Json& json = printed[i];
+    EXPECT_EQ(match.name, json.at("name").get<std::string>());
+    EXPECT_EQ(match.title, json.at("title").get<std::string>());
+    EXPECT_EQ(match.kind, json.at("kind").get<std::string>());
+    EXPECT_EQ(match.file, json.value("file", match.file));
+    EXPECT_EQ(match.module, json.value("module", match.module));
+    EXPECT_EQ(match.score, json.value("score", 0.0));
+    EXPECT_EQ(match.distance.has_value(), json.contains("distance") || json.contains("from_first"));
+    if (json.contains("distance")) expect_same(*match.distance, json.at("distance"));
+    if (json.contains("from_first")) expect_same(*match.distance, json.at("from_first"));
+    if (json.contains("from_second")) expect_same(*match.from_other, json.at("from_second"));
+  }
+}
+
+TEST_F(ForPrograms, AnswersAreThoseOfTheCommandLine) {
+  const Library library(in_index());
+  const auto near = library.nearest("ribs3");
+  expect_same(near, told({"find", "--near", "ribs3"}));
+  ASSERT_EQ(near->matches.size(), 5u);
+  EXPECT_EQ(near->matches.front().name, "ribs4");
+  EXPECT_FALSE(near->matches.back().distance->unknown.empty()) << "a cue that is unknown is named";
+  expect_same(library.nearest("rippen 3", {.kind = "trial.woven", .most = 1}),
+              told({"find", "--near", "rippen 3", "--kind", "trial.woven", "--most", "1"}));
+  expect_same(library.search("", {.percepts = {{"roughness", 0.41, 0.41}}, .most = 2}),
+              told({"find", "--roughness", "0.41", "--most", "2"}));
+  expect_same(library.search("rippen", {.percepts = {{"smoothness", 0.35, 0.55}}}),
+              told({"find", "rippen", "--smoothness", "0.35..0.55"}));
+  expect_same(library.search("", {.percepts = {{"roughness", 0.5, 0.5}}, .near = "ribs1"}),
+              told({"find", "--roughness", "0.5", "--near", "ribs1"}));
+  expect_same(library.search("denim ribs"), told({"find", "denim ribs"}));
+  expect_same(library.between("ribs1", "ribs5"), told({"between", "ribs1", "ribs5"}));
+  const std::string own = folder_.write("own.wale", "wale 1\nmaterial own { perceptual { roughness 0.62 } }\n");
+  expect_same(library.nearest(own), told({"find", "--near", own}));
+  expect_same(library.nearest_later("ribs2").get(), told({"find", "--near", "ribs2"}));
+}
+
+/// Words alone need no index: the catalogue is that of `wale find`.
+TEST_F(ForPrograms, FindsWordsInTheLibraryItself) {
+  const Library library;
+  for (const std::string text : {"rough ribbed cotton", "ribbed", "Cord", "no such thing at all"}) {
+    const Outcome printed = command_line::wale({"find", text, "--json"});
+    expect_same(library.search(text), printed.json());
+  }
+  const auto denim = library.search("ribbed cotton", {.kind = "fabric", .most = 1});
+  ASSERT_TRUE(denim);
+  EXPECT_EQ(denim->matches.at(0).name, "corduroy");
+  EXPECT_EQ(denim->matches.at(0).found_by, "called");
+  EXPECT_TRUE(library.find(denim->matches.at(0).module + ":" + denim->matches.at(0).name)) << "a match can be compiled";
+}
+
+TEST_F(ForPrograms, ErrorsNameTheArgument) {
+  const Library library(in_index());
+  const auto refused = [](const Result<SearchResult>& result, Code code, const char* argument, const std::string& nearest = {}) {
+    ASSERT_FALSE(result) << argument;
+    EXPECT_EQ(result.error().code, code) << in_words(result.error());
+    EXPECT_EQ(result.error().place.name, argument) << in_words(result.error());
+    if (nearest.empty()) return;
+    ASSERT_FALSE(result.error().nearest.empty());
+    EXPECT_EQ(result.error().nearest.front(), nearest);
+  };
+  refused(library.nearest("ribs33"), Code::unknown_name, "material", "ribs3");
+  refused(library.search("", {.near = "ribs33"}), Code::unknown_name, "near", "ribs3");
+  refused(library.between("ribs1", "ripps2"), Code::unknown_name, "other");
+  refused(library.nearest(" "), Code::malformed_value, "material");
+  refused(library.nearest("ribs1", {.near = "ribs2"}), Code::malformed_value, "near");
+  refused(library.nearest("ribs1", {.kind = "trial.wovn"}), Code::unknown_name, "kind", "trial.woven");
+  refused(library.search("", {.percepts = {{"roughnes", 0, 1}}}), Code::unknown_name, "percept", "roughness");
+  refused(library.search("", {.percepts = {{"roughness", 0.5, 0.2}}}), Code::level_out_of_range, "percepts");
+  refused(library.search("", {.percepts = {{"roughness", std::nan(""), 0.2}}}), Code::level_out_of_range, "percepts");
+  refused(library.nearest("ribs1", {.device = "falcon"}), Code::other_device, "device");
+  refused(library.nearest("ribs1", {.device = "falcom"}), Code::unknown_device, "device", "falcon");
+  refused(library.search("\xff"), Code::invalid_encoding, "text");
+  LibraryOptions missing;
+  missing.index = folder_ / "missing.index";
+  refused(Library(missing).nearest("ribs1"), Code::unreadable_file, missing.index.c_str());
+}
+
+/// Without an index one is kept in the user's cache; that can be seen and ended, and goes on where it was.
+TEST_F(ForPrograms, ReadsALibraryThatCanBeStopped) {
+  const Variable cache("XDG_CACHE_HOME", folder_ / "cache");
+  LibraryOptions options;
+  options.folders = {folder_ / "shelf"};
+  const Library library(options);
+  std::size_t told = 0, of = 0;
+  const auto stopped = library.nearest("corduroy", {.progress = [&](std::size_t done, std::size_t all) {
+                                         EXPECT_EQ(done, ++told) << "each file once, one at a time";
+                                         of = all;
+                                         return done < 8;
+                                       }});
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, Code::stopped) << in_words(stopped.error());
+  EXPECT_EQ(told, 8u);
+  std::size_t left = 0;
+  const auto again = library.nearest("corduroy", {.progress = [&](std::size_t, std::size_t all) {
+                                       left = all;
+                                       return false;
+                                     }});
+  EXPECT_EQ(again.error().code, Code::stopped);
+  EXPECT_EQ(left, of - 8) << "what was read is kept";
+  // An unknown name is known to be none before anything is read, and so is one of the command line.
+  const auto unknown = library.nearest("nix", {.progress = [](std::size_t, std::size_t) -> bool {
+                                         ADD_FAILURE();
+                                         return false;
+                                       }});
+  EXPECT_EQ(unknown.error().code, Code::unknown_name) << in_words(unknown.error());
+  EXPECT_EQ(command_line::wale({"show", "nix"}).status, 1);
+  // The destructor does not wait until all is read.
+  std::optional<Library> short_lived(std::in_place, options);
+  auto future = short_lived->nearest_later("corduroy");
+  short_lived.reset();
+  const auto ended = future.get();
+  ASSERT_FALSE(ended);
+  EXPECT_TRUE(ended.error().code == Code::stopped || ended.error().code == Code::wrong_moment) << in_words(ended.error());
+}
+
+}  // namespace
+}  // namespace wale::for_programs_test
