@@ -13,6 +13,7 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/open_file.hpp"
 #include "library/by_name/missing_folder.hpp"
+#include "library/by_name/own_devices.hpp"
 #include "library/by_name/told.hpp"
 #include "library/by_name/worker.hpp"
 #include "library/by_name/workspaces.hpp"
@@ -93,13 +94,15 @@ struct Library::Parts {
   std::optional<Error> missing;  ///< about the first of the given folders, or those of WALE_LIBRARY, that is none
   Sandbox sandbox = Sandbox::required;
   Result<TrustedDeclarations> trusted;
+  Result<OwnDevices> own;  ///< the application's
   std::unique_ptr<Worker> worker = std::make_unique<Worker>();
 
   explicit Parts(const LibraryOptions& options)
       : roots(whole_paths(library_folders(options.folders, std::getenv("WALE_LIBRARY")))),
         missing(missing_folder(options.folders)),
         sandbox(options.unsandboxed_pictures ? Sandbox::if_possible : Sandbox::required),
-        trusted(trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")))) {
+        trusted(trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")))),
+        own(own_devices(options.devices, common->declarations, roots)) {
     if (missing) return;
     missing = missing_folder(library_folders({}, std::getenv("WALE_LIBRARY")), "WALE_LIBRARY");
     if (missing) missing->mend = "make it, or leave it out of the environment variable WALE_LIBRARY";
@@ -108,6 +111,7 @@ struct Library::Parts {
   /// Errors: the library's own, and those of options that cannot be names.
   Result<> is_sound(const CompileOptions& options) const {
     if (missing) return *missing;
+    if (!own) return own.error();
     if (!options.device.empty())
       if (auto name = is_name_text("device", options.device, device_name_mend); !name) return name;
     if (!options.material.empty())
@@ -121,18 +125,35 @@ struct Library::Parts {
     return {};
   }
 
-  /// Shipped devices do not change with what the owner declares.
+  /// Shipped devices do not change with what the application or the owner declares; the application's come first.
   FileRequest request(const CompileOptions& options) const {
     FileRequest request{.device = options.device.empty() ? default_device : options.device, .roots = roots};
     request.sandbox = sandbox;
-    if (trusted && !common->declarations.devices.contains(request.device)) request.devices = trusted->files;
+    if (common->declarations.devices.contains(request.device)) return request;
+    if (own) request.devices = own->files;
+    if (trusted) request.devices.insert(request.devices.end(), trusted->files.begin(), trusted->files.end());
     return request;
   }
 
   std::vector<std::string> device_names() const {
     std::vector<std::string> names = common->declarations.devices.spellings();
-    for (const DeclaredDevice& each : of_owner()) names.push_back(each.profile.name);
+    for (const DeclaredDevice& each : declared_here()) names.push_back(each.profile.name);
     return names;
+  }
+
+  /// The application's devices, then those of the owner that have other names.
+  std::vector<DeclaredDevice> declared_here() const {
+    std::vector<DeclaredDevice> devices;
+    if (own) devices = own->devices;
+    const std::size_t of_application = devices.size();
+    for (DeclaredDevice& each : of_owner()) {
+      const auto end = devices.begin() + static_cast<std::ptrdiff_t>(of_application);
+      const bool is_hidden = std::any_of(devices.begin(), end, [&](const DeclaredDevice& other) {
+        return other.profile.name == each.profile.name;
+      });
+      if (!is_hidden) devices.push_back(std::move(each));
+    }
+    return devices;
   }
 
   /// What the owner's devices.wale exports; nothing if it does not exist or has an error.
@@ -193,6 +214,12 @@ Result<> Library::folders_exist() const {
   return {};
 }
 
+Result<> Library::is_usable() const {
+  if (auto there = folders_exist(); !there) return there;
+  if (!parts_->own) return parts_->own.error();
+  return {};
+}
+
 Library::~Library() { parts_->worker.reset(); }  // its work uses the other parts
 
 Result<Compiled> Library::find(const std::string& name, const CompileOptions& options) const {
@@ -200,7 +227,7 @@ Result<Compiled> Library::find(const std::string& name, const CompileOptions& op
   if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   auto named = find_named_material(name, parts_->roots);
   if (!named) {
-    Error error = std::move(named.error());
+    Error error = in_own_words(std::move(named.error()));
     if (error.place.name.empty()) error.place.name = "name";
     for (const std::string ending : {".wale", ".wpp"}) {
       if (error.code != Code::unknown_name || !name.ends_with(ending)) continue;
@@ -317,7 +344,7 @@ std::future<Result<Compiled>> Library::open_later(std::vector<std::byte> bytes, 
 
 std::vector<DeclaredDevice> Library::devices() const {
   std::vector<DeclaredDevice> devices = declared_devices(parts_->common->declarations);
-  for (DeclaredDevice& each : parts_->of_owner()) devices.push_back(std::move(each));
+  for (DeclaredDevice& each : parts_->declared_here()) devices.push_back(std::move(each));
   return devices;
 }
 

@@ -26,6 +26,9 @@ typedef struct WaleLibraryOptions {
   size_t folder_count;
   int32_t unsandboxed_pictures; /* 1: decodes a stranger's picture also where the system offers no sandbox */
   int32_t reserved;             /* 0 */
+  WaleText devices; /* a Wale text that declares the application's own devices, each as `export device NAME { … }`: the device of
+                       WaleCompileOptions may name one, also for shipped materials and levels. They scale no real device; a stage of
+                       wale_stage_create_for serves one, with the profile of wale_library_profile. Empty: none */
 } WaleLibraryOptions;
 
 /* All 0 is the default. */
@@ -47,7 +50,8 @@ typedef struct WaleWorkspaceOptions {
 } WaleWorkspaceOptions;
 
 /* `options` may be NULL. The owner's devices are read once, here. Errors: malformed_value; unreadable_file for a
-   folder of `folders` or of WALE_LIBRARY that does not exist or is none. */
+   folder of `folders` or of WALE_LIBRARY that does not exist or is none; the first one in the text `devices`, unknown_device if
+   that exports no device, and declared_twice for one with the name of a shipped one. */
 WALE_API WaleCode wale_library_create(const WaleLibraryOptions* options, WaleLibrary** library, WaleError** error);
 /* Waits for the work that is under way, at most. Futures that were not begun then give wrong_moment. */
 WALE_API void wale_library_free(WaleLibrary* library);
