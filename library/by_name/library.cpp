@@ -288,7 +288,11 @@ Result<Compiled> Library::compile(std::string_view text, const CompileOptions& o
 Result<Compiled> Library::open(const std::string& path, const CompileOptions& options) const {
   if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   auto named = read_named_file(path);
-  if (!named) return std::move(named.error());
+  if (!named) {
+    Error error = std::move(named.error());
+    if (error.mend.starts_with("`wale find`")) error.mend = "name a file that exists; `find` takes the name of a material";
+    return in_own_words(std::move(error));
+  }
   return parts_->compiled(*std::move(named), options);
 }
 
@@ -307,7 +311,7 @@ Result<CompiledWorkspace> Library::workspace(std::string_view text, const Worksp
 Result<CompiledWorkspace> Library::open_workspace(const std::string& path, const WorkspaceOptions& options) const {
   if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   auto named = read_workspace(path);
-  if (!named) return std::move(named).error();
+  if (!named) return in_own_words(std::move(named).error());
   return parts_->laid(*std::move(named), options);
 }
 

@@ -142,6 +142,13 @@ TEST(ErrorsOfTheLibrary, SpeakOfTheInterfaceAndFillTheirMembers) {
     look_at(compiled.error(), entry.path().string());
   }
   EXPECT_GT(errors, 150);
+  for (const std::string path : {"/nowhere/corduroy.wale", "corduroyy.wale", "corduroy", "/", ""}) {
+    const auto opened = library.open(path);
+    ASSERT_FALSE(opened) << path;
+    look_at(opened.error(), path);
+    EXPECT_FALSE(opened.error().mend.empty()) << path;
+    look_at(library.open_workspace(path + ".wws").error(), path);
+  }
   for (const std::string name : {"corduory", "qqqqqqq", "x", "kord"}) {
     const auto found = library.find(name);
     ASSERT_FALSE(found);
