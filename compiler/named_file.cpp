@@ -12,6 +12,7 @@
 #include "compiler/text/embedded_files.hpp"
 #include "compiler/text/other_file.hpp"
 #include "compiler/text/resolver.hpp"
+#include "schema/closest_names.hpp"
 #include "schema/patch_program_format.hpp"
 
 namespace wale {
@@ -117,6 +118,17 @@ std::vector<std::string> some_with_word(const LibraryIndex& index, const std::st
   return names;
 }
 
+/// Adds the names of materials that are least far from `name`, up to three in all.
+void fill_up(std::vector<std::string>& nearest, const LibraryIndex& index, const std::string& name) {
+  constexpr std::size_t most = 3;
+  if (nearest.size() >= most) return;
+  std::vector<std::string> names;
+  for (const IndexedMaterial& each : index.materials())
+    if (each.origin != Origin::hidden && std::ranges::find(nearest, each.name) == nearest.end())
+      names.push_back(each.name);
+  for (std::string& each : closest_names(name, names, most - nearest.size())) nearest.push_back(std::move(each));
+}
+
 /// `is_not` goes on with the sentence of the error: "`corderoy` …".
 Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::string>& roots,
                                std::string_view is_not) {
@@ -150,6 +162,7 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
       error.nearest = std::move(with_word);
     } else
       error.mend = "`wale find` lists the materials of the library";
+    if (!is_kind) fill_up(error.nearest, *index, name);
     if (!index->left_out().empty())
       error.sentence += fmt::format(" in the first {} MB of modules, which are read", most_indexed >> 20);
   }

@@ -48,7 +48,7 @@ Result<> is_built_for(const PatchProgram& program, const DeviceProfile& declared
                "`" + program.material + "` is built for other figures of `" + built.name +
                    "` than its declaration has: " + differences,
                "build it again from its Wale file by this Wale; a declaration of your own belongs into your "
-               "devices.wale, or into a file that `--devices FILE` names"};
+               "devices.wale, or into another file or text of devices that you name"};
 }
 
 }  // namespace wale

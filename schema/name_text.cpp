@@ -1,5 +1,6 @@
 #include "schema/name_text.hpp"
 
+#include "schema/expectation.hpp"
 #include "schema/utf8.hpp"
 
 namespace wale {
@@ -18,8 +19,8 @@ bool is_blank(char32_t c) {
 
 Result<> is_name_text(const std::string& argument, std::string_view text, const char* mend) {
   const auto refuse = [&](Code code, const char* sentence, const char* what_to_do) {
-    return Error{
-        .code = code, .sentence = sentence, .mend = what_to_do, .place = {.name = argument, .text = std::string(text)}};
+    return with_expectation(
+        {.code = code, .sentence = sentence, .mend = what_to_do, .place = {.name = argument, .text = std::string(text)}});
   };
   bool blank = true, controls = false;
   for (std::size_t at = 0; at < text.size();) {

@@ -2,9 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
@@ -133,6 +136,17 @@ struct ReplayOptions {
   bool json = false;
 };
 
+/// An error of the runtime in the words of the command line.
+Error as_option(Error error) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> words{
+      {{"(`most_ticks`)", "(`--ticks`)"},
+       {"record a run into a file NAME.wrec, and open that", "make one with `wale feel FILE --record NAME.wrec`"}}};
+  for (const auto& [argument, option] : words)
+    if (const std::size_t at = error.mend.find(argument); at != std::string::npos)
+      error.mend.replace(at, argument.size(), option);
+  return error;
+}
+
 int replay(const ReplayOptions& options) {
   if (!options.wav.empty() && !has_ending(options.wav, ".wav") && !is_written_as_it_comes(options.wav))
     return refuse(Error{.code = Code::malformed_value,
@@ -144,7 +158,7 @@ int replay(const ReplayOptions& options) {
                         .mend = "the table and the sound are two files: give each a name of its own",
                         .place = {.name = "--wav", .text = options.wav}});
   const auto opened = Recording::open(options.file, options.ticks.value_or(SIZE_MAX));
-  if (!opened) return refuse(with_kind(opened.error(), options.file));
+  if (!opened) return refuse(with_kind(as_option(opened.error()), options.file));
   const auto& recording = *opened;
   const auto table = exported(options.csv, {options.file}, [&](std::ostream& out) {
     write_csv(out, recording);
@@ -153,7 +167,7 @@ int replay(const ReplayOptions& options) {
   if (!table) return refuse(table.error());
   const auto sound =
       exported(options.wav, {options.file}, [&](std::ostream& out) { return write_wav(out, recording); });
-  if (!sound) return refuse(sound.error());
+  if (!sound) return refuse(as_option(sound.error()));
   const auto replayed = wale::replay(recording);
   if (!replayed) return refuse(replayed.error());
   const auto& result = *replayed;

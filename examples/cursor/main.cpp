@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   const auto dial = library.find("detent_dial");
   if (!device || !dial) return 1;
   wale::Stage stage(*std::move(device));
-  auto patch = stage.add(dial->program);
+  auto patch = stage.add(dial->program, {.at = {0.005f, 0}});
   if (!patch || !stage.start()) return 1;
 
   std::size_t shown = 0;
@@ -57,11 +57,12 @@ int main(int argc, char** argv) {
     const wale::Now now = stage.now();       // never waits
     const auto picture = patch->snapshot();  // states and grids at one tick
     if (!picture) continue;
-    wale::Hand cursor{.position = now.position, .velocity = now.velocity, .workspace = now.position, .time = now.time};
+    // Marks count from the patch's centre, as the hand that they are asked for; the window does so too.
+    const wale::Hand hand_there = wale::hand_on(now, picture->placement);
     Window window(0.16f);
-    const auto marks = wale::show(picture->bank, picture->memory, cursor);
+    const auto marks = wale::show(picture->bank, picture->memory, hand_there);
     for (const wale::ShownMark& mark : marks) draw(window, mark);
-    window.plot(now.position, '+');
+    window.plot(hand_there.position, '+');
     shown += marks.size();
     if (last_only && frame < 59) continue;
     if (!last_only) std::printf("\033[H");

@@ -1,5 +1,5 @@
-// A device that Wale has no driver for: its figures are declared in Wale, and a class reads its handle and pushes it.
-// Here the handle is a mass on a spring that was pulled aside.
+// A device that Wale has no driver for: its figures are declared in Wale, so that shipped materials are compiled for it by
+// their names, and a class reads its handle and pushes it. Here the handle is a mass on a spring that was pulled aside.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* declared = R"(wale 1
 
-device rail_stick {
+export device rail_stick {
   class     force_plane
   workspace disc(100 mm)
   position  8192 counts
@@ -26,10 +26,6 @@ device rail_stick {
   sustained unknown
   active    assumed 1 W
   source    "the maker's data sheet"
-}
-
-material syrup {
-  physical { force = -2 N s/m * velocity }
 }
 )";
 
@@ -63,18 +59,31 @@ class RailStick final : public wale::Device {
 
 }  // namespace
 
+int failed(const wale::Error& error) {
+  std::fprintf(stderr, "%s\n", wale::in_words(error).c_str());
+  return 1;
+}
+
 int main() {
-  const wale::Library library;
-  const auto syrup = library.compile(declared, {.device = "rail_stick"});
-  if (!syrup) {
-    std::fprintf(stderr, "%s\n", wale::in_words(syrup.error()).c_str());
-    return 1;
-  }
+  const wale::Library library({.devices = declared});
+  const auto corduroy = library.find("corduroy", {.device = "rail_stick"});
+  const auto syrup = library.compile("wale 1\nmaterial syrup { physical { force = -2 N s/m * velocity } }",
+                                     {.device = "rail_stick"});
+  if (!corduroy) return failed(corduroy.error());
+  if (!syrup) return failed(syrup.error());
   RailStick stick(syrup->program.description().device);
   wale::Stage stage(stick);
-  if (!stage.add(syrup->program)) return 1;
+  auto patch = stage.add(corduroy->program);
+  if (!patch) return failed(patch.error());
+  const auto on_corduroy = stage.run({.seconds = 0.2, .virtual_time = true});
+  if (!on_corduroy) return failed(on_corduroy.error());
+  std::printf("corduroy was felt on %ld ticks\n",
+              static_cast<long>(std::ranges::count_if(on_corduroy->record.ticks, [](const wale::TickRecord& tick) {
+                return tick.inside && tick.force != wale::Force(0);
+              })));
+  if (auto replaced = patch->replace(syrup->program); !replaced) return failed(replaced.error());
   const auto run = stage.run({.seconds = 2, .virtual_time = true});
-  if (!run) return 1;
+  if (!run) return failed(run.error());
   std::printf("after 2 s in syrup the handle is %.1f mm from the middle\n", 1000 * stick.place());
   return std::abs(stick.place()) < 0.003 ? 0 : 1;
 }

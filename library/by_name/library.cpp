@@ -13,6 +13,7 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/open_file.hpp"
 #include "library/by_name/missing_folder.hpp"
+#include "library/by_name/own_devices.hpp"
 #include "library/by_name/seeker.hpp"
 #include "library/by_name/told.hpp"
 #include "library/by_name/worker.hpp"
@@ -96,6 +97,7 @@ struct Library::Parts {
   Sandbox sandbox = Sandbox::required;
   Result<TrustedDeclarations> trusted;
   Seeker seeker;
+  Result<OwnDevices> own;  ///< the application's
   std::unique_ptr<Worker> worker = std::make_unique<Worker>();
 
   explicit Parts(const LibraryOptions& options)
@@ -103,7 +105,9 @@ struct Library::Parts {
         missing(missing_folder(options.folders)),
         sandbox(options.unsandboxed_pictures ? Sandbox::if_possible : Sandbox::required),
         trusted(trusted_declarations({}, owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")))),
-        seeker(is_shared_address(options.index) || options.index.empty() ? options.index : whole_paths({options.index}).front()) {
+        seeker(is_shared_address(options.index) || options.index.empty() ? options.index
+                                                                         : whole_paths({options.index}).front()),
+        own(own_devices(options.devices, common->declarations, roots)) {
     if (missing) return;
     missing = missing_folder(library_folders({}, std::getenv("WALE_LIBRARY")), "WALE_LIBRARY");
     if (missing) missing->mend = "make it, or leave it out of the environment variable WALE_LIBRARY";
@@ -112,6 +116,7 @@ struct Library::Parts {
   /// Errors: the library's own, and those of options that cannot be names.
   Result<> is_sound(const CompileOptions& options) const {
     if (missing) return *missing;
+    if (!own) return own.error();
     if (!options.device.empty())
       if (auto name = is_name_text("device", options.device, device_name_mend); !name) return name;
     if (!options.material.empty())
@@ -125,11 +130,13 @@ struct Library::Parts {
     return {};
   }
 
-  /// Shipped devices do not change with what the owner declares.
+  /// Shipped devices do not change with what the application or the owner declares; the application's come first.
   FileRequest request(const CompileOptions& options) const {
     FileRequest request{.device = options.device.empty() ? default_device : options.device, .roots = roots};
     request.sandbox = sandbox;
-    if (trusted && !common->declarations.devices.contains(request.device)) request.devices = trusted->files;
+    if (common->declarations.devices.contains(request.device)) return request;
+    if (own) request.devices = own->files;
+    if (trusted) request.devices.insert(request.devices.end(), trusted->files.begin(), trusted->files.end());
     return request;
   }
 
@@ -145,8 +152,23 @@ struct Library::Parts {
 
   std::vector<std::string> device_names() const {
     std::vector<std::string> names = common->declarations.devices.spellings();
-    for (const DeclaredDevice& each : of_owner()) names.push_back(each.profile.name);
+    for (const DeclaredDevice& each : declared_here()) names.push_back(each.profile.name);
     return names;
+  }
+
+  /// The application's devices, then those of the owner that have other names.
+  std::vector<DeclaredDevice> declared_here() const {
+    std::vector<DeclaredDevice> devices;
+    if (own) devices = own->devices;
+    const std::size_t of_application = devices.size();
+    for (DeclaredDevice& each : of_owner()) {
+      const auto end = devices.begin() + static_cast<std::ptrdiff_t>(of_application);
+      const bool is_hidden = std::any_of(devices.begin(), end, [&](const DeclaredDevice& other) {
+        return other.profile.name == each.profile.name;
+      });
+      if (!is_hidden) devices.push_back(std::move(each));
+    }
+    return devices;
   }
 
   /// What the owner's devices.wale exports; nothing if it does not exist or has an error.
@@ -207,6 +229,12 @@ Result<> Library::folders_exist() const {
   return {};
 }
 
+Result<> Library::is_usable() const {
+  if (auto there = folders_exist(); !there) return there;
+  if (!parts_->own) return parts_->own.error();
+  return {};
+}
+
 Library::~Library() {
   parts_->seeker.end();
   parts_->worker.reset();  // its work uses the other parts
@@ -217,7 +245,7 @@ Result<Compiled> Library::find(const std::string& name, const CompileOptions& op
   if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   auto named = find_named_material(name, parts_->roots);
   if (!named) {
-    Error error = std::move(named.error());
+    Error error = in_own_words(std::move(named.error()));
     if (error.place.name.empty()) error.place.name = "name";
     for (const std::string ending : {".wale", ".wpp"}) {
       if (error.code != Code::unknown_name || !name.ends_with(ending)) continue;
@@ -278,7 +306,11 @@ Result<Compiled> Library::compile(std::string_view text, const CompileOptions& o
 Result<Compiled> Library::open(const std::string& path, const CompileOptions& options) const {
   if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   auto named = read_named_file(path);
-  if (!named) return std::move(named.error());
+  if (!named) {
+    Error error = std::move(named.error());
+    if (error.mend.starts_with("`wale find`")) error.mend = "name a file that exists; `find` takes the name of a material";
+    return in_own_words(std::move(error));
+  }
   return parts_->compiled(*std::move(named), options);
 }
 
@@ -297,7 +329,7 @@ Result<CompiledWorkspace> Library::workspace(std::string_view text, const Worksp
 Result<CompiledWorkspace> Library::open_workspace(const std::string& path, const WorkspaceOptions& options) const {
   if (auto sound = parts_->is_sound(options); !sound) return std::move(sound.error());
   auto named = read_workspace(path);
-  if (!named) return std::move(named).error();
+  if (!named) return in_own_words(std::move(named).error());
   return parts_->laid(*std::move(named), options);
 }
 
@@ -365,7 +397,7 @@ std::future<Result<SearchResult>> Library::between_later(std::string one, std::s
 
 std::vector<DeclaredDevice> Library::devices() const {
   std::vector<DeclaredDevice> devices = declared_devices(parts_->common->declarations);
-  for (DeclaredDevice& each : parts_->of_owner()) devices.push_back(std::move(each));
+  for (DeclaredDevice& each : parts_->declared_here()) devices.push_back(std::move(each));
   return devices;
 }
 

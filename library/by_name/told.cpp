@@ -1,9 +1,12 @@
 #include "library/by_name/told.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "compiler/diagnostics/told.hpp"
+#include "schema/closest_names.hpp"
 #include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 
@@ -35,7 +38,7 @@ std::vector<Error> warnings_in(Diagnostics& diagnostics, const SourceSet& source
   diagnostics.sort();
   std::vector<Error> warnings;
   for (const Diagnostic& each : diagnostics.all())
-    if (severity_of(each.code) == Severity::warning) warnings.push_back(told(each, sources));
+    if (severity_of(each.code) == Severity::warning) warnings.push_back(in_own_words(told(each, sources)));
   return warnings;
 }
 
@@ -48,6 +51,27 @@ Error first_error(Diagnostics& diagnostics, const SourceSet& sources) {
   Error error = told(*first, sources);
   for (auto each = all.begin(); each != all.end(); ++each)
     if (each != first) error.others.push_back(told(*each, sources));
+  return in_own_words(std::move(error));
+}
+
+Error in_own_words(Error error) {
+  // What the compiler says of the command line's options, and what the options of the library are called.
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> words{{
+      {"name it with `--library DIR` or in", "name it among the library's `folders` or in"},
+      {"decode it without by --unsandboxed-pictures", "decode it without by the library's option `unsandboxed_pictures`"},
+      {"a file that `--devices FILE` names", "the library's option `devices`"},
+      {"which `wale build --workspace` makes", "which `write_workspace` makes"},
+      {"`wale find` lists the materials of the library", "`nearest` has the names that are least far from it"},
+  }};
+  for (const auto& [option, own] : words)
+    if (const std::size_t at = error.mend.find(option); at != std::string::npos)
+      error.mend.replace(at, option.size(), own);
+  // A clause that proposes to list the materials at the command line.
+  for (const std::string_view begin : {"; `wale find`", "; `wale find "}) {
+    const std::size_t at = error.mend.find(begin);
+    if (at != std::string::npos) error.mend.erase(at, error.mend.find(';', at + 1) - at);
+  }
+  for (Error& each : error.others) each = in_own_words(std::move(each));
   return error;
 }
 
@@ -66,7 +90,7 @@ Error unknown(Code code, const std::string& argument, const std::string& name, c
           .sentence = "no " + argument + " is called " + quoted(name),
           .mend = std::move(mend),
           .place = {.name = argument, .text = name},
-          .nearest = std::move(nearest)};
+          .nearest = closest_names(name, known)};
 }
 
 Error with_owners_problem(Error error, const Error& problem) {

@@ -29,7 +29,9 @@ Result<LibraryOptions> read_library_options(const WaleLibraryOptions* options) {
     return about_argument("folders", "expected an array, found NULL", "set `folder_count` to 0");
   const auto unsandboxed = read_flag("unsandboxed_pictures", given->unsandboxed_pictures);
   if (!unsandboxed) return unsandboxed.error();
-  LibraryOptions read{.unsandboxed_pictures = *unsandboxed};
+  const auto devices = bytes_of("devices", given->devices);
+  if (!devices) return devices.error();
+  LibraryOptions read{.unsandboxed_pictures = *unsandboxed, .devices = std::string(*devices)};
   for (const WaleText& each : std::span(given->folders, given->folder_count)) {
     auto folder = read_path("folders", each);
     if (!folder) return std::move(folder).error();
@@ -159,7 +161,7 @@ WaleCode wale_library_create(const WaleLibraryOptions* options, WaleLibrary** li
     const auto read = read_library_options(options);
     if (!read) return read.error();
     std::unique_ptr<WaleLibrary> made(new WaleLibrary{wale::Library(*read)});
-    if (auto there = made->library.folders_exist(); !there) return there;
+    if (auto there = made->library.is_usable(); !there) return there;
     hand_out(std::move(made), library);
     return {};
   });

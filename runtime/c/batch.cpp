@@ -6,7 +6,7 @@
 #include "runtime/c/program.hpp"
 #include "runtime/c/run.hpp"
 #include "runtime/c/sized.hpp"
-#include "schema/spelling.hpp"
+#include "schema/closest_names.hpp"
 #include "schema/visible_text.hpp"
 #include "wale/batch.hpp"
 
@@ -53,7 +53,7 @@ Result<std::vector<float>> parameters_of(const Program& program, const WaleBatch
       Error unknown = about_argument("settings", "the program has no parameter `" + visible_text(*name) + "`",
                                      all.empty() ? "it has no parameters" : all, Code::unknown_name);
       unknown.place.text = *name;
-      unknown.nearest = nearest_spellings(*name, known);
+      unknown.nearest = closest_names(*name, known);
       return unknown;
     }
     if (!std::isfinite(each.value))

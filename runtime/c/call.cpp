@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "schema/expectation.hpp"
 #include "schema/name_text.hpp"
 #include "schema/utf8.hpp"
 
@@ -63,8 +64,8 @@ WaleCode give_thrown(WaleError** to) noexcept {
 }
 
 Error about_argument(std::string argument, std::string sentence, std::string mend, Code code) {
-  return {
-      .code = code, .sentence = std::move(sentence), .mend = std::move(mend), .place = {.name = std::move(argument)}};
+  return with_expectation(
+      {.code = code, .sentence = std::move(sentence), .mend = std::move(mend), .place = {.name = std::move(argument)}});
 }
 
 Result<> is_given(const char* argument, const void* value) {

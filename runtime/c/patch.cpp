@@ -1,3 +1,6 @@
+#include <string>
+#include <utility>
+
 #include "runtime/c/sized.hpp"
 #include "runtime/c/stage.hpp"
 
@@ -23,10 +26,22 @@ template <class Body>
 WaleCode call_of_edit(WaleEdit* edit, WaleError** error, const Body& body) {
   return call(error, [&]() -> Result<> {
     if (auto given = is_given("edit", edit); !given) return given;
-    Result<> done = body();
-    if (!done) edit->edit.fail(done.error());
-    return done;
+    try {
+      Result<> done = body();
+      if (!done) edit->edit.fail(done.error());
+      return done;
+    } catch (...) {
+      edit->edit.fail({.code = Code::short_of_resources});  // needs no memory; the commit says it in words
+      throw;
+    }
   });
+}
+
+/// A text of one line, `otherwise` if it is empty.
+Result<std::string> read_line(const char* argument, WaleText text, const char* otherwise) {
+  auto read = read_text(argument, text);
+  if (!read || !read->empty()) return read ? read_name(argument, text, "write one line") : std::move(read);
+  return std::string(otherwise);
 }
 
 /// Calls `change` with an edit and a patch.
@@ -166,6 +181,27 @@ WaleCode wale_edit_bring(WaleEdit* edit, const WalePatch* patch, float layer, Wa
 WaleCode wale_edit_remove(WaleEdit* edit, const WalePatch* patch, WaleError** error) {
   return change_edit(edit, patch, error, [&](wale::StageEdit& to, const wale::Patch& each) -> wale::Result<> {
     to.remove(each);
+    return {};
+  });
+}
+
+WaleCode wale_edit_fail(WaleEdit* edit, WaleCode code, WaleText argument, WaleText sentence, WaleText mend,
+                        WaleError** error) {
+  return call_of_edit(edit, error, [&]() -> wale::Result<> {
+    const auto known = static_cast<wale::Code>(code);
+    if (code <= 0 || wale::code_title(known).empty() || wale::severity_of(known) != wale::Severity::error)
+      return about_argument("code", "expected the code of an error, found " + std::to_string(code),
+                            "take WALE_CODE_malformed_value, or another one that fits");
+    auto what = read_name("sentence", sentence, "say in a line what is wrong");
+    if (!what) return std::move(what).error();
+    auto name = read_line("argument", argument, "edit");
+    if (!name) return std::move(name).error();
+    auto how = read_line("mend", mend, "make the edit without this change");
+    if (!how) return std::move(how).error();
+    edit->edit.fail({.code = known,
+                     .sentence = *std::move(what),
+                     .mend = *std::move(how),
+                     .place = {.name = *std::move(name)}});
     return {};
   });
 }

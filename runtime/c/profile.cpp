@@ -5,8 +5,8 @@
 #include "runtime/c/sized.hpp"
 #include "runtime/device/shipped_devices.hpp"
 #include "runtime/stage/device_figures.hpp"
+#include "schema/closest_names.hpp"
 #include "schema/sentence.hpp"
-#include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale::c {
@@ -116,7 +116,7 @@ Result<> give_profile(const std::vector<DeclaredDevice>& declared, WaleText name
   Error unknown =
       about_argument("name", "no device is called `" + visible_text(*wanted) + "`", "there are", Code::unknown_device);
   unknown.place.text = *wanted;
-  unknown.nearest = nearest_spellings(*wanted, names);
+  unknown.nearest = closest_names(*wanted, names);
   for (const std::string& each : names) unknown.mend += (&each == &names.front() ? " `" : ", `") + each + "`";
   return unknown;
 }

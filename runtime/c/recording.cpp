@@ -29,6 +29,19 @@ WaleCode wale_recording_open_part(WaleText path, size_t most_ticks, WaleRecordin
   });
 }
 
+WaleCode wale_recording_intact(WaleText path, uint64_t* ticks, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto given = is_given("ticks", ticks); !given) return given;
+    *ticks = 0;
+    const auto file = read_path("path", path);
+    if (!file) return file.error();
+    const auto intact = wale::Recording::intact(*file);
+    if (!intact) return intact.error();
+    *ticks = *intact;
+    return {};
+  });
+}
+
 void wale_recording_free(WaleRecording* recording) { free_handle(recording); }
 
 WaleCode wale_recording_details(const WaleRecording* recording, WaleRecordingDetails* details, WaleError** error) {

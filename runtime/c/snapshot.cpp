@@ -7,6 +7,7 @@
 #include "runtime/c/sized.hpp"
 #include "runtime/c/stage.hpp"
 #include "wale/picture.hpp"
+#include "wale/run.hpp"
 
 struct WaleSnapshot {
   wale::Snapshot snapshot;
@@ -26,6 +27,15 @@ WaleCode wale_patch_snapshot(const WalePatch* patch, WaleSnapshot** snapshot, Wa
 }
 
 void wale_snapshot_free(WaleSnapshot* snapshot) { free_handle(snapshot); }
+
+WaleCode wale_snapshot_placement(const WaleSnapshot* snapshot, WalePlacement** placement, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto clear = clear_result("placement", placement); !clear) return clear;
+    if (auto given = is_given("snapshot", snapshot); !given) return given;
+    hand_out(std::make_unique<WalePlacement>(WalePlacement{snapshot->snapshot.placement}), placement);
+    return {};
+  });
+}
 
 const float* wale_snapshot_states(const WaleSnapshot* snapshot, size_t* count) {
   if (count != nullptr) *count = 0;
@@ -93,9 +103,12 @@ WaleCode wale_snapshot_show(WaleSnapshot* snapshot, WaleVector position, WaleVec
     for (const double each : {double{position.x}, double{position.y}, double{velocity.x}, double{velocity.y}, time})
       if (!std::isfinite(each))
         return about_argument("position", "expected a finite position, velocity and time", "give m, m/s and s");
-    wale::Hand hand{.position = {position.x, position.y}, .velocity = {velocity.x, velocity.y}, .time = time};
-    hand.raw_velocity = hand.velocity;
-    hand.workspace = hand.position;
+    const wale::Placement& placement = snapshot->snapshot.placement;
+    const wale::Now now{.time = time,
+                        .position = glm::vec2(position.x, position.y) + placement.at,
+                        .velocity = {velocity.x, velocity.y}};
+    wale::Hand hand = wale::hand_on(now, placement);
+    hand.position = {position.x, position.y};  // unrounded
     const auto shown = wale::show(snapshot->snapshot.bank, snapshot->snapshot.memory, hand);
     *count = shown.size();
     if (marks == nullptr || capacity < shown.size()) return {};

@@ -27,6 +27,10 @@ struct WalePatch {
   wale::Patch patch;
 };
 
+struct WalePlacement {
+  wale::Placement placement;
+};
+
 namespace wale::c {
 
 Result<PatchOptions> read_options(const WalePatchOptions* options);

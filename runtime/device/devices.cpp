@@ -12,9 +12,9 @@
 #include "runtime/device/limited_device.hpp"
 #include "runtime/device/match_device.hpp"
 #include "runtime/device/open_device.hpp"
+#include "schema/closest_names.hpp"
 #include "schema/name_text.hpp"
 #include "schema/owners_devices_file.hpp"
-#include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 #include "wale/simulated_pad.hpp"
 
@@ -137,7 +137,7 @@ Result<DeviceProfile> profile_named(const std::string& name, std::span<const Tru
                 "there is no device `" + visible_text(name) + "`",
                 "there are",
                 {.name = "built_for", .text = name}};
-  unknown.nearest = nearest_spellings(name, names);
+  unknown.nearest = closest_names(name, names);
   for (const std::string& each : names) unknown.mend += (&each == &names.front() ? " `" : ", `") + each + "`";
   return unknown;
 }

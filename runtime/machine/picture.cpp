@@ -1,11 +1,11 @@
 #include "wale/picture.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "runtime/machine/decoded_program.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
 #include "runtime/machine/inputs.hpp"
+#include "runtime/machine/meet_edge.hpp"
 #include "runtime/machine/states.hpp"
 
 namespace wale {
@@ -36,13 +36,6 @@ std::vector<float> registers_at(const Bank& bank, const Memory* memory, const Ha
     enter_lane(program, registers.data());
   }
   return registers;
-}
-
-/// Gives a hand its distance to the edge of a shape. Outside it is on the edge; 0 would be a rectangle.
-void put_at_edge(const Shape& shape, Hand& hand) {
-  const EdgeDistance edge = shape.edge(hand.position);
-  hand.edge = std::max(edge.metres, std::numeric_limits<float>::min());
-  hand.edge_slope = edge.slope;
 }
 
 float within_one(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }
@@ -77,7 +70,9 @@ void surface_all(const Bank& bank, const Memory* memory, std::span<const glm::ve
     const std::size_t count = std::min(lanes, positions.size() - first);
     for (std::size_t lane = 0; lane < count; ++lane) {
       hands[lane].position = positions[first + lane];
-      if (!shape.is_rectangle()) put_at_edge(shape, hands[lane]);
+      if (shape.is_rectangle()) continue;
+      const EdgeDistance edge = shape.edge(hands[lane].position);
+      meet_edge(hands[lane], edge.metres, edge.slope);
     }
     for (const Input each : places)
       place_input(each, std::span(hands).first(count), program.envelope, block.row(operand(static_cast<RegisterNumber>(each))));

@@ -59,7 +59,7 @@ Error unwritable(const std::string& path, int error) {
         return because("this is a device or a pipe, and a recording is a regular file",
                        "name a file that does not exist yet");
       return because("the file exists already, and a recording never overwrites a file",
-                     "delete it or choose another name; only a table, as in `--record run.csv`, replaces a file");
+                     "delete it or choose another name");
     }
     case ENOENT: return because("there is no such folder", "make it first");
     case EACCES:

@@ -33,6 +33,7 @@ class RecordingReader {
 
   Result<> read() {
     if (auto header = read_file_header(); !header) return header;
+    is_recording_ = true;
     find_chunks();
     read_events();
     read_ticks();
@@ -42,9 +43,12 @@ class RecordingReader {
     problem_->mend = contents_.ticks == 0
                          ? "no tick of it can be read; record again"
                          : sentence("the ", contents_.ticks, " ticks before it are intact: open it for no more than ",
-                                    contents_.ticks, " ticks (`most_ticks`; of `wale replay` --ticks)");
+                                    contents_.ticks, " ticks (`most_ticks`)");
     return *problem_;
   }
+
+  /// Whether the file is a recording of a version that is read, whole or not.
+  bool is_recording() const { return is_recording_; }
 
  private:
   template <class Value>
@@ -58,7 +62,7 @@ class RecordingReader {
   static Error not_a_recording(std::string sentence) {
     return {.code = Code::damaged_file,
             .sentence = std::move(sentence),
-            .mend = "make one with `wale feel FILE --record NAME.wrec`"};
+            .mend = "record a run into a file NAME.wrec, and open that"};
   }
 
   static Error damaged_at(std::size_t byte, std::string sentence, std::string mend = {}) {
@@ -198,6 +202,7 @@ class RecordingReader {
   std::vector<std::size_t> event_chunks_;
   std::uint32_t most_revision_ = 0;
   bool is_cut_ = false;  ///< the file ends within a chunk
+  bool is_recording_ = false;
   std::optional<Error> problem_;
 };
 
@@ -213,17 +218,36 @@ Result<std::shared_ptr<Contents>> contents_of(decltype(RecordingContents::held) 
   return error;
 }
 
-}  // namespace
-
-Result<Recording> Recording::open(const std::string& path, std::size_t most_ticks) {
-  // Read, and not mapped: of a file that another program shortens meanwhile, mapped memory would end this process.
+/// The bytes of a file. Read, and not mapped: of a file that another program shortens meanwhile, mapped memory would end
+/// this process. Error: `unreadable_file`.
+Result<std::string> bytes_of_file(const std::string& path) {
   Result<std::string> bytes = read_regular_file(path, largest_recording);
   if (!bytes) {
     bytes.error().sentence = "the file cannot be read: " + bytes.error().sentence;
     if (bytes.error().mend.empty()) bytes.error().mend = "name a recording, a .wrec file, that this user may read";
     if (path.empty()) bytes.error().place.name = "path";
-    return std::move(bytes).error();
   }
+  return bytes;
+}
+
+}  // namespace
+
+Result<std::size_t> Recording::intact(const std::string& path) {
+  auto bytes = bytes_of_file(path);
+  if (!bytes) return std::move(bytes).error();
+  Contents contents;
+  contents.held = *std::move(bytes);
+  RecordingReader reader(contents, SIZE_MAX);
+  auto read = reader.read();
+  if (read || reader.is_recording()) return contents.ticks;
+  Error error = std::move(read).error();
+  error.place.name = path;
+  return error;
+}
+
+Result<Recording> Recording::open(const std::string& path, std::size_t most_ticks) {
+  auto bytes = bytes_of_file(path);
+  if (!bytes) return std::move(bytes).error();
   auto contents = contents_of<Contents>(*std::move(bytes), path, most_ticks);
   if (!contents) return std::move(contents).error();
   return Recording(*std::move(contents));

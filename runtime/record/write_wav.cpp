@@ -76,7 +76,7 @@ Result<> write_wav(std::ostream& out, const Recording& recording) {
     return Error{.code = Code::unwritable_file,
                  .sentence = sentence("a WAV file holds 4 GiB, but this sound needs ",
                                       frames * frame_bytes + wav_header_bytes, " bytes"),
-                 .mend = sentence("take no more than ", most_ticks, " ticks (`most_ticks`; of `wale replay` --ticks)")};
+                 .mend = sentence("take no more than ", most_ticks, " ticks (`most_ticks`)")};
   }
   WavHeader header;
   header.frames = static_cast<std::uint32_t>(frames);

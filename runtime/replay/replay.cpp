@@ -137,7 +137,7 @@ class Replaying final : public TickSink {
     return known->second;
   }
 
-  void want(PatchName name, std::optional<Placement> placement) {
+  void want(PatchName name, std::optional<WantedPatch> placement) {
     std::vector<PatchTable::Wish> wishes;
     wishes.emplace_back(name, std::move(placement));
     table_.want(std::move(wishes));
@@ -145,7 +145,7 @@ class Replaying final : public TickSink {
 
   /// Makes a change of a patch, which then counts as changed.
   void change(PatchName name, const StageState::Change& change, bool renew = false) {
-    Placement placement = *table_.wanted(name);
+    WantedPatch placement = *table_.wanted(name);
     if (auto done = change(placement); !done) throw std::move(done).error();
     want(name, std::move(placement));
     table_.touch(name, renew);
@@ -163,7 +163,7 @@ class Replaying final : public TickSink {
 
   /// A patch as version 1 placed it.
   void add(const RecordedEvent& event) {
-    Placement placement(program(event.program), event.position, event.size, event.layer);
+    WantedPatch placement(program(event.program), event.position, event.size, event.layer);
     if (event.kind == Kind::add) placement.parameters = parameters_of(event, placement.program);
     placement.order = table_.next_order();
     place(static_cast<std::uint32_t>(names_.size()), std::move(placement));
@@ -175,7 +175,7 @@ class Replaying final : public TickSink {
     return event.parameters;
   }
 
-  PatchName place(std::uint32_t number, Placement placement) {
+  PatchName place(std::uint32_t number, WantedPatch placement) {
     const PatchName name = table_.reserve();
     names_[number] = name;
     number_of_slot_[name.number] = number;
@@ -184,7 +184,7 @@ class Replaying final : public TickSink {
   }
 
   void put(const RecordedEvent& event) {
-    Placement placement(program(event.program), event.position, event.size, event.layer, event.shape);
+    WantedPatch placement(program(event.program), event.position, event.size, event.layer, event.shape);
     placement.parameters = parameters_of(event, placement.program);
     placement.order = event.order;
     placement.enabled = event.enabled;
@@ -215,7 +215,7 @@ class Replaying final : public TickSink {
       case Kind::replace: {
         const Program& replacing = program(event.program);
         const PatchName name = named(event.patch, "a program was replaced of patch ");
-        const auto replace = [&](Placement& patch) -> Result<> {
+        const auto replace = [&](WantedPatch& patch) -> Result<> {
           patch.replace(replacing);
           return {};
         };
@@ -225,7 +225,7 @@ class Replaying final : public TickSink {
       case Kind::set: set(event); return;
       case Kind::move: {
         const PatchName name = named(event.patch, "there was a move of patch ");
-        Placement placement = *table_.wanted(name);
+        WantedPatch placement = *table_.wanted(name);
         if (auto done = changes::move(event.position)(placement); !done) throw std::move(done).error();
         want(name, std::move(placement));
         return;
@@ -258,7 +258,7 @@ class Replaying final : public TickSink {
 
 Result<Replay> replay(const Recording& recording) {
   if (recording.ticks() == 0) return Replay{};
-  if (auto sound = check_figures(recording.header().device); !sound) return std::move(sound).error();
+  if (auto sound = check_recorded_figures(recording.header().device); !sound) return std::move(sound).error();
   try {
     Replaying replaying(recording);
     replaying.run();

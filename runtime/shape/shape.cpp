@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "runtime/shape/shape_form.hpp"
+#include "schema/expectation.hpp"
 
 namespace wale {
 namespace {
@@ -18,10 +19,10 @@ constexpr const char* lengths = "give m, as in 0.05";
 bool is_length(float value) { return value > 0 && value <= furthest; }
 
 Error malformed(std::string sentence, std::string mend) {
-  return {.code = Code::malformed_value,
-          .sentence = std::move(sentence),
-          .mend = std::move(mend),
-          .place = {.name = "shape"}};
+  return with_expectation({.code = Code::malformed_value,
+                           .sentence = std::move(sentence),
+                           .mend = std::move(mend),
+                           .place = {.name = "shape"}});
 }
 
 double turn(glm::dvec2 one, glm::dvec2 other) { return one.x * other.y - one.y * other.x; }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -6,6 +7,13 @@
 
 namespace wale {
 namespace {
+
+Error no_memory_for_a_call() {
+  return {.code = Code::short_of_resources,
+          .sentence = "there was no memory left for one of the edit's calls",
+          .mend = "free some, and make the whole edit again",
+          .place = {.name = "edit"}};
+}
 
 Error edit_was_moved() { return wrong_moment("edit", "the edit was moved from", "use the edit that it was moved to"); }
 
@@ -19,9 +27,9 @@ struct StageEdit::Parts {
   };
 
   std::weak_ptr<StageState> stage;
-  std::vector<std::pair<PatchName, Placement>> added;
+  std::vector<std::pair<PatchName, WantedPatch>> added;
   std::vector<Step> steps;
-  std::optional<Error> error;  // the first
+  std::optional<Error> error;  // the first; without a sentence where there was no memory for one
 
   ~Parts() { discard(); }
 
@@ -34,6 +42,29 @@ struct StageEdit::Parts {
     added.clear();
     steps.clear();
     error.reset();
+  }
+  /// While one exists, an exception (there is no memory) makes the edit fail as a whole, as an error does: the call that
+  /// it ends has changed nothing, so a commit of the others would be half of what was asked for.
+  class WholeOrNot {
+   public:
+    explicit WholeOrNot(Parts& parts) noexcept : parts_(parts), thrown_(std::uncaught_exceptions()) {}
+    ~WholeOrNot() {
+      if (std::uncaught_exceptions() > thrown_ && !parts_.error)
+        parts_.error.emplace(Error{.code = Code::short_of_resources});
+    }
+    WholeOrNot(const WholeOrNot&) = delete;
+    WholeOrNot& operator=(const WholeOrNot&) = delete;
+
+   private:
+    Parts& parts_;
+    int thrown_;
+  };
+
+  /// Notes the step that `change()` makes of the patch.
+  template <class Make>
+  void note(const std::weak_ptr<StageState>& of, PatchName name, const Make& change) {
+    const WholeOrNot whole(*this);
+    step(of, name, change());
   }
   void step(const std::weak_ptr<StageState>& of, PatchName name, StageState::Change change) {
     const bool other = of.owner_before(stage) || stage.owner_before(of);
@@ -52,10 +83,11 @@ StageEdit::~StageEdit() = default;
 
 Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options) {
   if (!parts_) return edit_was_moved();
+  const Parts::WholeOrNot whole(*parts_);
   const auto found = here(parts_->stage.lock(), stage_is_gone);
   if (!found) return found.error();
   const auto& state = *found;
-  Result<Placement> placement = state->placement(program, options);
+  Result<WantedPatch> placement = state->wanted(program, options);
   if (!placement) {
     fail(placement.error());
     return std::move(placement).error();
@@ -73,33 +105,33 @@ Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options
 }
 
 void StageEdit::set(const Patch& patch, std::string_view parameter, double value) {
-  if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::set(std::string(parameter), value));
+  if (parts_) parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::set(std::string(parameter), value); });
 }
 
 void StageEdit::move(const Patch& patch, glm::vec2 to) {
-  if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::move(to));
+  if (parts_) parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::move(to); });
 }
 
 void StageEdit::resize(const Patch& patch, PatchSize size) {
-  if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::resize(size));
+  if (parts_) parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::resize(size); });
 }
 
 void StageEdit::replace(const Patch& patch, const Program& program) {
   if (const auto state = parts_ ? parts_->stage.lock() : nullptr)
-    parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::replace(program, *state));
+    parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::replace(program, *state); });
 }
 
 void StageEdit::enable(const Patch& patch, bool enabled) {
-  if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::enable(enabled));
+  if (parts_) parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::enable(enabled); });
 }
 
 void StageEdit::bring(const Patch& patch, const BringOptions& to) {
   if (const auto state = parts_ ? parts_->stage.lock() : nullptr)
-    parts_->step(patch.stage_, {patch.number_, patch.generation_}, changes::bring(to.layer, state->table));
+    parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::bring(to.layer, state->table); });
 }
 
 void StageEdit::remove(const Patch& patch) {
-  if (parts_) parts_->step(patch.stage_, {patch.number_, patch.generation_}, nullptr);
+  if (parts_) parts_->note(patch.stage_, StageState::name_of(patch), [] { return StageState::Change(); });
 }
 
 void StageEdit::fail(Error error) {
@@ -115,7 +147,8 @@ Result<> StageEdit::commit() {
     parts_->discard();
     return error;
   };
-  if (parts_->error) return refuse(*parts_->error);
+  if (parts_->error)
+    return refuse(parts_->error->sentence.empty() ? no_memory_for_a_call() : *parts_->error);
   std::unique_lock lock(state->mutex);
   if (state->over) return stage_is_gone();
   std::vector<PatchTable::Wish> wishes;

@@ -35,7 +35,7 @@ Result<std::uint32_t> last_change(const RunResult& run, const Patch& patch) {
   if (as_felt == known.end())
     return nothing_measured("the hand was not on the patch after its last change in the run",
                         "leave it as it is for a while, or measure a run of its own for each change");
-  const Placement* const wanted = state->table.wanted(name);
+  const WantedPatch* const wanted = state->table.wanted(name);
   if (wanted == nullptr) return patch_is_gone();
   if (!(wanted->key() == as_felt->key))
     return wrong_moment("patch", "the patch's program, parameters or size have changed since the run",

@@ -22,7 +22,7 @@ namespace wale {
 /// least one while the wanted amplitude is 0.
 class Guards {
  public:
-  /// A profile without a slew (zero) does not limit the rate. `most` is the largest force that the user allows, N.
+  /// A profile without a slew (zero), as of a pad or of an old recording, does not limit the rate. `most` is the largest force that the user allows, N.
   explicit Guards(const DeviceProfile& profile, double most = HUGE_VAL);
 
   /// Slews from now on: call it when a change may make the wanted force jump.

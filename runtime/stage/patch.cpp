@@ -1,6 +1,8 @@
 #include "wale/patch.hpp"
 
+#include "runtime/machine/meet_edge.hpp"
 #include "runtime/stage/stage_state.hpp"
+#include "wale/run.hpp"
 
 namespace wale {
 namespace {
@@ -65,6 +67,49 @@ bool Patch::exists() const {
   if (!stage) return false;
   const std::lock_guard lock((*stage)->mutex);
   return (*stage)->has({number_, generation_}).has_value();
+}
+
+Hand hand_on(const Now& now, const Placement& placement) {
+  Hand hand{.position = glm::vec2(glm::dvec2(now.position) - glm::dvec2(placement.at)),
+            .velocity = now.velocity,
+            .raw_velocity = now.velocity,
+            .workspace = now.position,
+            .time = now.time};
+  if (placement.shape.is_rectangle()) return hand;
+  const Shape stretched = placement.shape.stretched({placement.size.width, placement.size.height});
+  const EdgeDistance edge = stretched.edge(hand.position);
+  meet_edge(hand, edge.metres, edge.slope);
+  return hand;
+}
+
+Result<float> Placement::value(std::string_view parameter) const {
+  const auto index = index_of(program, parameter);
+  if (!index) return index.error();
+  return values.at(*index);
+}
+
+Result<Placement> Patch::placement() const {
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  return (*stage)->placement({number_, generation_});
+}
+
+Result<Placement> Patch::published() const {
+  const auto stage = here(stage_.lock(), no_stage);
+  if (!stage) return stage.error();
+  return (*stage)->published({number_, generation_});
+}
+
+Result<float> Patch::value(std::string_view parameter) const {
+  const auto known = placement();
+  if (!known) return known.error();
+  return known->value(parameter);
+}
+
+Result<std::vector<float>> Patch::values() const {
+  auto known = placement();
+  if (!known) return std::move(known).error();
+  return std::move(known->values);
 }
 
 Result<Bank> Patch::bank() const {

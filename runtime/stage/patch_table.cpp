@@ -12,12 +12,12 @@ namespace {
 /// and the tick at which it comes.
 constexpr std::size_t most_memories_waiting = 64;
 
-bool same_program(const Placement& one, const Placement& other) {
+bool same_program(const WantedPatch& one, const WantedPatch& other) {
   return &one.program.decoded() == &other.program.decoded();
 }
 
 /// As comparing their keys, without making these.
-bool same_bank(const Placement& one, const Placement& other) noexcept {
+bool same_bank(const WantedPatch& one, const WantedPatch& other) noexcept {
   const auto same_bits = [](float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); };
   return same_program(one, other) && same_bits(one.size.width, other.size.width) &&
          same_bits(one.size.height, other.size.height) && same_bits(one.size.rim, other.size.rim) &&
@@ -41,10 +41,10 @@ const PatchTable::Slot* PatchTable::find(PatchName name) const {
   return &slots_[name.number];
 }
 
-const Placement* PatchTable::wanted(PatchName name) const {
+const WantedPatch* PatchTable::wanted(PatchName name) const {
   const Slot* const slot = find(name);
   if (slot == nullptr) return nullptr;
-  const std::optional<Placement>& wanted = slot->later ? *slot->later : slot->wanted;
+  const std::optional<WantedPatch>& wanted = slot->later ? *slot->later : slot->wanted;
   return wanted ? &*wanted : nullptr;
 }
 
@@ -163,7 +163,7 @@ void PatchTable::take_later_wishes() {
 void PatchTable::take_later_wishes_at_rest() noexcept {
   for (const std::uint32_t number : later_) {
     Slot& slot = slots_[number];
-    std::optional<Placement> wish = *std::exchange(slot.later, std::nullopt);
+    std::optional<WantedPatch> wish = *std::exchange(slot.later, std::nullopt);
     if (!wish) {
       drop(number);
       continue;
@@ -228,7 +228,7 @@ void PatchTable::take_wishes(std::vector<Wish>& wishes) {
     if (prepared[i].job != nullptr) prepared[i].job->second.slots.push_back(wishes[i].first.number);
   for (std::size_t i = 0; i < wishes.size(); ++i) {
     const std::uint32_t number = wishes[i].first.number;
-    std::optional<Placement>& wish = wishes[i].second;
+    std::optional<WantedPatch>& wish = wishes[i].second;
     if (!wish) {
       if (drop(number)) mark(number), numbers.push_back(number);
       continue;
@@ -327,7 +327,7 @@ void PatchTable::end() noexcept {
 bool PatchTable::changes_outline(const Slot& slot) const {
   if (!slot.felt) return false;
   if (!slot.wanted || !slot.wanted->enabled) return true;
-  const Placement &then = *slot.felt, &now = *slot.wanted;
+  const WantedPatch &then = *slot.felt, &now = *slot.wanted;
   return then.position != now.position || then.layer != now.layer || then.order != now.order ||
          (slot.ready && then.size != now.size) || (slot.older && then.size != slot.older->key.size);
 }
@@ -377,7 +377,7 @@ bool PatchTable::publish_slot(std::uint32_t number, RecordWriter* recorder) {
     return was_there;
   }
   if (!slot.ready && !slot.older && !slot.bank) return false;  // a new patch is not felt until it is ready
-  Placement next = *slot.wanted;
+  WantedPatch next = *slot.wanted;
   std::shared_ptr<const PreparedBank> bank = slot.ready;
   if (!bank) {
     const BankKey key = slot.older ? slot.older->key : slot.felt->key();
@@ -416,7 +416,7 @@ bool PatchTable::publish_slot(std::uint32_t number, RecordWriter* recorder) {
   return true;
 }
 
-void PatchTable::arrange(std::uint32_t number, const Placement& next, const std::shared_ptr<const PreparedBank>& bank,
+void PatchTable::arrange(std::uint32_t number, const WantedPatch& next, const std::shared_ptr<const PreparedBank>& bank,
                          bool sampled) {
   Slot& slot = slots_[number];
   if (!next.enabled) {
@@ -439,7 +439,7 @@ void PatchTable::arrange(std::uint32_t number, const Placement& next, const std:
                         sampled && (next.shape.is_rectangle() || !reads_shape_edge(next.program)))});
 }
 
-void PatchTable::record(const Slot& slot, std::uint32_t number, const Placement& next, bool changed, bool renewed,
+void PatchTable::record(const Slot& slot, std::uint32_t number, const WantedPatch& next, bool changed, bool renewed,
                         bool sampled, RecordWriter& recorder) const {
   const auto same_bits = [](float one, float other) {
     return std::bit_cast<std::uint32_t>(one) == std::bit_cast<std::uint32_t>(other);
@@ -475,7 +475,7 @@ PatchTable::Felt PatchTable::felt(PatchName name) const {
   const Slot* const slot = find(name);
   if (slot == nullptr || !slot->wanted) return {};
   const bool placed = running_ && slot->felt && slot->felt->enabled;
-  return {slot->memory, slot->bank, placed, slot->withdrawn};
+  return {slot->memory, slot->bank, placed, slot->withdrawn, slot->felt ? &*slot->felt : nullptr};
 }
 
 std::vector<PatchTable::Published> PatchTable::published(const std::unordered_set<std::uint32_t>& changes) const {

@@ -15,7 +15,7 @@
 #include "runtime/stage/bank_cache.hpp"
 #include "runtime/stage/exchange.hpp"
 #include "runtime/stage/placed_patches.hpp"
-#include "runtime/stage/placement.hpp"
+#include "runtime/stage/wanted_patch.hpp"
 
 namespace wale {
 
@@ -50,12 +50,12 @@ class PatchTable {
   /// Whether it is a name for a patch that is wanted later.
   bool is_reserved(PatchName name) const;
   /// The patch as it is wanted, or null if there is none.
-  const Placement* wanted(PatchName name) const;
+  const WantedPatch* wanted(PatchName name) const;
   std::size_t size() const { return count_; }
   std::uint64_t next_order() { return ++order_; }
 
   /// What becomes of a patch; nothing removes it.
-  using Wish = std::pair<PatchName, std::optional<Placement>>;
+  using Wish = std::pair<PatchName, std::optional<WantedPatch>>;
   /// All or nothing is felt at one tick. The names are reserved or have patches, each at most once. Throws
   /// std::bad_alloc; then nothing has changed.
   void want(std::vector<Wish> wishes);
@@ -100,6 +100,7 @@ class PatchTable {
     std::shared_ptr<const PreparedBank> bank;
     bool is_placed = false;       ///< the loop may use the memory
     std::uint32_t withdrawn = 0;  ///< otherwise: since this revision it does not
+    const WantedPatch* as = nullptr;  ///< as it was published; null where no run has had it; the table's
   };
   Felt felt(PatchName name) const;
   /// A patch as it was published last.
@@ -143,9 +144,9 @@ class PatchTable {
     bool dirty = false;
     bool touched = false, renewed = false, loose = false;
     std::uint32_t edit = 0;                         // of the edit that it waits with; 0: none
-    std::optional<std::optional<Placement>> later;  // becomes `wanted` when its edit is published
+    std::optional<std::optional<WantedPatch>> later;  // becomes `wanted` when its edit is published
     Jobs::value_type* job = nullptr;                // that it waits for
-    std::optional<Placement> wanted;
+    std::optional<WantedPatch> wanted;
     std::shared_ptr<const PreparedBank> ready;  // the bank of `wanted`, when it is known
     std::optional<Older> older;                 // otherwise
     std::uint64_t version = 0;                  // of the wanted bank: how many there were
@@ -154,7 +155,7 @@ class PatchTable {
     std::uint64_t since = 0;        // when it began to wait for a bank, in the order of waiting; 0: it does not
     bool is_unsampled = false;      // in `unsampled_`
     bool is_replaced = false;       // in `replaced_`
-    std::optional<Placement> felt;  // as published; its program, parameters and size may be older
+    std::optional<WantedPatch> felt;  // as published; its program, parameters and size may be older
     std::shared_ptr<const PreparedBank> bank;  // as published
     std::shared_ptr<Memory> memory;
     bool sampled = false;    // the published bound is the sampled one
@@ -200,9 +201,9 @@ class PatchTable {
   bool changes_outline(const Slot& slot) const;
   bool publish_slot(std::uint32_t number, RecordWriter* recorder);
   /// Arranges the patch, now as `next` says.
-  void arrange(std::uint32_t number, const Placement& next, const std::shared_ptr<const PreparedBank>& bank,
+  void arrange(std::uint32_t number, const WantedPatch& next, const std::shared_ptr<const PreparedBank>& bank,
                bool sampled);
-  void record(const Slot& slot, std::uint32_t number, const Placement& next, bool changed, bool renewed, bool sampled,
+  void record(const Slot& slot, std::uint32_t number, const WantedPatch& next, bool changed, bool renewed, bool sampled,
               RecordWriter& recorder) const;
 
   BankCache& banks_;

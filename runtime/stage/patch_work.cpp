@@ -16,14 +16,14 @@ constexpr float foresight = 0.1f;
 constexpr int most_banks_before_others = 16;
 
 /// m, from a point to a patch; 0 within it.
-float distance(glm::vec2 point, const Placement& patch) {
+float distance(glm::vec2 point, const WantedPatch& patch) {
   const float x = std::max(std::abs(point.x - patch.position.x) - patch.size.width / 2, 0.0f);
   const float y = std::max(std::abs(point.y - patch.position.y) - patch.size.height / 2, 0.0f);
   return std::hypot(x, y);
 }
 
 /// How soon the hand may need the patch; the least comes first. The patch under the hand comes before all others.
-float urgency(const PatchTable::Nearby& hand, const Placement& patch) {
+float urgency(const PatchTable::Nearby& hand, const WantedPatch& patch) {
   if (!patch.enabled) return std::numeric_limits<float>::max();
   const float here = distance(hand.position, patch);
   if (here > 0) return 1 + std::min(here, distance(hand.position + foresight * hand.velocity, patch));

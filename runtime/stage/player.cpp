@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "runtime/machine/meet_edge.hpp"
+
 namespace wale {
 namespace {
 
@@ -122,8 +124,7 @@ void Player::serve(const Beat& beat) noexcept {
     hand.position = glm::vec2(position - glm::dvec2(found->outline.position));
     if (const Shape& shape = found->outline.shape; !shape.is_rectangle()) {
       const EdgeDistance edge = shape.edge(hand.position);
-      hand.edge = std::max(edge.metres, std::numeric_limits<float>::min());  // 0 would be a rectangle
-      hand.edge_slope = edge.slope;
+      meet_edge(hand, edge.metres, edge.slope);
     }
     wanted = feel(*found, hand);
   }

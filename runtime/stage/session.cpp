@@ -50,17 +50,19 @@ Result<RunLength> length_of(const RunOptions& options, double rate) {
   const auto asked = [](double seconds) { return "; asked for " + few_digits(seconds) + " s"; };
   if (!(options.seconds > 0))
     return malformed("seconds", "the length of a run must be positive" + asked(options.seconds),
-                     "give seconds, as in 5");
+                     "give seconds, as in 5", "a positive number of seconds", few_digits(options.seconds));
   if (!(options.kept_seconds > 0))
     return malformed("kept_seconds", "the length of a run's record must be positive" + asked(options.kept_seconds),
-                     "leave it out to keep all of the run");
+                     "leave it out to keep all of the run", "a positive number of seconds",
+                     few_digits(options.kept_seconds));
   const double kept = std::min(options.seconds, options.kept_seconds);
   if (kept * rate > static_cast<double>(longest_run)) {
     const bool endless_run = kept < options.seconds;
     return malformed(endless_run ? "kept_seconds" : "seconds",
                      "a run keeps at most " + few_digits(static_cast<double>(longest_run) / rate) + " s at " +
                          few_digits(rate) + " Hz" + asked(kept),
-                     endless_run ? "keep less" : "keep less of it: `kept_seconds`");
+                     endless_run ? "keep less" : "keep less of it: `kept_seconds`",
+                     "at most " + few_digits(static_cast<double>(longest_run) / rate) + " s", few_digits(kept));
   }
   return RunLength{std::max(1L, std::lround(std::min(options.seconds * rate, endless))),
                    std::max(1L, std::lround(kept * rate))};
@@ -83,9 +85,11 @@ Result<std::unique_ptr<Session>> Session::begin(std::shared_ptr<StageState> stag
   if (!length) return length.error();
   const StageOptions& how = stage->options;
   if (!(how.max_force > 0))
-    return malformed("max_force", "the largest force allowed must be positive", "give newtons, as in 2");
+    return malformed("max_force", "the largest force allowed must be positive", "give newtons, as in 2",
+                     "a positive force", few_digits(how.max_force));
   if (how.priority && !(*how.priority >= 1 && *how.priority <= 99))
-    return malformed("priority", "the priority of a loop must be in 1 .. 99", "the usual one is 80");
+    return malformed("priority", "the priority of a loop must be in 1 .. 99", "the usual one is 80", "1 .. 99",
+                     std::to_string(*how.priority));
   std::unique_ptr<Session> session(new Session(stage, options, clock, device));
   session->ticks_ = length->ticks;
   session->kept_ = length->kept;
@@ -131,6 +135,7 @@ Session::~Session() {
   }
   stop_threads();
   player_.reset();  // commands zero force
+  if (has_begun_ && (has_failed_ || (clock_ != Clock::own && !has_ended_well_))) tell_no_force();
   if (has_device_) give_device_back(device_);
   const std::lock_guard lock(stage_->mutex);
   if (stage_->recorder && clock_ == Clock::own && has_begun_) stage_->recorder->end();
@@ -140,6 +145,13 @@ Session::~Session() {
   stage_->running = stage_->served = stage_->caller_serves = false;
   stage_->caller = {};
   stage_->news.notify_all();
+}
+
+void Session::tell_no_force() noexcept {
+  TickState state = stage_->outlets.state.load();
+  state.force = Force(0);
+  state.inside = false;
+  stage_->outlets.state.store(state);
 }
 
 void Session::stop_threads() noexcept {
@@ -346,6 +358,7 @@ Result<RunResult> Session::play() {
   result_.lateness = player_->lateness();
   result_.costs = player_->costs();
   result_.guards = player_->guards();
+  has_ended_well_ = true;
   return std::move(result_);
 }
 

@@ -39,6 +39,8 @@ class Session {
   Result<> begin_recording();
   Result<> start_preparing();
   void stop_threads() noexcept;
+  /// The run has failed, so its last tick says nothing about a force any more. No thread serves ticks.
+  void tell_no_force() noexcept;
   /// A thread of the run has no memory for its work: the run ends, and a `Loop` gives no force any more.
   void fail() noexcept;
   /// The thread that prepares banks.
@@ -59,6 +61,7 @@ class Session {
   bool has_device_ = false;  // no other run uses it
   bool has_stage_ = false;   // no other run is under way on it
   bool has_begun_ = false;   // ticks may have been served
+  bool has_ended_well_ = false;  // `play` gives the figures
   std::atomic<bool> has_failed_ = false;
   double most_ = HUGE_VAL;   // N, the largest force that the user allows, by the stage's options or the device's
   long ticks_ = 0, kept_ = 0;

@@ -63,7 +63,7 @@ Stage::~Stage() {
 
 Result<Patch> Stage::add(const Program& program, const PatchOptions& options) {
   if (auto there = here(state_, stage_was_moved); !there) return std::move(there).error();
-  Result<Placement> placement = state_->placement(program, options);
+  Result<WantedPatch> placement = state_->wanted(program, options);
   if (!placement) return std::move(placement).error();
   const std::lock_guard lock(state_->mutex);
   placement->order = state_->table.next_order();

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "schema/built_for.hpp"
+#include "schema/closest_names.hpp"
 #include "schema/name_text.hpp"
-#include "schema/spelling.hpp"
 
 namespace wale {
 namespace {
@@ -34,29 +34,36 @@ Error no_ticks() {
   return wrong_moment("patch", "the run serves no ticks", "ask again later; a loop of one's own must go on meanwhile");
 }
 
+std::string shown(glm::vec2 place) { return six_digits(place.x) + ", " + six_digits(place.y); }
+
 bool is_finite(glm::vec2 place) { return std::isfinite(place.x) && std::isfinite(place.y); }
 
 Result<> check_size(PatchSize size) {
   constexpr const char* lengths = "give lengths in m, as in 0.05";
   if (!(std::isfinite(size.width) && size.width > 0 && std::isfinite(size.height) && size.height > 0))
-    return malformed("size", "the width and height of a patch must be positive and finite", lengths);
+    return malformed("size", "the width and height of a patch must be positive and finite", lengths,
+                     "a positive width and height", six_digits(size.width) + ", " + six_digits(size.height));
   if (!(std::isfinite(size.rim) && size.rim >= 0))
-    return malformed("size", "the rim of a patch must be finite and not negative", lengths);
+    return malformed("size", "the rim of a patch must be finite and not negative", lengths, "a rim of 0 or more",
+                     six_digits(size.rim));
   return {};
 }
 
 Result<> check_layer(float layer) {
   if (std::isfinite(layer)) return {};
-  return malformed("layer", "the layer of a patch must be finite", "give any number; the greatest is in front");
+  return malformed("layer", "the layer of a patch must be finite", "give any number; the greatest is in front",
+                   "a finite number", six_digits(layer));
 }
 
 }  // namespace
 
-Error malformed(std::string name, std::string sentence, std::string mend) {
+Error malformed(std::string name, std::string sentence, std::string mend, std::string expected, std::string found) {
   return {.code = Code::malformed_value,
           .sentence = std::move(sentence),
           .mend = std::move(mend),
-          .place = {.name = std::move(name)}};
+          .place = {.name = std::move(name), .text = found},
+          .expected = std::move(expected),
+          .found = found};
 }
 
 Error wrong_moment(std::string name, std::string sentence, std::string mend) {
@@ -88,6 +95,22 @@ Result<std::shared_ptr<StageState>> here(std::shared_ptr<StageState> stage, Erro
                       "make a stage and a device of the child's own");
 }
 
+Result<std::size_t> index_of(const Program& program, std::string_view parameter) {
+  if (auto named = is_name_text("parameter", parameter); !named) return std::move(named).error();
+  if (const auto index = program.parameter(parameter)) return *index;
+  std::string names;
+  std::vector<std::string> known;
+  for (const Parameter& one : program.description().parameters) {
+    names += (names.empty() ? "" : ", ") + one.name;
+    known.push_back(one.name);
+  }
+  return Error{.code = Code::unknown_name,
+               .sentence = program.description().material + " has no parameter " + std::string(parameter),
+               .mend = names.empty() ? "it has no parameters" : "it has " + names,
+               .place = {.name = "parameter", .text = std::string(parameter)},
+               .nearest = closest_names(parameter, known)};
+}
+
 StageState::StageState(std::unique_ptr<Device> own, Device* others, const DeviceProfile& of, StageOptions how)
     : owned(std::move(own)), device(owned ? owned.get() : others), profile(of), options(std::move(how)) {
   if (!options.record || options.record->file.empty()) return;
@@ -110,31 +133,39 @@ Result<> StageState::fits(const PatchProgram& program) const {
   const bool same_kind = program.vibrates() == profile.shaker.has_value();
   if (same_kind && program.device.name == profile.name) return is_built_for(program, profile);
   std::string sentence = program.material + " was built for " + program.device.name;
-  if (same_kind)
+  const bool is_nameless = profile.name.empty() && (device != nullptr || profile.rate > 0);
+  if (is_nameless)
+    sentence += ", and the profile of the stage's device has no name";
+  else if (same_kind)
     sentence += profile.name.empty() ? ", and the stage has no device" : ", and the device is " + profile.name;
   else
     sentence += std::string(program.vibrates() ? ", which vibrates, and " : ", which pushes, and ") + profile.name +
                 (program.vibrates() ? " pushes" : " only vibrates");
   return Error{.code = Code::other_device,
                .sentence = std::move(sentence),
-               .mend = profile.name.empty() ? no_profile : "build it for " + profile.name,
-               .place = {.name = "program", .text = program.device.name}};
+               .mend = is_nameless            ? "name the profile as the declaration that programs are built for"
+                       : profile.name.empty() ? no_profile
+                                              : "build it for " + profile.name,
+               .place = {.name = "program", .text = program.device.name},
+               .expected = profile.name.empty() ? std::string() : "a program for " + profile.name,
+               .found = "one for " + program.device.name};
 }
 
-Result<Placement> StageState::placement(const Program& program, const PatchOptions& patch) const {
+Result<WantedPatch> StageState::wanted(const Program& program, const PatchOptions& patch) const {
   if (auto fit = fits(program.description()); !fit) return std::move(fit).error();
-  if (!is_finite(patch.at)) return malformed("at", "the place of a patch must be finite", place_in_m);
+  if (!is_finite(patch.at)) 
+    return malformed("at", "the place of a patch must be finite", place_in_m, "two finite numbers", shown(patch.at));
   if (patch.size)
     if (auto good = check_size(*patch.size); !good) return std::move(good).error();
   if (auto good = check_layer(patch.layer); !good) return std::move(good).error();
-  return Placement(program, patch.at, patch.size.value_or(Placement::own_size(program, patch.shape)), patch.layer,
+  return WantedPatch(program, patch.at, patch.size.value_or(WantedPatch::own_size(program, patch.shape)), patch.layer,
                    patch.shape);
 }
 
 Result<> StageState::change(PatchName name, const Change& change) {
   const std::lock_guard lock(mutex);
   if (auto there = has(name); !there) return there;
-  Placement placement = *table.wanted(name);
+  WantedPatch placement = *table.wanted(name);
   if (auto done = change(placement); !done) return done;
   std::vector<PatchTable::Wish> wishes;
   wishes.emplace_back(name, std::move(placement));
@@ -157,6 +188,19 @@ Result<Bank> StageState::bank(PatchName name) const {
     key = table.wanted(name)->key();
   }
   return banks.get(*key)->bank;
+}
+
+Result<Placement> StageState::placement(PatchName name) const {
+  const std::lock_guard lock(mutex);
+  if (auto there = has(name); !there) return std::move(there).error();
+  return table.wanted(name)->told();
+}
+
+Result<Placement> StageState::published(PatchName name) const {
+  const std::lock_guard lock(mutex);
+  if (auto there = has(name); !there) return std::move(there).error();
+  if (const WantedPatch* const as = table.felt(name).as) return as->told();
+  return wrong_moment("patch", "no run has had the patch yet", "ask `placement` how it is wanted, or ask during a run");
 }
 
 Now StageState::now() const noexcept {
@@ -184,10 +228,12 @@ Result<Snapshot> StageState::snapshot(PatchName name) {
   const auto began = Clock::now();
   for (std::uint32_t seen = 0;;) {
     PatchTable::Felt felt;
+    std::optional<Placement> placed;
     {
       const std::lock_guard lock(mutex);
       if (auto there = has(name); !there) return std::move(there).error();
       felt = table.felt(name);
+      if (felt.as != nullptr) placed = felt.as->told();
       const bool untouched = !served || (caller_serves && caller == std::this_thread::get_id()) || !felt.memory ||
                              (!felt.is_placed && seen >= felt.withdrawn && felt.withdrawn > 0);
       if (untouched) {
@@ -196,9 +242,9 @@ Result<Snapshot> StageState::snapshot(PatchName name) {
         if (same) {
           Memory copy(key.program);
           copy.copy_from(*felt.memory, 0, felt.memory->cells().size());
-          return Snapshot{felt.bank->bank, std::move(copy)};
+          return Snapshot{felt.bank->bank, std::move(copy), *std::move(placed)};
         }
-        return Snapshot{banks.get(key)->bank, Memory(key.program)};
+        return Snapshot{banks.get(key)->bank, Memory(key.program), table.wanted(name)->told()};
       }
     }
     MemoryRequest request(name.number, name.generation, felt.memory->program());
@@ -214,7 +260,7 @@ Result<Snapshot> StageState::snapshot(PatchName name) {
       }
       std::this_thread::sleep_for(pause);
     }
-    if (request.outcome == MemoryRequest::Outcome::copied) return Snapshot{felt.bank->bank, std::move(request.copy)};
+    if (request.outcome == MemoryRequest::Outcome::copied) return Snapshot{felt.bank->bank, std::move(request.copy), *std::move(placed)};
     seen = request.revision;
     if (Clock::now() - began > patience) return no_ticks();
     std::this_thread::sleep_for(pause);
@@ -224,44 +270,36 @@ Result<Snapshot> StageState::snapshot(PatchName name) {
 namespace changes {
 
 StageState::Change set(std::string parameter, double value) {
-  return [parameter = std::move(parameter), value](Placement& patch) -> Result<> {
-    if (auto named = is_name_text("parameter", parameter); !named) return named;
-    const PatchProgram& program = patch.program.description();
-    const std::optional<std::size_t> index = patch.program.parameter(parameter);
-    if (!index) {
-      std::string names;
-      for (const Parameter& one : program.parameters) names += (names.empty() ? "" : ", ") + one.name;
-      std::vector<std::string> known;
-      for (const Parameter& one : program.parameters) known.push_back(one.name);
-      return Error{.code = Code::unknown_name,
-                   .sentence = program.material + " has no parameter " + parameter,
-                   .mend = names.empty() ? "it has no parameters" : "it has " + names,
-                   .place = {.name = "parameter", .text = parameter},
-                   .nearest = nearest_spellings(parameter, known)};
-    }
-    const Parameter& range = program.parameters[*index];
+  return [parameter = std::move(parameter), value](WantedPatch& patch) -> Result<> {
+    const auto index = index_of(patch.program, parameter);
+    if (!index) return index.error();
+    const Parameter& range = patch.program.description().parameters[*index];
     const auto wanted = static_cast<float>(value);  // the range is one of floats
     if (!(wanted >= range.low && wanted <= range.high))
       return malformed(
           "value",
           range.name + " = " + in_its_own_unit(range, value) + " is not in its range " +
               in_its_own_unit(range, range.low) + " .. " + in_its_own_unit(range, range.high),
-          range.si_unit.empty() ? "give a number in this range" : "give a value in this range, in " + range.si_unit);
+          range.si_unit.empty() ? "give a number in this range" : "give a value in this range, in " + range.si_unit,
+          in_its_own_unit(range, range.low) + " .. " + in_its_own_unit(range, range.high),
+          in_its_own_unit(range, value));
     patch.parameters[*index] = wanted;
     return {};
   };
 }
 
 StageState::Change move(glm::vec2 to) {
-  return [to](Placement& patch) -> Result<> {
-    if (!is_finite(to)) return malformed("to", "the position to which a patch is moved must be finite", place_in_m);
+  return [to](WantedPatch& patch) -> Result<> {
+    if (!is_finite(to))
+      return malformed("to", "the position to which a patch is moved must be finite", place_in_m, "two finite numbers",
+                       shown(to));
     patch.position = to;
     return {};
   };
 }
 
 StageState::Change resize(PatchSize size) {
-  return [size](Placement& patch) -> Result<> {
+  return [size](WantedPatch& patch) -> Result<> {
     if (auto good = check_size(size); !good) return good;
     patch.size = size;
     return {};
@@ -269,14 +307,14 @@ StageState::Change resize(PatchSize size) {
 }
 
 StageState::Change enable(bool enabled) {
-  return [enabled](Placement& patch) -> Result<> {
+  return [enabled](WantedPatch& patch) -> Result<> {
     patch.enabled = enabled;
     return {};
   };
 }
 
 StageState::Change bring(float layer, PatchTable& orders) {
-  return [layer, &orders](Placement& patch) -> Result<> {
+  return [layer, &orders](WantedPatch& patch) -> Result<> {
     if (auto good = check_layer(layer); !good) return good;
     patch.layer = layer;
     patch.order = orders.next_order();
@@ -285,7 +323,7 @@ StageState::Change bring(float layer, PatchTable& orders) {
 }
 
 StageState::Change replace(Program program, const StageState& stage) {
-  return [program = std::move(program), &stage](Placement& patch) -> Result<> {
+  return [program = std::move(program), &stage](WantedPatch& patch) -> Result<> {
     if (auto fit = stage.fits(program.description()); !fit) return fit;
     patch.replace(program);
     return {};

@@ -16,8 +16,8 @@
 
 namespace wale {
 
-/// The error for a wrong argument.
-Error malformed(std::string name, std::string sentence, std::string mend);
+/// The error for a wrong argument: what it should be, and its value as a text.
+Error malformed(std::string name, std::string sentence, std::string mend, std::string expected, std::string found);
 Error wrong_moment(std::string name, std::string sentence, std::string mend);
 Error stage_is_gone();
 Error stage_was_moved();
@@ -64,17 +64,19 @@ struct StageState : std::enable_shared_from_this<StageState> {
   mutable std::mutex asking;  // one copy of a memory at a time
 
   /// A change of one patch, or the reason against it.
-  using Change = std::function<Result<>(Placement&)>;
+  using Change = std::function<Result<>(WantedPatch&)>;
   Result<> change(PatchName name, const Change& change);
   /// All wishes at once.
   void want(std::vector<PatchTable::Wish> wishes);
   /// With the mutex held: whether the name is a patch's.
   Result<> has(PatchName name) const;
   /// A placement for a new patch.
-  Result<Placement> placement(const Program& program, const PatchOptions& options) const;
+  Result<WantedPatch> wanted(const Program& program, const PatchOptions& options) const;
   Result<> fits(const PatchProgram& program) const;
 
   Result<Bank> bank(PatchName name) const;
+  Result<Placement> placement(PatchName name) const;
+  Result<Placement> published(PatchName name) const;
   Result<Snapshot> snapshot(PatchName name);
   Now now() const noexcept;
 
@@ -82,6 +84,9 @@ struct StageState : std::enable_shared_from_this<StageState> {
   static const std::weak_ptr<StageState>& of(const Patch& patch) { return patch.stage_; }
   static PatchName name_of(const Patch& patch) { return {patch.number_, patch.generation_}; }
 };
+
+/// The index of a parameter. Errors: `unknown_name`, and those of a text that is no name.
+Result<std::size_t> index_of(const Program& program, std::string_view parameter);
 
 /// A stage that a call may use. Errors: `gone` for null; `wrong_moment` in a child of `fork`, whose parent has made it.
 Result<std::shared_ptr<StageState>> here(std::shared_ptr<StageState> stage, Error (*gone)());

@@ -69,7 +69,7 @@ class Noting : public Device {
 /// So that a force changes at once.
 DeviceProfile without_slew() {
   DeviceProfile profile = sandpaper();
-  profile.slew = profile.mass = 0;
+  profile.slew = 1e9, profile.mass = 0;
   return profile;
 }
 

@@ -63,7 +63,7 @@ void keep_given() {
   DO(WaleProgram, program) DO(WaleDevices, devices) DO(WaleDevice, device) DO(WaleStage, stage) DO(WalePatch, patch) \
       DO(WaleEdit, edit) DO(WaleLoop, loop) DO(WaleRun, run) DO(WaleFelt, felt) DO(WaleShape, shape)                 \
           DO(WaleSnapshot, snapshot) DO(WaleRecording, recording) DO(WaleWorkspace, workspace) \
-          DO(WaleMatches, matches)
+          DO(WaleMatches, matches) DO(WalePlacement, placement)
 
 std::string folder;                                    // for files
 std::vector<std::string> paths, texts;                 // of files, and for names
@@ -136,7 +136,7 @@ DRAW_RESULT(WaleProfile)
 DRAW_RESULT(WaleProgramDetails) DRAW_RESULT(WaleParameter) DRAW_RESULT(WalePercept) DRAW_RESULT(WaleRecordingDetails)
     DRAW_RESULT(WaleReplay) DRAW_RESULT(WaleRunFigures) DRAW_RESULT(WaleFeltFigures) DRAW_RESULT(WaleFeltLevel)
         DRAW_RESULT(WaleGrid) DRAW_RESULT(WaleWorkspaceDetails) DRAW_RESULT(WaleWorkspacePatch)
-            DRAW_RESULT(WaleWorkspaceMark) DRAW_RESULT(WaleMatch)
+            DRAW_RESULT(WaleWorkspaceMark) DRAW_RESULT(WaleMatch) DRAW_RESULT(WalePlacementDetails)
 
     /// Options: mostly all 0, with some fields set by `set`.
     template <class Struct, class Set>
@@ -202,7 +202,7 @@ void draw(const WaleLibraryOptions*& to) {
     for (WaleText& each : folders) draw(each);
     if (below(2)) folders[0] = folders[1] = text_of(folder);
     if (below(2)) its.folders = folders;
-    draw_field(its.unsandboxed_pictures, its.reserved, its.folder_count);
+    draw_field(its.unsandboxed_pictures, its.reserved, its.folder_count, its.devices);
     if (its.folder_count > 2) its.folder_count = 2;
   });
   if (to == nullptr || (to->size == sizeof *to && to->index.length == 0)) to = &usual;

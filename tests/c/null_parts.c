@@ -185,6 +185,28 @@ static void stages(void) {
   CHECK_NULL("patch", wale_patch_enable(NULL, 1, &error));
   CHECK_NULL("patch", wale_patch_bring(NULL, 0, &error));
   CHECK_NULL("patch", wale_patch_remove(NULL, &error));
+  WalePlacement* placement = NULL;
+  WalePlacementDetails lies = {.size = sizeof lies};
+  WaleProgram* placed = NULL;
+  WaleShape* outline = NULL;
+  float number = 0;
+  CHECK_NULL("patch", wale_patch_placement(NULL, &placement, &error));
+  CHECK_NO_PLACE("placement", wale_patch_placement(patch, NULL, &error));
+  CHECK_NULL("patch", wale_patch_published(NULL, &placement, &error));
+  CHECK_NO_PLACE("placement", wale_patch_published(patch, NULL, &error));
+  CHECK_NULL("patch", wale_patch_value(NULL, WALE_TEXT("wale"), &number, &error));
+  CHECK_NULL("value", wale_patch_value(patch, WALE_TEXT("wale"), NULL, &error));
+  CHECK_NULL("placement", wale_placement_details(NULL, &lies, &error));
+  CHECK_GOOD(wale_patch_placement(patch, &placement, &error));
+  CHECK_NO_STRUCT("details", wale_placement_details(placement, NULL, &error));
+  CHECK_NULL("placement", wale_placement_value(NULL, WALE_TEXT("wale"), &number, &error));
+  CHECK_NULL("value", wale_placement_value(placement, WALE_TEXT("wale"), NULL, &error));
+  CHECK_NULL("placement", wale_placement_program(NULL, &placed, &error));
+  CHECK_NO_PLACE("program", wale_placement_program(placement, NULL, &error));
+  CHECK_NULL("placement", wale_placement_shape(NULL, &outline, &error));
+  CHECK_NO_PLACE("shape", wale_placement_shape(placement, NULL, &error));
+  CHECK(wale_placement_values(NULL, NULL) == NULL);
+  wale_placement_free(placement);
   CHECK_NULL("patch", wale_patch_snapshot(NULL, &snapshot, &error));
   CHECK_NO_PLACE("snapshot", wale_patch_snapshot(patch, NULL, &error));
 
@@ -197,6 +219,7 @@ static void stages(void) {
   CHECK_NULL("edit", wale_edit_replace(NULL, patch, corduroy, &error));
   CHECK_NULL("edit", wale_edit_enable(NULL, patch, 1, &error));
   CHECK_NULL("edit", wale_edit_bring(NULL, patch, 0, &error));
+  CHECK_NULL("edit", wale_edit_fail(NULL, WALE_CODE_unknown_name, name, name, name, &error));
   CHECK_NULL("edit", wale_edit_remove(NULL, patch, &error));
   CHECK_NULL("edit", wale_edit_commit(NULL, &error));
   CHECK_GOOD(wale_stage_edit(stage, &edit, &error));
@@ -246,6 +269,9 @@ static void results(void) {
   CHECK_NULL("felt", wale_felt_level(NULL, 0, &level, &error));
 
   CHECK_GOOD(wale_patch_snapshot(patch, &snapshot, &error));
+  WalePlacement* placement = NULL;
+  CHECK_NULL("snapshot", wale_snapshot_placement(NULL, &placement, &error));
+  CHECK_NO_PLACE("placement", wale_snapshot_placement(snapshot, NULL, &error));
   CHECK_NULL("snapshot", wale_snapshot_grid(NULL, 0, &grid, &error));
   CHECK_NO_STRUCT("grid", wale_snapshot_grid(snapshot, 0, NULL, &error));
   CHECK_NULL("snapshot", wale_snapshot_surface(NULL, &middle, 1, &height, NULL, &error));
@@ -257,6 +283,7 @@ static void results(void) {
 
   CHECK_NO_PLACE("recording", wale_recording_open(WALE_TEXT("/does/not/exist"), NULL, &error));
   CHECK_NO_PLACE("recording", wale_recording_open_part(WALE_TEXT("/does/not/exist"), 1, NULL, &error));
+  CHECK_NULL("ticks", wale_recording_intact(WALE_TEXT("/does/not/exist"), NULL, &error));
   CHECK_NULL("recording", wale_recording_details(NULL, &details, &error));
   CHECK_NULL("recording", wale_recording_ticks(NULL, 0, 1, sizeof recorded, &recorded, &error));
   CHECK_NULL("recording", wale_recording_replay(NULL, &replay, &error));

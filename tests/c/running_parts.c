@@ -379,6 +379,11 @@ static void recordings(void) {
   CHECK(replay.ticks == details.ticks && replay.differing == 0 && replay.largest_force == 0);
   /* Its beginning, as of a file that is cut short. */
   WaleRecording* part = NULL;
+  uint64_t intact = 0;
+  CHECK_GOOD(wale_recording_intact(WALE_TEXT(file), &intact, &error));
+  CHECK(intact == (uint64_t)figures.ticks_run);
+  CHECK_CODE(WALE_CODE_unreadable_file, wale_recording_intact(WALE_TEXT("/does/not/exist"), &intact, &error));
+  CHECK(intact == 0);
   CHECK_GOOD(wale_recording_open_part(WALE_TEXT(file), 100, &part, &error));
   CHECK_GOOD(wale_recording_details(part, &details, &error));
   CHECK(details.ticks == 100 && !details.complete);

@@ -1,6 +1,7 @@
 /* Devices, stages, patches and edits, at their edges. */
 #include <math.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "tests/c/check.h"
 #include "tests/c/parts.h"
@@ -92,6 +93,91 @@ static void devices(void) {
   wale_device_free(device);
   trace.count = 3; /* the times do not rise */
   CHECK_MALFORMED(wale_device_open(WALE_TEXT("simulated:sandpaper"), &trace, &device, &error));
+}
+
+/* How patches lie, on a device that the library was told of. */
+static void placements(void) {
+  static const char* const declared =
+      "wale 1\nexport device my_stick {\n  class force_plane\n  workspace disc(100 mm)\n  position 8192 counts\n"
+      "  force 4 N, 1000 counts\n  rate 1000 Hz\n  speed assumed 1 m/s\n  slew assumed 100 N/s\n"
+      "  velocity_filter 15, 1 counts\n  patch 80 mm, 80 mm, 5 mm\n  mass 0.1 kg\n  damping assumed 1 N s/m\n"
+      "  friction assumed 0.05 N\n}\n";
+  WaleLibrary* own = NULL;
+  WaleLibraryOptions options = {.size = sizeof options, .devices = WALE_TEXT(declared)};
+  CHECK_GOOD(wale_library_create(&options, &own, &error));
+  WaleProfile profile = {.size = sizeof profile};
+  CHECK_GOOD(wale_library_profile(own, WALE_TEXT("my_stick"), &profile, &error));
+  CHECK(profile.force == 4);
+  WaleProgram *cloth = NULL, *rough = NULL, *unknown = NULL;
+  WaleCompileOptions for_it = {.size = sizeof for_it, .device = WALE_TEXT("my_stick")};
+  CHECK_GOOD(wale_library_find(own, WALE_TEXT("corduroy"), &for_it, &cloth, &error));
+  CHECK_GOOD(wale_library_level(own, WALE_TEXT("roughness"), WALE_TEXT("0.4"), &for_it, &rough, &error));
+  CHECK_CODE(WALE_CODE_unknown_device, wale_library_find(library, WALE_TEXT("corduroy"), &for_it, &unknown, &error));
+  WaleLibrary* none = NULL;
+  options.devices = WALE_TEXT("wale 1\ndevice my_stick { }\n");
+  CHECK_CODE(WALE_CODE_missing_setting, wale_library_create(&options, &none, &error));
+  options.devices = WALE_TEXT("wale 1\n");
+  CHECK_CODE(WALE_CODE_unknown_device, wale_library_create(&options, &none, &error));
+  CHECK(none == NULL);
+
+  WaleStage* stage = NULL;
+  WalePatch* patch = NULL;
+  WaleShape* oval = NULL;
+  CHECK_GOOD(wale_shape_ellipse(0.02f, 0.01f, &oval, &error));
+  WalePatchOptions place = {.size = sizeof place, .x = 0.01f, .y = -0.01f, .layer = 2, .shape = oval};
+  CHECK_GOOD(wale_stage_create_for(&profile, NULL, &stage, &error));
+  CHECK_GOOD(wale_stage_add(stage, cloth, &place, &patch, &error));
+  CHECK_GOOD(wale_patch_set(patch, WALE_TEXT("wale"), 0.003, &error));
+  CHECK_GOOD(wale_patch_enable(patch, 0, &error));
+  float value = 0;
+  CHECK_GOOD(wale_patch_value(patch, WALE_TEXT("wale"), &value, &error));
+  CHECK(value == 0.003f);
+  CHECK_CODE(WALE_CODE_unknown_name, wale_patch_value(patch, WALE_TEXT("whale"), &value, &error));
+  CHECK(isnan(value));
+  WalePlacement *lies = NULL, *felt = NULL;
+  WalePlacementDetails details = {.size = sizeof details};
+  CHECK_GOOD(wale_patch_placement(patch, &lies, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_published(patch, &felt, &error));
+  CHECK(felt == NULL);
+  CHECK_GOOD(wale_placement_details(lies, &details, &error));
+  CHECK(details.x == 0.01f && details.y == -0.01f && details.width == 0.04f && details.height == 0.02f);
+  CHECK(details.layer == 2 && !details.enabled && details.has_shape);
+  size_t count = 0;
+  const float* values = wale_placement_values(lies, &count);
+  CHECK(count == details.values && count > 0 && values != NULL);
+  CHECK_GOOD(wale_placement_value(lies, WALE_TEXT("wale"), &value, &error));
+  CHECK(value == 0.003f);
+  CHECK_CODE(WALE_CODE_unknown_name, wale_placement_value(lies, WALE_TEXT("whale"), &value, &error));
+  WaleProgram* same = NULL;
+  WaleShape* its_shape = NULL;
+  CHECK_GOOD(wale_placement_program(lies, &same, &error));
+  CHECK_GOOD(wale_placement_shape(lies, &its_shape, &error));
+  CHECK(wale_shape_size(its_shape).x == 0.04f);
+  WaleProgramDetails told = {.size = sizeof told};
+  CHECK_GOOD(wale_program_details(same, &told, &error));
+  CHECK(is_text(told.device, "my_stick"));
+  wale_placement_free(lies), wale_program_free(same), wale_shape_free(its_shape), wale_shape_free(oval);
+
+  WaleLoop* loop = NULL;
+  CHECK_GOOD(wale_loop_begin(stage, &loop, &error));
+  for (int i = 0; i < 500 && wale_patch_published(patch, &felt, NULL) != 0; ++i) usleep(1000);
+  CHECK(felt != NULL);
+  wale_placement_free(felt), wale_loop_free(loop);
+  WaleSnapshot* snapshot = NULL;
+  CHECK_GOOD(wale_patch_snapshot(patch, &snapshot, &error));
+  CHECK_GOOD(wale_snapshot_placement(snapshot, &lies, &error));
+  CHECK_GOOD(wale_placement_details(lies, &details, &error));
+  CHECK(details.x == 0.01f);
+  wale_snapshot_free(snapshot), wale_placement_free(lies);
+  CHECK_GOOD(wale_patch_remove(patch, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_placement(patch, &lies, &error));
+  CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_value(patch, WALE_TEXT("wale"), &value, &error));
+  wale_patch_free(patch), wale_stage_free(stage);
+  /* Without a slew no loop begins. */
+  profile.slew = 0;
+  CHECK_GOOD(wale_stage_create_for(&profile, NULL, &stage, &error));
+  CHECK_CODE(WALE_CODE_unusable_device, wale_loop_begin(stage, &loop, &error));
+  wale_stage_free(stage), wale_program_free(cloth), wale_program_free(rough), wale_library_free(own);
 }
 
 static void stages(void) {
@@ -376,11 +462,26 @@ static void edits(void) {
   CHECK_MALFORMED(wale_edit_bring(NULL, two, 0, &error));
   CHECK_MALFORMED(wale_edit_remove(NULL, two, &error));
   CHECK_MALFORMED(wale_edit_commit(NULL, &error));
+  /* Whoever finds out by himself that a change cannot be made says so. */
+  const size_t before = wale_stage_size(stage);
+  CHECK_GOOD(wale_stage_edit(stage, &edit, &error));
+  CHECK_GOOD(wale_edit_add(edit, corduroy, NULL, NULL, &error));
+  CHECK_GOOD(wale_edit_fail(edit, WALE_CODE_unknown_name, WALE_TEXT("colour"), WALE_TEXT("no such colour"), WALE_TEXT(""),
+                            &error));
+  CHECK_CODE(WALE_CODE_unknown_name, wale_edit_commit(edit, &error));
+  CHECK(wale_stage_size(stage) == before);
+  CHECK_GOOD(wale_edit_commit(edit, &error)); /* it is empty again */
+  const WaleCode no_errors[] = {0, -1, 99999, WALE_CODE_shadowed_name};
+  for (size_t i = 0; i < 4; ++i)
+    CHECK_MALFORMED(wale_edit_fail(edit, no_errors[i], WALE_TEXT("x"), WALE_TEXT("y"), WALE_TEXT("z"), &error));
+  CHECK_MALFORMED(wale_edit_fail(edit, WALE_CODE_unknown_name, WALE_TEXT("x"), WALE_TEXT(""), WALE_TEXT("z"), &error));
+  CHECK_MALFORMED(wale_edit_commit(edit, &error));
+  wale_edit_free(edit);
   wale_patch_free(one), wale_patch_free(two), wale_patch_free(strange);
   wale_stage_free(stage), wale_stage_free(another);
 }
 
 int stage_parts(void) {
-  run_parts((Part[]){devices, stages, shapes, patches, edits, NULL});
+  run_parts((Part[]){devices, placements, stages, shapes, patches, edits, NULL});
   return failures;
 }

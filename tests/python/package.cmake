@@ -18,9 +18,11 @@ add_test(NAME Python.DeclaresTheHeaders COMMAND ${WALE_PYTHON} ${package}/declar
 add_test(NAME Python.RoughnessByName COMMAND ${WALE_PYTHON} ${examples}/roughness_by_name/main.py)
 set_tests_properties(Python.RoughnessByName PROPERTIES
   PASS_REGULAR_EXPRESSION "^coarse roughness: 2\\.3[0-9]+ N at the handle, felt as level 0\\.70\n$")
+add_test(NAME Python.CustomDevice COMMAND ${WALE_PYTHON} ${examples}/custom_device/main.py)
+set_tests_properties(Python.CustomDevice PROPERTIES PASS_REGULAR_EXPRESSION "^in honey the handle swings by 1?[0-9]\\.[0-9] mm after 2 s")
 add_test(NAME Python.MillionHands COMMAND ${WALE_PYTHON} ${examples}/million_hands/main.py)
 set_tests_properties(Python.MillionHands PROPERTIES PASS_REGULAR_EXPRESSION "99 % of the forces are at most 1\\.934 N")
-set(python_tests Python.Package Python.DeclaresTheHeaders Python.RoughnessByName Python.MillionHands)
+set(python_tests Python.Package Python.DeclaresTheHeaders Python.RoughnessByName Python.CustomDevice Python.MillionHands)
 find_program(WALE_MYPY mypy)
 if(WALE_MYPY)
   add_test(NAME Python.Types COMMAND ${WALE_MYPY} --strict --no-incremental --cache-dir=/dev/null -p wale)

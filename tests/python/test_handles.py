@@ -89,16 +89,19 @@ class Maker:
                 "start": (), "stop": (), "is_running": None, "now": (), "on_contact": (print,), "poll": ()}),
             wale.Patch: (self.patched, {
                 "id": None, "number": None, "exists": None, "set": ("wale", 0.002), "move": ((0, 0),), "resize": ((0.1, 0.1),),
-                "replace": (self.nap,), "enable": (), "bring": (), "remove": (), "snapshot": ()}),
+                "replace": (self.nap,), "enable": (), "bring": (), "remove": (), "snapshot": (), "placement": None, "published": None, "value": ("wale",),
+                "values": None}),
+            wale.Placement: (lambda: self.patched().placement, {"program": None, "shape": None, "values": None, "value": ("wale",)}),
             wale.Edit: (self.edit, {
                 "add": (self.corduroy,), "set": lambda: (self.patch, "wale", 0.002), "move": lambda: (self.patch, (0, 0)),
                 "resize": lambda: (self.patch, (0.1, 0.1)), "replace": lambda: (self.patch, self.nap),
-                "enable": lambda: (self.patch,), "bring": lambda: (self.patch,), "remove": lambda: (self.patch,), "commit": ()}),
+                "enable": lambda: (self.patch,), "bring": lambda: (self.patch,), "remove": lambda: (self.patch,), "fail": ("no",), "commit": ()}),
             wale.Loop: (self.loop, {"step": ((1, 1),), "exerted": ((0, 0),)}),
             wale.Snapshot: (self.snapshot, {
-                "states": None, "grids": None, "surface": (np.zeros((1000, 2)),), "colours": (np.zeros((1000, 2)),), "show": ()}),
+                "states": None, "grids": None, "surface": (np.zeros((1000, 2)),), "colours": (np.zeros((1000, 2)),), "show": (),
+                "placement": None}),
             wale.Run: (self.measured, {"ticks": None, "measure": lambda: (self.at,)}),
-            wale.Recording: (lambda: wale.Recording(self.file), {"ticks": None, "replay": ()}),
+            wale.Recording: (lambda: wale.Recording(self.file), {"ticks": None, "intact": None, "replay": ()}),
             wale.Workspace: (lambda: wale.Workspace.load(bytes(self.kitchen)), {
                 "load": None, "__bytes__": (), "patches": None, "warnings": None}),
         }

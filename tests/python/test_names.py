@@ -63,8 +63,21 @@ def test_python_has_the_names_of_c() -> None:
     kinds = {name.lower(): kind for name, kind in vars(wale).items() if isinstance(kind, type) and name != "Code"}
     otherwise = {"create", "free", "details", "figures", "bytes", "create_for", "interrupt", "ticks", "size", "begin",
                  "parameter", "percept", "warning", "patch", "program", "shape", "mark", "open_part", "open", "code", "nearest",
-                 "other", "state_name", "grid", "level", "measure"}
+                 "other", "state_name", "grid", "level", "measure", "values"}
     for function in functions:
         kind, _, member = function.removeprefix("wale_").partition("_")
         if kind in kinds and member and member not in otherwise:
             assert hasattr(kinds[kind], member), function
+
+
+def test_headers_name_installed_files_only() -> None:
+    public = {f"wale/{file.name}" for folder in ("schema", "runtime", "library", "calibration")
+              for file in (root / folder / "include/wale").iterdir()} | {"wale.h"}
+    pages = re.search(r"set\(pages ([^)]*)\)", (root / ".setup/package/pages.cmake").read_text())
+    assert pages
+    installed = public | set(pages.group(1).split()) | {page.split("/")[-1] for page in pages.group(1).split()}
+    for folder in ("schema", "runtime", "library", "calibration"):
+        for header in [*(root / folder / "include").rglob("*.h"), *(root / folder / "include").rglob("*.hpp")]:
+            text = re.sub(r"#include <.*>", "", header.read_text())
+            for name in re.findall(r"(?<![\w./~-])([\w/]*\w\.(?:hpp|h|md|cpp))\b", text):
+                assert name in installed, f"{header.name} names {name}, which is not installed"

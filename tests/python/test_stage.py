@@ -384,7 +384,7 @@ def test_profiles_beyond_any_device_are_refused() -> None:
 
 def test_a_device_that_a_text_declares(library: wale.Library) -> None:
     text = (Path(__file__).parents[2] / "examples/custom_device/main.cpp").read_text().split('R"(')[1].split(')"')[0]
-    syrup = library.compile(text, device="rail_stick")
+    syrup = library.compile(text + "material syrup { physical { force = -2 N s/m * velocity } }", device="rail_stick")
     profile = syrup.profile
     assert (profile.name, profile.force, profile.rate, profile.mass) == ("rail_stick", 4, 1000, 0.1)
     stage = wale.Stage(profile)

@@ -18,10 +18,10 @@ namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
 
-/// A device without a slew or a mass, so that the guards do not change a program's force.
+/// A device with the fastest slew and without a mass, so that the guards do not change a program's force.
 DeviceProfile direct() {
   DeviceProfile profile = sandpaper();
-  profile.slew = profile.mass = 0;
+  profile.slew = 1e9, profile.mass = 0;
   return profile;
 }
 

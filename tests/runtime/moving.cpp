@@ -17,8 +17,8 @@
 namespace wale::moving_test {
 namespace {
 
-/// A handle that the test moves and that notes its forces. It has no mass and no slew, so the guards do not change a
-/// program's force.
+/// A handle that the test moves and that notes its forces. It has no mass and the fastest slew, so the guards do not
+/// change a program's force.
 class Led : public Device {
  public:
   const DeviceProfile& profile() const noexcept override { return profile_; }
@@ -34,7 +34,7 @@ class Led : public Device {
 
   DeviceProfile profile_ = [] {
     DeviceProfile profile = sandpaper();
-    profile.slew = profile.mass = 0;
+    profile.slew = 1e9, profile.mass = 0;
     return profile;
   }();
   long ticks = -1;                 // the beat that is served

@@ -22,26 +22,26 @@ class Prepared : public testing::Test {
   Prepared() { table.begin(PatchTable::Manner::piecewise); }
 
   PatchName add(const Program& program, float x = 0) {
-    Placement placement(program, {x, 0}, program.default_size(), 0);
+    WantedPatch placement(program, {x, 0}, program.default_size(), 0);
     placement.order = table.next_order();
     const PatchName name = table.reserve();
     table.want({{name, placement}});
     return name;
   }
-  using Change = std::function<void(Placement&)>;
+  using Change = std::function<void(WantedPatch&)>;
   PatchTable::Wish wish(PatchName name, const Change& change) const {
-    Placement placement = *table.wanted(name);
+    WantedPatch placement = *table.wanted(name);
     change(placement);
     return {name, placement};
   }
   static Change set(float value) {
-    return [value](Placement& patch) { patch.parameters[0] = value; };
+    return [value](WantedPatch& patch) { patch.parameters[0] = value; };
   }
   static Change move(float x) {
-    return [x](Placement& patch) { patch.position.x = x; };
+    return [x](WantedPatch& patch) { patch.position.x = x; };
   }
   static Change replace(const Program& program) {
-    return [program](Placement& patch) { patch.replace(program); };
+    return [program](WantedPatch& patch) { patch.replace(program); };
   }
   void want(PatchName name, const Change& change) { table.want({wish(name, change)}); }
   void remove(PatchName name) { table.want({{name, std::nullopt}}); }
@@ -379,7 +379,7 @@ TEST_F(Prepared, WhatALaterEditAddsAndRemovesLeavesNoTrace) {
   for (const bool ended : {false, true}) {
     const PatchName b = add(push(2));
     table.want({wish(a, set(ended ? 3 : 4)), wish(b, move(1))});
-    Placement placement(push(5), {0, 0}, push(5).default_size(), 0);
+    WantedPatch placement(push(5), {0, 0}, push(5).default_size(), 0);
     const PatchName added = table.reserve();
     table.want({wish(a, move(0.1f)), {added, placement}});
     EXPECT_NE(table.wanted(added), nullptr);

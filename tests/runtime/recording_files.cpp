@@ -152,7 +152,7 @@ TEST(RecordingFile, TicksBeforeADamageCanBeRead) {
   bytes[at + 40] ^= std::byte{1};
   EXPECT_EQ(refused(Recording::read(bytes, "a.wrec")),
             "tick 1234 (byte " + std::to_string(at) +
-                ") is damaged; the 1234 ticks before it are intact: open it for no more than 1234 ticks (`most_ticks`; of `wale replay` --ticks)");
+                ") is damaged; the 1234 ticks before it are intact: open it for no more than 1234 ticks (`most_ticks`)");
   const auto before = Recording::read(bytes, "a.wrec", 1234);
   ASSERT_TRUE(before) << refused(before);
   EXPECT_EQ(before->ticks(), 1234u);
@@ -187,7 +187,7 @@ TEST(RecordingFile, OfACutFileAllWholeTicksBeforeTheCutCanBeRead) {
                                  ? "no tick of it can be read; record again"
                                  : "the " + std::to_string(ticks) +
                                        " ticks before it are intact: open it for no more than " + std::to_string(ticks) +
-                                       " ticks (`most_ticks`; of `wale replay` --ticks)";
+                                       " ticks (`most_ticks`)";
     const bool at_a_chunk = (size - first_chunk) % chunk_size == 0;
     if (!at_a_chunk) {
       EXPECT_EQ(refused(read), "the file is cut short at byte " + std::to_string(size) + "; " + left);
@@ -236,7 +236,7 @@ TEST(RecordingFile, TicksBeforeADamagedChangeOfTheStageCanBeRead) {
   EXPECT_EQ(refused(Recording::read(bytes, "damaged")),
             "the event at byte " + std::to_string(places[change]) + " is damaged; the " + std::to_string(ticks) +
                 " ticks before it are intact: open it for no more than " + std::to_string(ticks) +
-                                       " ticks (`most_ticks`; of `wale replay` --ticks)");
+                                       " ticks (`most_ticks`)");
   const auto before = Recording::read(bytes, "damaged", ticks);
   ASSERT_TRUE(before) << refused(before);
   expect_same(*before);
@@ -248,10 +248,10 @@ TEST(RecordingFile, OtherFilesAreRefusedWithAReason) {
     return refused(Recording::read({bytes.begin(), bytes.end()}, "x"));
   };
   EXPECT_EQ(reason(""),
-            "the file is empty: nothing was recorded in it; make one with `wale feel FILE --record NAME.wrec`");
+            "the file is empty: nothing was recorded in it; record a run into a file NAME.wrec, and open that");
   EXPECT_EQ(reason("t (s),x (m)\n0,0\n"),
             "this is not a recording: its first bytes are not those of a .wrec file; "
-            "make one with `wale feel FILE --record NAME.wrec`");
+            "record a run into a file NAME.wrec, and open that");
   EXPECT_EQ(reason("\x89WRC\n\x1a\n"), "a transfer as text has damaged the recording; copy it as binary");
   EXPECT_EQ(reason(std::string("\x89WRC\r\n\x1a\n", 8)),
             "the file is cut short within its header, at byte 8; copy it again");
@@ -299,8 +299,7 @@ TEST(RecordingFile, CannotReplaceAFileOrBeInAMissingFolder) {
   const auto before = bytes_of(folder / "a.wrec");
   EXPECT_EQ(attempt(folder / "a.wrec"),
             folder / "a.wrec" +
-                ": the file exists already, and a recording never overwrites a file; delete it or choose another name; "
-                "only a table, as in `--record run.csv`, replaces a file");
+                ": the file exists already, and a recording never overwrites a file; delete it or choose another name");
   EXPECT_EQ(bytes_of(folder / "a.wrec"), before);
   EXPECT_EQ(attempt(folder / "none/a.wrec"), folder / "none/a.wrec" + ": there is no such folder; make it first");
   EXPECT_EQ(attempt(folder / "a.wrec/b.wrec"),

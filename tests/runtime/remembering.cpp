@@ -17,7 +17,7 @@ namespace {
 /// A device whose reading is a function of the period, in counts.
 class Puppet : public Device {
  public:
-  explicit Puppet(std::function<Reading(long)> reading) : reading_(std::move(reading)) { profile_.slew = 0; }
+  explicit Puppet(std::function<Reading(long)> reading) : reading_(std::move(reading)) { profile_.slew = 1e9; }
   const DeviceProfile& profile() const noexcept override { return profile_; }
   void elapse(long periods) noexcept override { elapsed_ += periods; }
   Reading sample() noexcept override { return reading_(elapsed_); }

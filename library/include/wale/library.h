@@ -28,6 +28,9 @@ typedef struct WaleLibraryOptions {
   int32_t reserved;             /* 0 */
   WaleText index; /* in which searches look, as it stands: a file, or postgresql://USER@HOST/DATABASE, that `wale library index`
                      makes; empty: one in the user's cache, that of the command line, which is brought up to date */
+  WaleText devices; /* a Wale text that declares the application's own devices, each as `export device NAME { … }`: the device of
+                       WaleCompileOptions may name one, also for shipped materials and levels. They scale no real device; a stage of
+                       wale_stage_create_for serves one, with the profile of wale_library_profile. Empty: none */
 } WaleLibraryOptions;
 
 /* All 0 is the default. */
@@ -49,7 +52,8 @@ typedef struct WaleWorkspaceOptions {
 } WaleWorkspaceOptions;
 
 /* `options` may be NULL. The owner's devices are read once, here. Errors: malformed_value; unreadable_file for a
-   folder of `folders` or of WALE_LIBRARY that does not exist or is none. */
+   folder of `folders` or of WALE_LIBRARY that does not exist or is none; the first one in the text `devices`, unknown_device if
+   that exports no device, and declared_twice for one with the name of a shipped one. */
 WALE_API WaleCode wale_library_create(const WaleLibraryOptions* options, WaleLibrary** library, WaleError** error);
 /* Waits for the work that is under way, at most. Futures that were not begun then give wrong_moment. */
 WALE_API void wale_library_free(WaleLibrary* library);

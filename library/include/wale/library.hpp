@@ -39,6 +39,13 @@ struct LibraryOptions {
   /// that `wale library index` makes. Empty: one in the user's cache, which is that of the command line for the same
   /// folders, and which each search by feel brings up to date.
   std::string index = {};
+  /// A Wale text that declares the application's own devices, each as `export device NAME { … }`: `CompileOptions::device`
+  /// may then name one, for shipped materials and levels too. They come before the owner's of the same names. They scale
+  /// no real device (`trusted_devices`): the application's class derived from `Device` serves one. Imports are looked for
+  /// in `folders`. An error in it (with `place.name` "devices"), a text that exports no device (`unknown_device`) and a
+  /// name that a shipped device has (`declared_twice`) come from `is_usable` and from each call that makes or checks a
+  /// program or a workspace.
+  std::string devices = {};
 };
 
 /// How a text becomes a program.
@@ -93,6 +100,8 @@ class Library {
   /// Error: `unreadable_file` about the first of `LibraryOptions::folders`, then of WALE_LIBRARY, that is no folder.
   /// `place.name` is "folders" or "WALE_LIBRARY".
   Result<> folders_exist() const;
+  /// Whether the options can be used. Errors: those of `folders_exist`, and the first one of `LibraryOptions::devices`.
+  Result<> is_usable() const;
 
   /// A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL, by
   /// the rule of the command line: of the project in the process's current folder, of `LibraryOptions::folders`, or of
@@ -153,7 +162,7 @@ class Library {
   std::future<Result<SearchResult>> nearest_later(std::string material, SearchOptions options = {}) const;
   std::future<Result<SearchResult>> between_later(std::string one, std::string other, SearchOptions options = {}) const;
 
-  /// The devices that Wale ships, and those of the owner.
+  /// The devices that Wale ships, those of `LibraryOptions::devices`, and those of the owner.
   std::vector<DeclaredDevice> devices() const;
   /// Errors: `unknown_name`; those of a text that is no name.
   Result<SimulatedPerson> person(const std::string& name = "normal") const;

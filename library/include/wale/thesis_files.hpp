@@ -17,7 +17,6 @@
 /// they are in Wale. Functions of values: none of them opens a file. All are safe from any thread.
 ///
 /// Its binary workspaces (type TXPS) are not read: the thesis prints the order of their fields, and not their sizes.
-/// library/thesis_files/README.md says what else it prints, and what it does not.
 namespace wale {
 
 /// An array or a wave: "Array files are arrays of unsigned 8-bit values. The first four bytes of an array file are the

@@ -12,6 +12,7 @@ from wale.device import Device, DeviceInfo, Hand, Motion, Profile, devices, open
 from wale.errors import Error, Span
 from wale.library import FeltDistance, Future, Library, Match, SearchResult
 from wale.loop import Loop
+from wale.placement import Placement
 from wale.program import Parameter, Percept, Program
 from wale.recording import Recording, Replay
 from wale.run import Felt, ForceSize, Guards, Level, Now, Run, Times
@@ -24,7 +25,8 @@ __version__: str = _read(_lib.wale_version())
 
 __all__ = [
     "Code", "Contact", "ContactKind", "Device", "DeviceInfo", "DeviceKind", "Edit", "Error", "Felt", "FeltDistance", "ForceSize",
-    "Future", "Guards", "Hand", "Level", "Library", "Loop", "Mark", "MarkKind", "Match", "Motion", "Now", "Parameter", "Patch", "Percept",
-    "Profile", "Program", "ReadingContact", "Recording", "Replay", "Run", "SearchResult", "Shape", "SliderMark", "Snapshot", "Span", "Stage",
+    "Future", "Guards", "Hand", "Level", "Library", "Loop", "Mark", "MarkKind", "Match", "Motion", "Now", "Parameter", "Patch",
+    "Percept", "Placement", "Profile", "Program", "ReadingContact", "Recording", "Replay", "Run", "SearchResult", "Shape",
+    "SliderMark", "Snapshot", "Span", "Stage",
     "Times", "Workspace", "WorkspacePatch", "batch", "devices", "load_workspace", "open_device", "profile",
 ]

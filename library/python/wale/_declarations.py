@@ -277,6 +277,7 @@ WaleVector wale_shape_size(const WaleShape* shape);
 float wale_shape_edge(const WaleShape* shape, WaleVector point);
 typedef struct WaleStage WaleStage;
 typedef struct WalePatch WalePatch;
+typedef struct WalePlacement WalePlacement;
 typedef struct WaleEdit WaleEdit;
 typedef struct WaleStageOptions {
   size_t size;
@@ -296,6 +297,15 @@ typedef struct WalePatchOptions {
   float layer;
   const WaleShape* shape;
 } WalePatchOptions;
+typedef struct WalePlacementDetails {
+  size_t size;
+  float x, y;
+  float width, height, rim;
+  float layer;
+  int32_t enabled;
+  int32_t has_shape;
+  uint64_t values;
+} WalePlacementDetails;
 WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, WaleStage** stage, WaleError** error);
 WaleCode wale_stage_create_for(const WaleProfile* profile, const WaleStageOptions* options, WaleStage** stage, WaleError** error);
 void wale_stage_free(WaleStage* stage);
@@ -317,6 +327,15 @@ WaleCode wale_patch_replace(WalePatch* patch, const WaleProgram* program, WaleEr
 WaleCode wale_patch_enable(WalePatch* patch, int32_t enabled, WaleError** error);
 WaleCode wale_patch_bring(WalePatch* patch, float layer, WaleError** error);
 WaleCode wale_patch_remove(WalePatch* patch, WaleError** error);
+WaleCode wale_patch_placement(const WalePatch* patch, WalePlacement** placement, WaleError** error);
+WaleCode wale_patch_published(const WalePatch* patch, WalePlacement** placement, WaleError** error);
+WaleCode wale_patch_value(const WalePatch* patch, WaleText parameter, float* value, WaleError** error);
+void wale_placement_free(WalePlacement* placement);
+WaleCode wale_placement_details(const WalePlacement* placement, WalePlacementDetails* details, WaleError** error);
+const float* wale_placement_values(const WalePlacement* placement, size_t* count);
+WaleCode wale_placement_value(const WalePlacement* placement, WaleText parameter, float* value, WaleError** error);
+WaleCode wale_placement_program(const WalePlacement* placement, WaleProgram** program, WaleError** error);
+WaleCode wale_placement_shape(const WalePlacement* placement, WaleShape** shape, WaleError** error);
 int32_t wale_patch_exists(const WalePatch* patch);
 uint64_t wale_patch_id(const WalePatch* patch);
 uint32_t wale_patch_number(const WalePatch* patch);
@@ -330,6 +349,7 @@ WaleCode wale_edit_replace(WaleEdit* edit, const WalePatch* patch, const WalePro
 WaleCode wale_edit_enable(WaleEdit* edit, const WalePatch* patch, int32_t enabled, WaleError** error);
 WaleCode wale_edit_bring(WaleEdit* edit, const WalePatch* patch, float layer, WaleError** error);
 WaleCode wale_edit_remove(WaleEdit* edit, const WalePatch* patch, WaleError** error);
+WaleCode wale_edit_fail(WaleEdit* edit, WaleCode code, WaleText argument, WaleText sentence, WaleText mend, WaleError** error);
 WaleCode wale_edit_commit(WaleEdit* edit, WaleError** error);
 void wale_edit_free(WaleEdit* edit);
 typedef struct WaleWorkspace WaleWorkspace;
@@ -377,6 +397,7 @@ typedef struct WaleLibraryOptions {
   int32_t unsandboxed_pictures;
   int32_t reserved;
   WaleText index;
+  WaleText devices;
 } WaleLibraryOptions;
 typedef struct WaleCompileOptions {
   size_t size;
@@ -486,6 +507,7 @@ typedef struct WaleReplay {
 } WaleReplay;
 WaleCode wale_recording_open(WaleText path, WaleRecording** recording, WaleError** error);
 WaleCode wale_recording_open_part(WaleText path, size_t most_ticks, WaleRecording** recording, WaleError** error);
+WaleCode wale_recording_intact(WaleText path, uint64_t* ticks, WaleError** error);
 void wale_recording_free(WaleRecording* recording);
 WaleCode wale_recording_details(const WaleRecording* recording, WaleRecordingDetails* details, WaleError** error);
 WaleCode wale_recording_ticks(const WaleRecording* recording, size_t first, size_t count, size_t each, WaleRecordedTick* ticks, WaleError** error);
@@ -508,6 +530,7 @@ typedef struct WaleMark {
 } WaleMark;
 WaleCode wale_patch_snapshot(const WalePatch* patch, WaleSnapshot** snapshot, WaleError** error);
 void wale_snapshot_free(WaleSnapshot* snapshot);
+WaleCode wale_snapshot_placement(const WaleSnapshot* snapshot, WalePlacement** placement, WaleError** error);
 const float* wale_snapshot_states(const WaleSnapshot* snapshot, size_t* count);
 WaleText wale_snapshot_state_name(const WaleSnapshot* snapshot, size_t index);
 WaleCode wale_snapshot_grid(const WaleSnapshot* snapshot, size_t index, WaleGrid* grid, WaleError** error);

@@ -16,7 +16,10 @@ from wale.errors import Error
 
 @dataclass
 class Profile:
-    """The figures of a device in SI units, as WaleProfile in wale/device.h; 0: not declared."""
+    """The figures of a device in SI units, as WaleProfile in wale/device.h; 0: not declared.
+
+    A device that pushes needs a `slew` (N/s) above 0: a run or a loop raises `unusable_device` otherwise.
+    """
 
     name: str
     workspace_diameter: float

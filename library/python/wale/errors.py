@@ -31,9 +31,9 @@ class Error(Exception):
     mend: str
     """What to do about it; may be empty."""
     expected: str
-    """In a Wale file: what would be right; may be empty."""
+    """What would be right, in a Wale file or as an argument; may be empty."""
     found: str
-    """In a Wale file: what the text has; may be empty."""
+    """What the text or the argument has; may be empty."""
     argument: str
     """The argument, file or section that it is about; may be empty."""
     text: str
@@ -62,6 +62,10 @@ class Error(Exception):
         """ "unknown_name"; empty for a code that is newer than this package."""
         return self.code.name if isinstance(self.code, Code) else ""
 
+    @property
+    def title(self) -> str:
+        """One line that describes the code in general; empty for a code that is newer than this package."""
+        return self.code.title if isinstance(self.code, Code) else ""
+
     def __str__(self) -> str:
-        near = f" (near: {', '.join(self.nearest)})" if self.nearest else ""
-        return f"W{self.code:04}: {self.args[0]}{near}"
+        return f"W{self.code:04}: {self.args[0]}"

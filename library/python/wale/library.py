@@ -91,12 +91,14 @@ class Library(Handle):
     """Materials and levels by name, compiled for a device. The answers are those of the command line.
 
     `folders` are searched besides the shipped library. `index` is the one in which `search`, `nearest` and `between` look as
-    it stands, a file or the address of a database; by default one in the user's cache. All calls are safe from any thread. `device` is the name of a
-    profile; empty: "sandpaper". `material` is one of a text that has several.
+    it stands, a file or the address of a database; by default one in the user's cache. All calls are safe from any thread.
+    `device` is the name of a profile; empty: "sandpaper". `material` is one of a text that has several. `devices` is a Wale
+    text that declares the application's own devices, each as `export device NAME { … }`: `device` may name one, also for
+    shipped materials. `wale.Stage(library.profile(NAME))` with a `wale.Loop` serves it.
     """
 
     def __init__(self, folders: Iterable[str | os.PathLike[str]] = (), *, unsandboxed_pictures: bool = False,
-                 index: str | os.PathLike[str] = "") -> None:
+                 index: str | os.PathLike[str] = "", devices: str = "") -> None:
         if isinstance(folders, (str, bytes, os.PathLike)):
             raise TypeError(f"folders: expected a list of folders, found one: write [{folders!r}]")
         if not isinstance(folders, Iterable):
@@ -105,7 +107,7 @@ class Library(Handle):
         texts = [arguments.text(each, "folders") for each in folders]
         array = ffi.new("WaleText[]", texts) if texts else ffi.NULL
         options = arguments.struct("WaleLibraryOptions", folders=array, folder_count=len(texts),
-                                   unsandboxed_pictures=unsandboxed_pictures, index=index)
+                                   unsandboxed_pictures=unsandboxed_pictures, index=index, devices=devices)
         super().__init__(made(lib.wale_library_create, "WaleLibrary", options), lib.wale_library_free)
 
     def _make(self, function: Any, texts: Mapping[str, str | os.PathLike[str]], kind: str, **options: str) -> Any:
@@ -230,7 +232,7 @@ class Library(Handle):
         return devices_of(made(lib.wale_library_devices, "WaleDevices", self._pointer))
 
     def profile(self, name: str) -> Profile:
-        """As `wale.profile`, also of a device that the owner declares."""
+        """As `wale.profile`, also of a device that the owner declares, or the text `devices` of this library."""
         arguments, of, library = Arguments(), sized("WaleProfile"), self._pointer  # whose texts are read
         call(lib.wale_library_profile, library, arguments.text(name, "name"), of)
         return profile_of(of)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wale._abi import Arguments, Handle, call, lib, made, read, sized, whole
+from wale._abi import Arguments, Handle, call, ffi, lib, made, read, sized, whole
 from wale._arrays import dtype_of, pointer
 
 
@@ -24,7 +24,7 @@ class Replay:
 class Recording(Handle):
     """A file that a run made (`Stage(record=…)`). It never changes.
 
-    `most_ticks`: only its first ones are read, as those before a damage, which the error of the whole file counts.
+    `most_ticks`: only its first ones are read, as those before a damage, which `Recording.intact(path)` counts.
     """
 
     def __init__(self, path: str | os.PathLike[str], *, most_ticks: int | None = None) -> None:
@@ -47,6 +47,13 @@ class Recording(Handle):
         self.complete: bool = bool(of.complete)
         self.virtual_time: bool = bool(of.virtual_time)
         self._count: int = of.ticks
+
+    @staticmethod
+    def intact(path: str | os.PathLike[str]) -> int:
+        """How many ticks of a file can be read: all of a whole one, else those before the place where it is damaged or cut."""
+        arguments, ticks = Arguments(), ffi.new("uint64_t*")
+        call(lib.wale_recording_intact, arguments.text(path, "path"), ticks)
+        return int(ticks[0])
 
     def __len__(self) -> int:
         return self._count

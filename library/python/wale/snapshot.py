@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wale._abi import Handle, call, ffi, lib, number, pair, read, sized
+from wale._abi import Handle, call, ffi, lib, made, number, pair, read, sized
 from wale._arrays import pointer, vectors
 from wale.codes import MarkKind
+from wale.placement import Placement
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,11 @@ class Snapshot(Handle):
 
     def __init__(self, handle: Any) -> None:
         super().__init__(handle, lib.wale_snapshot_free)
+
+    @property
+    def placement(self) -> Placement:
+        """How the patch lay then: its place, for hands and places that count from the workspace's centre."""
+        return Placement(made(lib.wale_snapshot_placement, "WalePlacement", self._pointer))
 
     @property
     def states(self) -> dict[str, float]:
@@ -63,7 +69,11 @@ class Snapshot(Handle):
 
     def show(self, position: tuple[float, float] = (0.0, 0.0), velocity: tuple[float, float] = (0.0, 0.0),
              time: float = 0.0) -> list[Mark]:
-        """The shapes that the picture shows for a hand (m and m/s from the patch's centre, s), in the order of drawing."""
+        """The shapes that the picture shows for a hand, in the order of drawing.
+
+        `position` counts from the patch's centre (m, m/s, s); `Now.position` counts from the workspace's, so take
+        `placement.at` from it.
+        """
         hand = [ffi.new("WaleVector*", pair(each, name))[0] for name, each in (("position", position), ("velocity", velocity))]
         count = ffi.new("size_t*")
         call(lib.wale_snapshot_show, self._pointer, *hand, number(time, "time"), ffi.NULL, 0, count)

@@ -11,8 +11,9 @@ from typing import Any
 
 from wale._abi import Arguments, Handle, call, ffi, held, lib, made, number, pair, sized, whole
 from wale._arrays import size_in_full
-from wale.codes import ContactKind
+from wale.codes import Code, ContactKind
 from wale.device import Device, Profile
+from wale.placement import Placement
 from wale.program import Program
 from wale.run import Now, Run, Vector, now_of, vector_of
 from wale.shape import Shape
@@ -69,7 +70,7 @@ class Patch(Handle):
         return bool(lib.wale_patch_exists(self._pointer))
 
     def set(self, parameter: str, value: float) -> None:
-        """Sets a parameter, in SI units."""
+        """Sets a parameter, in SI units. A value outside its range raises `malformed_value`; only `wale.batch` clamps."""
         arguments = Arguments()
         call(lib.wale_patch_set, self._pointer, arguments.text(parameter, "parameter"), number(value, "value"))
 
@@ -78,7 +79,11 @@ class Patch(Handle):
         call(lib.wale_patch_move, self._pointer, *pair(to, "to"))
 
     def resize(self, size: Size) -> None:
-        """Width, height and rim, m."""
+        """Width, height and rim, m.
+
+        No length is too great, here and in `add`: a side beyond the workspace's diameter counts as that diameter, and a rim
+        of half the smaller side or more as a quarter of it.
+        """
         call(lib.wale_patch_resize, self._pointer, *size_in_full(size))
 
     def replace(self, program: Program) -> None:
@@ -96,6 +101,31 @@ class Patch(Handle):
     def remove(self) -> None:
         """Removes the patch from its stage."""
         call(lib.wale_patch_remove, self._pointer)
+
+    @property
+    def placement(self) -> Placement:
+        """The patch as it is wanted: as all calls and commits that have returned have made it, felt already or not."""
+        return Placement(made(lib.wale_patch_placement, "WalePlacement", self._pointer))
+
+    @property
+    def published(self) -> Placement:
+        """The patch as the loop of the present run has it, or that of the last run had it.
+
+        While a bank is prepared it is older than `placement`. Raises `wrong_moment` if no run has had the patch yet.
+        """
+        return Placement(made(lib.wale_patch_published, "WalePlacement", self._pointer))
+
+    def value(self, parameter: str) -> float:
+        """The wanted value of a parameter, SI. Raises `unknown_name`."""
+        arguments, value = Arguments(), ffi.new("float*")
+        call(lib.wale_patch_value, self._pointer, arguments.text(parameter, "parameter"), value)
+        return float(value[0])
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The wanted values of all parameters by their names, SI."""
+        with self.placement as placement:
+            return placement.values
 
     def snapshot(self) -> Snapshot:
         """Its parameters and memory at one tick. Takes a period or two during a run."""
@@ -134,6 +164,16 @@ class Edit(Handle):
 
     def remove(self, patch: Patch) -> None:
         call(lib.wale_edit_remove, self._pointer, held(patch, Patch, "patch"))
+
+    def fail(self, sentence: str, *, code: Code = Code.malformed_value, argument: str = "", mend: str = "") -> None:
+        """Makes the next commit raise this error, unless an earlier call of the edit has failed.
+
+        For who finds out by himself that a change cannot be made. The sentence says what is wrong, in a line.
+        """
+        arguments = Arguments()
+        texts = [arguments.text(each, name) for name, each in
+                 (("argument", argument), ("sentence", sentence), ("mend", mend))]
+        call(lib.wale_edit_fail, self._pointer, whole(code, "code", 32), *texts)
 
     def commit(self) -> None:
         """Makes all changes. If one has an error, nothing has changed. Afterwards the edit is empty and may be used again."""

@@ -24,14 +24,16 @@ typedef struct WaleProfile {
   double force_counts;                 /* command steps from zero to peak force */
   double rate;                         /* Hz, control ticks per second, 100 .. 10000 */
   double speed_limit;                  /* m/s */
-  double slew;                         /* N/s: how fast the output may move after a change */
+  double slew;                         /* N/s: how fast the output may move after an entry or a change; above 0 for a device
+                                          that pushes (otherwise a run or a loop gives unusable_device), 0 on a pad: no limit */
   double continuous_force;             /* N per axis, that its motor bears for ever */
   double heating_seconds;              /* s, the time constant of its heating */
   double active_power;                 /* W, the most that a program may give to the hand by itself */
   double velocity_window;              /* ticks, at most 100; the longest window of the velocity filter */
   double velocity_noise_counts;        /* counts; the band that the velocity filter treats as noise */
   double patch_width, patch_height, patch_rim; /* m; the patch of a material that declares none */
-  double mass;                         /* kg, moving mass at the handle */
+  double mass;                         /* kg, moving mass at the handle; at 0 the guard against a loop that gains energy does
+                                          not act */
   double damping;                      /* N s/m */
   double friction;                     /* N */
   double delay_x, delay_y;             /* s, at most 1, from a sample to the force that answers it, besides the hold of a period */

@@ -68,8 +68,8 @@ typedef struct WaleErrorDetails {
   int32_t severity;        /* WALE_SEVERITY_… */
   WaleText sentence;       /* what is wrong: "expected a number, found a vector"; programs never search it */
   WaleText mend;           /* what to do about it; may be empty */
-  WaleText expected;       /* in a Wale file: what would be right; may be empty */
-  WaleText found;          /* in a Wale file: what the text has; may be empty */
+  WaleText expected;       /* what would be right, in a Wale file or as an argument: "a number"; may be empty */
+  WaleText found;          /* what the text or the argument has: "a vector"; may be empty */
   WaleText place;          /* the name of a file, an argument or a section; empty if there is none */
   WaleText place_text;     /* the text at that place; may be empty */
   WaleText place_source;   /* the line that it was compiled from, "corduroy.wale:9"; may be empty */

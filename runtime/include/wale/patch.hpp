@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "wale/memory.hpp"
 #include "wale/program.hpp"
@@ -25,7 +26,7 @@ struct PatchOptions {
   glm::vec2 at{0.0f};                  ///< m from the workspace's centre, of the patch's centre; finite
   std::optional<PatchSize> size = {};  ///< m; if none is given, that of the shape with the program's rim, or for a
                                        ///< rectangle the program's own. Width and height are positive, the rim is not
-                                       ///< negative, all are finite
+                                       ///< negative, all are finite; without an upper bound (`Patch::resize`)
   float layer = 0;                     ///< where patches overlap, the hand feels the one with the greatest; finite
   Shape shape = {};                    ///< the part of its rectangle that it covers, stretched to its size
 };
@@ -35,11 +36,29 @@ struct BringOptions {
   float layer = 0;  ///< finite
 };
 
+/// How a patch lies and what it is, at one moment: a value of its own, which nothing changes afterwards.
+struct Placement {
+  Program program;
+  std::vector<float> values;  ///< of its parameters, SI, in the order of `program.description().parameters`
+  glm::vec2 at{0.0f};         ///< m from the workspace's centre, of the patch's centre
+  PatchSize size;             ///< m
+  float layer = 0;
+  bool enabled = true;
+  Shape shape;  ///< as `add` was given it; the patch has it stretched: `shape.stretched({size.width, size.height})`
+
+  /// The value of a parameter, SI. Error: `unknown_name`.
+  Result<float> value(std::string_view parameter) const;
+};
+
 /// A patch's bank and a copy of its memory at one tick, for `show` and `surface_all` of wale/picture.hpp. Grids of more
 /// than 32768 cells in all are copied over several ticks.
+///
+/// `show` takes a hand whose `position` counts from the patch's centre and whose `workspace` counts from the
+/// workspace's, as `Now::position` does: `hand_on(now, snapshot.placement)` of wale/run.hpp is that hand.
 struct Snapshot {
   Bank bank;
   Memory memory;
+  Placement placement;  ///< of the patch with this bank
 };
 
 /// A patch on a stage. A light handle: copies name the same patch, and it may outlive the patch and the stage.
@@ -58,12 +77,17 @@ class Patch {
   /// Names no patch.
   Patch() = default;
 
-  /// Sets a parameter, in SI units, in the range that the program declares. Errors also: `unknown_name`.
+  /// Sets a parameter, in SI units, in the range that the program declares. A value outside it is refused, since a person
+  /// or a program that asks for it would feel something else: clamp it where that is meant, as a slider does. (A `Bank`
+  /// and a batch clamp, since among thousands of values by chance one beyond the range must not end an experiment.)
+  /// Errors also: `unknown_name`.
   Result<> set(std::string_view parameter, double value);
   /// Moves the patch's centre, m from the workspace's centre. A hand that is still on it does not enter anew; the
   /// energy that moving gives to the hand counts as the program's own.
   Result<> move(glm::vec2 to);
-  /// Full width and height, and rim, in m. A shape is stretched with it.
+  /// Full width and height, and rim, in m. A shape is stretched with it. No length is too great, here and in `add`: a side
+  /// beyond the workspace's diameter (of a pad without a position 10 m) counts as that diameter, and a rim of half the
+  /// smaller side or more as a quarter of it. `Placement::size` is what was asked for, `Bank::size` what counts.
   Result<> resize(PatchSize size);
   /// Another program. The patch keeps its place and layer; where it had its program's own size, it gets the new
   /// program's. A parameter that is not at its default keeps its value if the new program has one of the same name and
@@ -80,6 +104,18 @@ class Patch {
 
   /// Whether it names a patch that is on its stage.
   bool exists() const;
+
+  /// The patch as it is wanted: as all calls and commits that have returned have made it, whether the hand feels that
+  /// yet or not. Values are the nearest floats to those that were set. Only waits for another call of the stage.
+  Result<Placement> placement() const;
+  /// The patch as it was published last: what the loop of the present run has, or that of the last one had. While a
+  /// bank is prepared it is older than `placement`. One that is not enabled is published too. Errors also:
+  /// `wrong_moment` if no run has had it yet.
+  Result<Placement> published() const;
+  /// The wanted value of a parameter, as in `placement`. Errors also: `unknown_name`.
+  Result<float> value(std::string_view parameter) const;
+  /// The wanted values of all parameters, as in `placement`.
+  Result<std::vector<float>> values() const;
 
   /// A bank with the patch's present parameters, as they are wanted, for `predict` and `levels_back`. Runs setup and
   /// peaks if no patch has the same.

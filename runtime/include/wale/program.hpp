@@ -44,10 +44,10 @@ struct DecodedProgram;
 /// A verified patch program, ready to run. Immutable; copies share it; any number of threads may use it at once.
 class Program {
  public:
-  /// Reads, verifies and decodes a `.wpp` file. Its texts become visible (schema/visible_text.hpp), since anybody may
+  /// Reads, verifies and decodes a `.wpp` file. Its texts become visible (no control characters), since anybody may
   /// write them. What is written of it loads again. Errors: `damaged_file`, `newer_file`, `refused_program`.
   static Result<Program> load(std::span<const std::byte> bytes);
-  /// The same of a description. A `refused_program` has the instructions that led to it (runtime/machine/verify.hpp).
+  /// The same of a description. A `refused_program` has the instructions that led to it (`Error::led_to`).
   static Result<Program> load(PatchProgram program);
 
   const PatchProgram& description() const;

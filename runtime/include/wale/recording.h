@@ -53,9 +53,12 @@ typedef struct WaleReplay {
 
 /* Reads the file and checks it; what happens to it later does not matter. Errors: unreadable_file, newer_file, damaged_file. */
 WALE_API WaleCode wale_recording_open(WaleText path, WaleRecording** recording, WaleError** error);
-/* The same of its first `most_ticks` ticks, or fewer if it has fewer: the part before a damage or a cut, which the mend of
-   damaged_file counts. `complete` is 0 if ticks are left out. */
+/* The same of its first `most_ticks` ticks, or fewer if it has fewer: the part before a damage or a cut, which
+   wale_recording_intact counts. `complete` is 0 if ticks are left out. */
 WALE_API WaleCode wale_recording_open_part(WaleText path, size_t most_ticks, WaleRecording** recording, WaleError** error);
+/* How many ticks of a file can be opened: all of a whole one, and of one that is damaged or cut short those before that place, for
+   `most_ticks` above. Errors: unreadable_file, newer_file; damaged_file for a file that is no recording. */
+WALE_API WaleCode wale_recording_intact(WaleText path, uint64_t* ticks, WaleError** error);
 WALE_API void wale_recording_free(WaleRecording* recording);
 WALE_API WaleCode wale_recording_details(const WaleRecording* recording, WaleRecordingDetails* details, WaleError** error);
 /* Copies `count` ticks from number `first` on; `each` is sizeof(WaleRecordedTick), as for wale_run_ticks. */

@@ -112,6 +112,10 @@ class Recording {
   /// `damaged_file` for a file that is no recording, or that is damaged or cut short before that tick; the place is the
   /// file and the byte.
   static Result<Recording> open(const std::string& path, std::size_t most_ticks = SIZE_MAX);
+  /// How many ticks of a file can be opened: all of a whole one, and of one that is damaged or cut short those before
+  /// that place. For the `most_ticks` of `open` after `damaged_file`. Reads the whole file. Errors: `unreadable_file`,
+  /// `newer_file`, and `damaged_file` for a file that is no recording.
+  static Result<std::size_t> intact(const std::string& path);
   /// The same for any bytes in memory. Errors call them `name`.
   static Result<Recording> read(std::vector<std::byte> bytes, const std::string& name,
                                 std::size_t most_ticks = SIZE_MAX);

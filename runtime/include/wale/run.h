@@ -47,7 +47,7 @@ typedef struct WaleNow {
   uint64_t patch;        /* the one that the hand is on (wale_patch_id); 0: none */
   WaleVector position;   /* of the hand, m from the workspace's centre */
   WaleVector velocity;   /* m/s */
-  WaleVector force;      /* the actuator's */
+  WaleVector force;      /* the actuator's at that tick, also after the run, when the device exerts none; 0 after one that failed */
   int32_t inside;        /* 1: the hand is on a patch */
   int32_t reserved;      /* 0 */
   WaleGuards guards;     /* since the run began */

@@ -40,13 +40,18 @@ struct Now {
   double lateness = 0;                 ///< s, how long after its deadline the tick began
   glm::vec2 position{0}, velocity{0};  ///< of the hand, m from the workspace's centre, m/s
   /// N, the actuator's at that tick; of a pad its vibration, m/s^2 and Hz. After the run the device exerts none,
-  /// whatever its last tick had.
+  /// whatever its last tick had. After a run that failed (no memory, or `progress` threw) it is 0.
   Force force{0};
-  bool inside = false;                 ///< the hand is on a patch; after the run: was on one at its last tick
+  bool inside = false;  ///< the hand is on a patch; after the run: was on one at its last tick; false if it failed
   std::optional<Patch> patch = {};     ///< the one that it is on
   long revision = 0;                   ///< how often changes had been handed over to the loop
   GuardCounts guards;                  ///< since the run began
 };
+
+/// The hand of a run as `show` of wale/picture.hpp takes it, on a patch that lies as `placement` says: its `position`
+/// counts from the patch's centre, its `workspace` from the workspace's, and on a patch with a shape it has its distance
+/// to the edge. What a run does not tell is missing: raw velocities are the filtered ones, and accelerations are 0.
+Hand hand_on(const Now& now, const Placement& placement);
 
 enum class ContactKind {
   enter,    ///< the hand comes onto a patch
@@ -72,7 +77,9 @@ struct RunOptions {
   bool virtual_time = false;  ///< as fast as possible on the calling thread; the same bits on each new device
   /// Called about ten times a second, never on the real-time thread; changes of the stage are not handed over while it
   /// runs, so it should return soon. In virtual time it is called between two ticks, ten times per second of the run; a
-  /// change that it makes to the stage takes effect at the next tick.
+  /// change that it makes to the stage takes effect at the next tick. What it throws ends the run: the device exerts no
+  /// force, the recording is whole up to there, and `run` throws it on. (C and Python have no progress: they ask
+  /// `Stage::now` from another thread.)
   std::function<void(const Now&)> progress = {};
   /// Ends the run when it becomes true; a signal handler may set it.
   const std::atomic<bool>* stop = nullptr;

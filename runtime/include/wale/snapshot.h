@@ -41,6 +41,9 @@ typedef struct WaleMark {
 WALE_API WaleCode wale_patch_snapshot(const WalePatch* patch, WaleSnapshot** snapshot, WaleError** error);
 WALE_API void wale_snapshot_free(WaleSnapshot* snapshot);
 
+/* How the patch lay then: its place, for hands and places that count from the workspace's centre. A handle to free. */
+WALE_API WaleCode wale_snapshot_placement(const WaleSnapshot* snapshot, WalePlacement** placement, WaleError** error);
+
 /* The states' values, SI, in the program's order; `count` may be NULL. They belong to the snapshot. */
 WALE_API const float* wale_snapshot_states(const WaleSnapshot* snapshot, size_t* count);
 /* The name of a state; empty beyond the last. It belongs to the snapshot. */
@@ -52,8 +55,9 @@ WALE_API WaleCode wale_snapshot_grid(const WaleSnapshot* snapshot, size_t index,
    three numbers in 0 .. 1 for each place: red, green, blue; a program without colours leaves them unchanged. */
 WALE_API WaleCode wale_snapshot_surface(WaleSnapshot* snapshot, const WaleVector* places, size_t count, float* heights,
                                         float* colours, WaleError** error);
-/* The shapes that the picture shows for a hand at `position` with `velocity` at `time` (m and m/s from the patch's centre, s), in
-   the order of drawing. Gives their number; writes them if `capacity` is enough, otherwise nothing. */
+/* The shapes that the picture shows for a hand at `position` with `velocity` at `time` (m from the patch's centre, m/s, s), in
+   the order of drawing. The position of WaleNow counts from the workspace's centre: take x and y of wale_snapshot_placement
+   from it. Gives their number; writes them if `capacity` is enough, otherwise nothing. */
 WALE_API WaleCode wale_snapshot_show(WaleSnapshot* snapshot, WaleVector position, WaleVector velocity, double time,
                                      WaleMark* marks, size_t capacity, size_t* count, WaleError** error);
 

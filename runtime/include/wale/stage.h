@@ -18,6 +18,9 @@ typedef struct WaleStage WaleStage;
    patch where it is. */
 typedef struct WalePatch WalePatch;
 
+/* How a patch lies and what it is, at one moment. Nothing changes it afterwards; it outlives patch and stage. */
+typedef struct WalePlacement WalePlacement;
+
 /* Several changes that are felt at one tick, all or none. One thread at a time uses it; it may outlive its stage. */
 typedef struct WaleEdit WaleEdit;
 
@@ -47,6 +50,16 @@ typedef struct WalePatchOptions {
                              and a height the patch has the shape's */
 } WalePatchOptions;
 
+typedef struct WalePlacementDetails {
+  size_t size;
+  float x, y;               /* m from the workspace's centre, of the patch's centre */
+  float width, height, rim; /* m */
+  float layer;
+  int32_t enabled;          /* 0: it is there and not felt */
+  int32_t has_shape;        /* 1: wale_placement_shape gives it; 0: all of its rectangle */
+  uint64_t values;          /* how many parameters */
+} WalePlacementDetails;
+
 /* `device` is kept by the stage; a device serves one stage at a time. `options` may be NULL.
    Errors: malformed_value; wrong_moment if another stage has the device, or in a child of fork, whose parent has opened it. */
 WALE_API WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, WaleStage** stage,
@@ -73,7 +86,7 @@ WALE_API size_t wale_stage_size(const WaleStage* stage);
    be NULL, gets the figures and the record. Errors:
    - malformed_value: the time is not positive, or longer than can be kept, or an option is out of its range;
    - wrong_moment: nothing is on the stage, it has no device, or another run is under way on it or on its device;
-   - unusable_device: the profile lacks a figure that a loop needs;
+   - unusable_device: the profile lacks a figure that a loop needs, as a slew (`place` is its name), or one is out of its range;
    - unwritable_file: the recording cannot be made; short_of_resources: the system gives no thread. */
 WALE_API WaleCode wale_stage_run(WaleStage* stage, const WaleRunOptions* options, WaleRun** run, WaleError** error);
 /* Ends the run of wale_stage_run that is under way, if there is one. Also from a signal handler. */
@@ -103,11 +116,14 @@ WALE_API WaleCode wale_stage_poll(WaleStage* stage, size_t* dropped, WaleError**
 /* The calls of a patch return before the change is felt; C_INTERFACE.md says when it is. Errors of all: wrong_moment if the
    patch was removed or its stage is gone; malformed_value for NULL, or for a value that is not finite or not in its range.
    After an error nothing has changed. Other errors: */
-/* In SI units. unknown_name: the program has no such parameter. */
+/* In SI units. A value outside the parameter's range is refused and not clamped, since something else would be felt than was asked
+   for (wale_batch clamps: among many values by chance one beyond the range must not end an experiment). unknown_name: the program
+   has no such parameter. */
 WALE_API WaleCode wale_patch_set(WalePatch* patch, WaleText parameter, double value, WaleError** error);
 /* m from the workspace's centre. */
 WALE_API WaleCode wale_patch_move(WalePatch* patch, float x, float y, WaleError** error);
-/* m. */
+/* m. No length is too great, here and in WalePatchOptions: a side beyond the workspace's diameter (of a pad without a position
+   10 m) counts as that diameter, and a rim of half the smaller side or more as a quarter of it. */
 WALE_API WaleCode wale_patch_resize(WalePatch* patch, float width, float height, float rim, WaleError** error);
 /* other_device, other_figures. */
 WALE_API WaleCode wale_patch_replace(WalePatch* patch, const WaleProgram* program, WaleError** error);
@@ -117,6 +133,27 @@ WALE_API WaleCode wale_patch_enable(WalePatch* patch, int32_t enabled, WaleError
 WALE_API WaleCode wale_patch_bring(WalePatch* patch, float layer, WaleError** error);
 /* Removes the patch from its stage. All handles to it then name nothing; they are freed as before. */
 WALE_API WaleCode wale_patch_remove(WalePatch* patch, WaleError** error);
+
+/* The patch as it is wanted: as all calls and commits that have returned have made it, whether the hand feels that yet or not.
+   Values are the nearest floats to those that were set. */
+WALE_API WaleCode wale_patch_placement(const WalePatch* patch, WalePlacement** placement, WaleError** error);
+/* The patch as it was published last: what the loop of the present run has, or that of the last one had. While a bank is prepared
+   it is older than the one above. wrong_moment also if no run has had the patch yet. */
+WALE_API WaleCode wale_patch_published(const WalePatch* patch, WalePlacement** placement, WaleError** error);
+/* The wanted value of a parameter, SI, as in wale_patch_placement; not-a-number after an error. unknown_name. */
+WALE_API WaleCode wale_patch_value(const WalePatch* patch, WaleText parameter, float* value, WaleError** error);
+
+WALE_API void wale_placement_free(WalePlacement* placement);
+/* Error: malformed_value for NULL or a wrong size. */
+WALE_API WaleCode wale_placement_details(const WalePlacement* placement, WalePlacementDetails* details, WaleError** error);
+/* The values of the parameters, SI, in the order of the program's; `count` may be NULL. They belong to the placement. */
+WALE_API const float* wale_placement_values(const WalePlacement* placement, size_t* count);
+/* The value of a parameter, SI. Error: unknown_name. */
+WALE_API WaleCode wale_placement_value(const WalePlacement* placement, WaleText parameter, float* value, WaleError** error);
+/* Its program; `program` gets a handle to free. */
+WALE_API WaleCode wale_placement_program(const WalePlacement* placement, WaleProgram** program, WaleError** error);
+/* Its shape as it was given, not stretched to the patch's size; `shape` gets a handle to free, or NULL for all of a rectangle. */
+WALE_API WaleCode wale_placement_shape(const WalePlacement* placement, WaleShape** shape, WaleError** error);
 
 /* 1 if it names a patch that is on its stage. */
 WALE_API int32_t wale_patch_exists(const WalePatch* patch);
@@ -140,8 +177,14 @@ WALE_API WaleCode wale_edit_replace(WaleEdit* edit, const WalePatch* patch, cons
 WALE_API WaleCode wale_edit_enable(WaleEdit* edit, const WalePatch* patch, int32_t enabled, WaleError** error);
 WALE_API WaleCode wale_edit_bring(WaleEdit* edit, const WalePatch* patch, float layer, WaleError** error);
 WALE_API WaleCode wale_edit_remove(WaleEdit* edit, const WalePatch* patch, WaleError** error);
+/* Makes the next commit fail with this error, unless an earlier call of the edit has failed: for who finds out by himself that a
+   change cannot be made. `code` is that of an error; `sentence` says what is wrong, in a line; `argument` and `mend` may be
+   empty. Error: malformed_value for another code or no sentence; then the commit fails with that. */
+WALE_API WaleCode wale_edit_fail(WaleEdit* edit, WaleCode code, WaleText argument, WaleText sentence, WaleText mend,
+                                 WaleError** error);
 /* Makes all changes; they are felt together. Errors: those of the changes, of the first that has one; then nothing has changed.
-   Afterwards the edit is empty and may be used again. */
+   Afterwards the edit is empty and may be used again. Where memory ended within a call of the edit, that is such an error; where it
+   ends within the commit itself, nothing has changed, and the same edit may be committed again. */
 WALE_API WaleCode wale_edit_commit(WaleEdit* edit, WaleError** error);
 /* Without a commit nothing changes. */
 WALE_API void wale_edit_free(WaleEdit* edit);

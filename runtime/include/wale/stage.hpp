@@ -52,6 +52,9 @@ struct StageOptions {
 
 /// Several changes that are felt at one tick, all or none. One thread at a time may use an edit; it may outlive its
 /// stage. An edit that is destroyed without `commit` changes nothing. One that was moved from gives `wrong_moment`.
+///
+/// Where memory ends within a call (it throws std::bad_alloc), that call has done nothing and `commit` gives
+/// `short_of_resources`. Where it ends within `commit`, nothing has changed, and the same edit may be committed again.
 class StageEdit {
  public:
   StageEdit(StageEdit&&) noexcept;
@@ -131,7 +134,10 @@ class Stage {
   /// - `wrong_moment`: nothing is on the stage, it has no device, or another run is under way on it, or one that
   ///   `start` began waits for its `stop`, or another stage runs on its device, or the device was opened by the parent
   ///   of this process;
-  /// - `unusable_device`: the device's profile lacks a figure that a loop needs;
+  /// - `unusable_device`: the device's profile lacks a figure that a loop needs, or one is out of its range; `place.name`
+  ///   is the figure. It needs a rate and a peak; with a position also workspace, counts and speed limit. One that pushes
+  ///   needs a slew: without it the force could jump by its whole range under a hand. (A pad may be without: then its
+  ///   amplitude is not slowed. To slow nothing on purpose, declare a slew of 1e9 N/s.)
   /// - `unwritable_file`: the recording cannot be made;
   /// - `short_of_resources`: the system gives no thread.
   Result<RunResult> run(const RunOptions& options);

@@ -63,18 +63,18 @@ struct DeviceProfile {
   double force_counts = 0;        ///< command steps from zero to peak force
   double rate = 0;                ///< control ticks per second, Hz, least_rate .. most_rate
   double speed_limit = 0;         ///< m/s; the runtime's limit of velocity, and the fastest that measuring explores
-  /// N/s, on a pad m/s^3: how fast the output may move after a change of program, bank or patch.
+  /// N/s, on a pad m/s^3: how fast the output may move after an entry or a change. Above 0, but for a pad (`Stage::run`).
   double slew = 0;
   /// N per axis, the force that its motor bears indefinitely without overheating, and s, the time constant of its
   /// heating. Heating is proportional to the square of the force. 0: not declared.
   double continuous_newton = 0, heating_seconds = 0;
-  double active_watt = 0;            ///< W, the most that a program may give to the hand by itself
+  double active_watt = 0;            ///< W, the most that a program may give to the hand by itself; 0: what it declares
   double velocity_window = 0;        ///< ticks; the longest window of the velocity filter
   double velocity_noise_counts = 0;  ///< counts; the band that the velocity filter treats as noise
   double patch_width = 0;            ///< m; the patch of a material that declares none
   double patch_height = 0;           ///< m
   double patch_rim = 0;              ///< m; the width over which a patch fades at its edge
-  double mass = 0;                   ///< kg, moving mass at the handle
+  double mass = 0;                   ///< kg, moving mass at the handle; at 0 `GuardCounts::passivity` does not act
   double damping = 0;                ///< N s/m
   double friction = 0;               ///< N, Coulomb
   double delay_x = 0, delay_y = 0;   ///< s, from a sample to the force that answers it, besides the hold of one period

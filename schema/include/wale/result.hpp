@@ -29,8 +29,8 @@ struct Error {
   std::string mend = {};                  ///< what to do about it; may be empty
   Place place = {};                       ///< where
   std::vector<Place> led_to = {};         ///< its causes in their order: the instructions before a refused one
-  std::string expected = {};              ///< in a Wale file: what would be right; may be empty
-  std::string found = {};                 ///< in a Wale file: what the text has; may be empty
+  std::string expected = {};              ///< what would be right, in a Wale file or as an argument; may be empty
+  std::string found = {};                 ///< what the text or the argument has; may be empty
   std::vector<std::string> nearest = {};  ///< names that may have been meant by an unknown one, the nearest first
   std::vector<Error> others = {};  ///< the other errors and warnings of the same text, in the order of their places
 };

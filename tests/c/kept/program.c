@@ -31,10 +31,11 @@ int main(void) {
   WaleRun* run = NULL;
   WaleFelt* felt = NULL;
   EXPECT(wale_interface() >= WALE_INTERFACE);
-  WaleLibraryOptions plain = {.size = sizeof plain, .reserved = 1};
-  EXPECT(wale_library_create(&plain, &library, NULL) == WALE_CODE_malformed_value);
-  plain.reserved = 0;
-  TRY(wale_library_create(&plain, &library, &error));
+  WaleLibraryOptions folders = {.size = sizeof folders};
+  folders.reserved = 1; /* the last field that it knows */
+  EXPECT(wale_library_create(&folders, &library, NULL) == WALE_CODE_malformed_value);
+  folders.reserved = 0;
+  TRY(wale_library_create(&folders, &library, &error));
   TRY(wale_library_level(library, WALE_TEXT("roughness"), WALE_TEXT("0.6"), NULL, &program, &error));
   EXPECT(wale_library_find(library, WALE_TEXT("corduory"), NULL, &none, NULL) == WALE_CODE_unknown_name);
   TRY(wale_library_open_device(library, WALE_TEXT("simulated"), NULL, &device, &error));

@@ -9,13 +9,14 @@
 
 #include "runtime/stage/bank_cache.hpp"
 #include "runtime/stage/front_most.hpp"
+#include "wale/patch.hpp"
 #include "wale/program.hpp"
 #include "wale/shape.hpp"
 
 namespace wale {
 
 /// A patch as its caller wants it; a value of the control side.
-struct Placement {
+struct WantedPatch {
   Program program;
   std::vector<float> parameters;  ///< SI, as the program lists them
   PatchSize size;
@@ -25,7 +26,7 @@ struct Placement {
   bool enabled = true;
   Shape shape;  ///< of its own size; a placed patch has it stretched
 
-  Placement(const Program& placed, glm::vec2 where, PatchSize how_large, float how_far_in_front, Shape which_part = {})
+  WantedPatch(const Program& placed, glm::vec2 where, PatchSize how_large, float how_far_in_front, Shape which_part = {})
       : program(placed),
         parameters(placed.default_parameters()),
         size(how_large),
@@ -57,6 +58,17 @@ struct Placement {
   }
 
   BankKey key() const { return {program, parameters, size}; }
+
+  /// For whoever asks how the patch is.
+  Placement told() const {
+    return {.program = program,
+            .values = parameters,
+            .at = position,
+            .size = size,
+            .layer = layer,
+            .enabled = enabled,
+            .shape = shape};
+  }
 };
 
 }  // namespace wale
