@@ -8,6 +8,7 @@
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/text/source.hpp"
 #include "library/site/material_page.hpp"
+#include "library/site/page_data.hpp"
 #include "library/site/site_folder.hpp"
 #include "wale/language_service.hpp"
 
@@ -142,6 +143,7 @@ SitePage percept_page(const Percept& percept, const Declarations& declarations, 
     page.body += html("<h2>How small a difference people notice</h2>\n<ul>{}</ul>\n", thresholds);
   page.body += html("<h2>Materials</h2>\n{}", strongest(percept.name, materials, page.path));
   page.body += written(percept.span);
+  page.data = percept_data(page, percept, declarations, names, materials);
   return page;
 }
 
@@ -165,6 +167,7 @@ SitePage map_page(const Map& map, const DeclaredNames& names) {
                       html("{} of log10 of magnitude{}", figure(law.scatter), law.scatter_assumed ? ", assumed" : ""));
   page.body += html("</dl>\n<h2>Passages that hold its figures</h2>\n{}", quotations(map.quotes));
   page.body += written(map.span);
+  page.data = map_data(page, map, names);
   return page;
 }
 
@@ -188,6 +191,7 @@ SitePage threshold_page(const Threshold& threshold, const DeclaredNames& names) 
   if (threshold.valid) page.body += fact("Valid", html("{}", threshold.valid->written));
   page.body += html("</dl>\n<h2>Passages that hold its figures</h2>\n{}", quotations(threshold.quotes));
   page.body += written(threshold.span);
+  page.data = threshold_data(page, threshold, names);
   return page;
 }
 
@@ -221,6 +225,7 @@ SitePage device_page(const DeviceDeclaration& device, const DeclaredNames& names
   list("Unknown", device.unknown);
   page.body += html("</dl>\n");
   page.body += written(device.span);
+  page.data = device_data(page, device);
   return page;
 }
 
@@ -318,6 +323,10 @@ std::vector<SitePage> declared_pages(const Declarations& declarations, const Dec
       "<h1>Devices</h1>\n<table><thead><tr><th scope=\"col\">device</th><th scope=\"col\">source</th><th "
       "scope=\"col\">unknown</th></tr></thead>\n<tbody>{}</tbody></table>\n",
       items);
+  ListedPages of_percepts, of_devices;
+  for (const SitePage& each : pages)
+    (each.section == devices.section ? of_devices : of_percepts).emplace_back(each.title, each.path);
+  percepts.data = list_data(percepts, of_percepts), devices.data = list_data(devices, of_devices);
   pages.push_back(std::move(percepts));
   pages.push_back(std::move(devices));
   return pages;
@@ -332,9 +341,11 @@ SitePage unknown_page(const Declarations& declarations, const DeclaredNames& nam
                 .description = "What nobody has measured of these materials, maps and devices",
                 .section = "unknown.html"};
   Markup rows;
+  ListedPages all;
   std::size_t count = 0;
   for (const SiteMaterial* material : published)
     for (const std::string& each : material->unknown) {
+      all.emplace_back(material->shown() + ": " + each, "material/" + material->page + ".html");
       if (++count > most_rows) continue;
       rows += html("<li><a href=\"material/{}.html\">{}</a>: {}</li>\n", material->page, material->shown(), each);
     }
@@ -342,6 +353,7 @@ SitePage unknown_page(const Declarations& declarations, const DeclaredNames& nam
   declarations.each_map([&](const Map& map) {
     const Evidence worst = std::max({map.slope, map.tied ? map.anchor : map.slope, map.handle});
     if (worst == Evidence::measured || worst == Evidence::published) return;
+    all.emplace_back(map_title(map), names.of(map));
     maps += html("<li><a href=\"{}\">{}</a>: slope {}, anchor {}, handle {}</li>\n", names.of(map), map_title(map),
                  evidence_word(map.slope), map.tied ? evidence_word(map.anchor) : std::string("none"),
                  evidence_word(map.handle));
@@ -361,6 +373,7 @@ SitePage unknown_page(const Declarations& declarations, const DeclaredNames& nam
   if (count > most_rows) page.body += html("<p>And {} more.</p>\n", count - most_rows);
   page.body += html("<h2>Of maps</h2>\n<ul>{}</ul>\n<h2>Of devices</h2>\n<ul>{}</ul>\n", maps, devices);
   if (!kept_back.empty()) page.body += html("<h2>Not on this site</h2>\n<ul>{}</ul>\n", kept_back);
+  page.data = list_data(page, all);
   return page;
 }
 

@@ -44,6 +44,8 @@ std::string way_to(std::string_view path, std::string_view from) {
   return way + std::string(path);
 }
 
+std::string data_path(const SitePage& page) { return page.path.substr(0, page.path.rfind('.')) + ".json"; }
+
 std::string framed(const SitePage& page) {
   const auto way = [&](std::string_view path) { return way_to(path, page.path); };
   std::vector<Markup> entries;
@@ -56,6 +58,9 @@ std::string framed(const SitePage& page) {
   std::vector<Markup> scripts;
   for (const std::string& path : page.scripts) scripts.push_back(html("<script src=\"{}\" defer></script>", way(path)));
   // Scripts come from files alone, so that a tag which somebody got into a text would not run.
+  Markup head = page.head;
+  if (!page.data.empty())
+    head += html("<link rel=\"alternate\" type=\"application/ld+json\" href=\"{}\">", way(data_path(page).c_str()));
   return html(
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
              "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' file:; "
@@ -72,7 +77,7 @@ std::string framed(const SitePage& page) {
              "<footer class=\"foot\"><p>Every figure of feel is read from the finished program by <code>wale "
              "library site</code>. Levels run from 0, none, to 1, the percept’s reference stimulus.</p></footer>\n"
              "</body>\n</html>\n",
-             page.title, page.description, way("site.css"), way("wale.svg"), page.head, joined(scripts, "\n"),
+             page.title, page.description, way("site.css"), way("wale.svg"), head, joined(scripts, "\n"),
              way("index.html"), joined(entries, ""), page.body)
       .text();
 }

@@ -17,7 +17,11 @@ struct SitePage {
   Markup body;                       ///< what stands in `main`
   Markup head;                       ///< more for `head`, such as its data
   std::vector<std::string> scripts;  ///< paths in the site
+  std::string data;                  ///< the same for programs, JSON by the terms of schema.org; empty if there is none
 };
+
+/// Where the data of a page stand: "percept/roughness.json".
+std::string data_path(const SitePage& page);
 
 /// The whole page: with a policy by which a browser loads nothing from elsewhere and runs no script in the text; with
 /// the menu, a link past it, and the foot.

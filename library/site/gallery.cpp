@@ -5,6 +5,7 @@
 #include <set>
 
 #include "library/site/material_page.hpp"
+#include "library/site/page_data.hpp"
 #include "library/site/site_folder.hpp"
 
 namespace wale {
@@ -40,6 +41,14 @@ Markup pager(const std::string& base, std::size_t page, std::size_t pages, const
   return html("<nav class=\"pager\" aria-label=\"Pages of this list\"><ul>{}</ul></nav>\n", joined(links, ""));
 }
 
+/// The materials of a page of a list.
+ListedPages listed(const std::vector<const SiteMaterial*>& materials, std::size_t begin) {
+  ListedPages all;
+  for (std::size_t i = begin; i < std::min(begin + on_a_page, materials.size()); ++i)
+    all.emplace_back(materials[i]->shown(), "material/" + materials[i]->page + ".html");
+  return all;
+}
+
 /// A list of any length, in pages.
 void add_list(std::vector<SitePage>& pages, const std::string& base, const std::string& title, const Markup& before,
               const std::vector<const SiteMaterial*>& materials, const std::string& section) {
@@ -54,6 +63,7 @@ void add_list(std::vector<SitePage>& pages, const std::string& base, const std::
     page.body += pager(base, i, count, page.path);
     page.body += cards_of(materials, i * on_a_page, page.path);
     page.body += pager(base, i, count, page.path);
+    page.data = list_data(page, listed(materials, i * on_a_page));
     pages.push_back(std::move(page));
   }
 }
@@ -146,6 +156,7 @@ std::vector<SitePage> gallery_pages(const std::vector<const SiteMaterial*>& mate
   first.body += html(
       "</div>\n<noscript><p>The search needs scripts; <a href=\"all.html\">the list</a> and <a "
       "href=\"collections.html\">the collections</a> do not.</p></noscript>\n");
+  first.data = list_data(first, listed(materials, 0));
   pages.push_back(std::move(first));
   add_list(pages, "all", "All materials", {}, materials, "index.html");
 
@@ -159,12 +170,16 @@ std::vector<SitePage> gallery_pages(const std::vector<const SiteMaterial*>& mate
     add_list(pages, "kind/" + page_name(kind), kind, under, all, "collections.html");
   }
   Markup sets;
+  ListedPages of_collections;
+  for (const auto& [kind, all] : kinds) of_collections.emplace_back(kind, "kind/" + page_name(kind) + ".html");
   for (const auto& [module, all] : modules) {
+    of_collections.emplace_back(module, "set/" + page_name(module) + ".html");
     sets += html("<li><a href=\"{}\">{}</a> <small>{}</small></li>\n", "set/" + page_name(module) + ".html", module,
                  all.size());
     add_list(pages, "set/" + page_name(module), module, {}, all, "collections.html");
   }
   if (!sets.empty()) collections.body += html("<h2>Files of several</h2>\n<ul class=\"kinds\">{}</ul>\n", sets);
+  collections.data = list_data(collections, of_collections);
   pages.push_back(std::move(collections));
   return pages;
 }

@@ -286,7 +286,10 @@ class SiteBuild {
     std::vector<SitePage> pages = gallery_pages(published_);
     std::ranges::move(declared_pages(common_->declarations, names_, published_), std::back_inserter(pages));
     pages.push_back(unknown_page(common_->declarations, names_, published_, left_out_));
-    for (const SitePage& page : pages) files.push_back({page.path, framed(page)});
+    for (const SitePage& page : pages) {
+      files.push_back({page.path, framed(page)});
+      if (!page.data.empty()) files.push_back({data_path(page), page.data});
+    }
     auto space = space_files(felt_plane(published_, Comparer(common_->declarations, request_.device)), published_);
     if (!space) return space.error();
     std::ranges::move(*space, std::back_inserter(files));

@@ -145,7 +145,7 @@ Result<> SiteFolder::put(const std::string& path, std::string_view bytes) {
   if (fs::file_size(place, trouble) == bytes.size() && !trouble && whole_file(place) == bytes) return {};
   if (!write_whole(place, bytes)) return unwritable(place.string(), "the file cannot be written");
   const std::lock_guard guard(*lock_);
-  ++changed_;
+  changed_.insert(path);
   return {};
 }
 
@@ -169,7 +169,7 @@ Result<> SiteFolder::finish(std::string_view notes) {
   for (const std::string& path : current_) list += path + "\n";
   for (const std::string& path : earlier_) {
     if (current_.contains(path)) continue;
-    if (fs::remove(fs::path(folder_) / path, trouble)) ++changed_;
+    if (fs::remove(fs::path(folder_) / path, trouble)) changed_.insert(path);
     // A folder goes with its last file.
     fs::remove((fs::path(folder_) / path).parent_path(), trouble);
   }

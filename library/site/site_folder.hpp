@@ -40,13 +40,13 @@ class SiteFolder {
   /// Removes what is no longer part of the site, and leaves `notes` for the next build. Error: W0505.
   Result<> finish(std::string_view notes);
 
-  std::size_t changed() const { return changed_; }  ///< files that were written or removed
+  std::size_t changed() const { return changed_.size(); }  ///< files that were written or removed
   std::size_t files() const { return current_.size(); }
 
  private:
   std::string folder_;
   std::set<std::string> earlier_, current_;
-  std::size_t changed_ = 0;
+  std::set<std::string> changed_;
   std::unique_ptr<std::mutex> lock_ = std::make_unique<std::mutex>();
 };
 

@@ -13,6 +13,7 @@
 #include "compiler/drawing/style.hpp"
 #include "compiler/text/json_text.hpp"
 #include "library/site/material_page.hpp"
+#include "library/site/page_data.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
@@ -281,7 +282,11 @@ Result<std::vector<SiteFile>> space_files(const FeltPlane& plane, const std::vec
       plane_width, plane_height, legend);
   if (!axes.empty())
     page.body += html("<h2>Directions</h2>\n<p>The lines point to where a percept grows.</p>\n<ul>{}</ul>\n", axes);
+  ListedPages all;
+  for (const SiteMaterial* each : plane.materials) all.emplace_back(each->shown(), "material/" + each->page + ".html");
+  page.data = list_data(page, all);
   files.push_back({page.path, framed(page)});
+  files.push_back({data_path(page), page.data});
   return files;
 }
 

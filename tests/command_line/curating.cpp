@@ -92,7 +92,9 @@ TEST(Curating, TheDayPrintsWhatItsPageShows) {
     }
     kind.clear();
   }
-  EXPECT_EQ(commands, 10);
+  EXPECT_EQ(commands, 12);
+  EXPECT_TRUE(fs::exists(folder / "public/material/flat_stud_plate.html"));
+  EXPECT_TRUE(contains(bytes_of(folder / "public/material/flat_stud_plate.json"), "\"@type\": \"Dataset\""));
   EXPECT_EQ(bytes_of(folder / "offered.png").substr(1, 3), "PNG");
   EXPECT_FALSE(fs::exists(folder / "offered/studs.wale"));
 }

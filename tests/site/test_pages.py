@@ -119,6 +119,27 @@ def test_numbers_on_a_page_are_those_of_describe(shipped):
         assert inside["variableMeasured"][0]["value"] == list(told["percepts"].values())[0]["level"]
 
 
+def test_each_page_has_its_data(shipped):
+    for path in pages(shipped):
+        page = Page(path.read_text())
+        ways = [a["href"] for t, a in page.elements if t == "link" and a.get("type") == "application/ld+json"]
+        assert len(ways) == 1, path
+        data = json.loads((path.parent / urllib.parse.unquote(ways[0])).read_text())
+        assert data["@context"] == "https://schema.org" and data["@type"] in ("Dataset", "DefinedTerm", "ItemList"), path
+        assert (path.parent / urllib.parse.unquote(data["url"])).resolve() == path.resolve()
+        assert data["@id"] == "/" + path.relative_to(shipped).as_posix().removesuffix(".html")
+        for each in data.get("itemListElement", []):
+            assert (path.parent / urllib.parse.unquote(each["url"])).is_file(), (path, each)
+    data = json.loads((shipped / "percept/roughness.json").read_text())
+    reads = {each["name"]: each["reads"] for each in data["wale"]["materials"]}
+    told = json.loads(wale("describe", "corduroy", "--json"))
+    assert abs(reads["corduroy"] - told["percepts"]["roughness"]["level"]) < 1e-6
+    sandpaper = json.loads((shipped / "device/sandpaper.json").read_text())
+    figures = {each["name"]: (each["value"], each["unitText"]) for each in sandpaper["variableMeasured"]}
+    declared = (SOURCE / "calibration/devices/sandpaper.wale").read_text()
+    assert figures["rate"] == (float(re.search(r"rate +(\d+) Hz", declared)[1]), "Hz")
+
+
 def test_downloads_are_what_wale_builds(shipped, tmp_path):
     wale("build", "corduroy", "-o", tmp_path / "corduroy.wpp")
     assert (shipped / "take/corduroy.wpp").read_bytes() == (tmp_path / "corduroy.wpp").read_bytes()
