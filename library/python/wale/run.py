@@ -58,7 +58,10 @@ class Now:
     velocity: Vector
     """m/s."""
     force: Vector
-    """N, the actuator's; of a pad its amplitude (m/s^2) and frequency (Hz)."""
+    """N, the actuator's at that tick; of a pad its amplitude (m/s^2) and frequency (Hz).
+
+    Also after the run, when the device exerts none; 0 after a run that failed.
+    """
     guards: Guards
 
 
