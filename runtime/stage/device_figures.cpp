@@ -58,24 +58,21 @@ Result<> check_needed(const DeviceProfile& profile, bool of_loops) {
     const char* name;
     double value;
     bool needed;
-    const char* is;
   };
   const bool place = profile.has_position(), push = !profile.shaker;
-  const std::array<Figure, 8> figures{{
-      {"rate", profile.rate, true, "the Hz of its control ticks"},
-      {"workspace", profile.workspace_diameter, place, "the m of its diameter"},
-      {"position counts", profile.position_counts, place, "the counts of an encoder over the workspace"},
-      {"force", profile.force_newton, push, "the N of its peak on an axis"},
-      {"force counts", profile.force_counts, push, "the steps of a command from zero to the peak"},
-      {"acceleration", profile.most(), !push, "the m/s^2 of its peak"},
-      {"speed limit", profile.speed_limit, place && of_loops, "the m/s that a velocity is held within"},
-      {"slew", profile.slew, push && of_loops, "the N/s by which its force may change after an entry or a change"},
-  }};
-  for (const auto& [name, value, needed, is] : figures) {
-    if (!needed || value != 0) continue;
-    Error error = unusable(profile, name, std::string(" declares no positive ") + name,
-                           std::string("give its profile this figure, ") + is);
-    error.expected = std::string("a positive ") + name;
+  const Figure figures[] = {{"rate", profile.rate, true},
+                            {"workspace", profile.workspace_diameter, place},
+                            {"position counts", profile.position_counts, place},
+                            {"force", profile.force_newton, push},
+                            {"force counts", profile.force_counts, push},
+                            {"acceleration", profile.most(), !push},
+                            {"speed limit", profile.speed_limit, place && of_loops},
+                            {"slew", profile.slew, push && of_loops}};
+  for (const Figure& each : figures) {
+    if (!each.needed || each.value != 0) continue;
+    const std::string what = std::string("positive ") + each.name;
+    Error error = unusable(profile, each.name, " declares no " + what, "give its profile this figure, in SI units");
+    error.expected = "a " + what;
     error.found = error.place.text = "0";
     return error;
   }

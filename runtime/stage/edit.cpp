@@ -48,7 +48,7 @@ struct StageEdit::Parts {
   class WholeOrNot {
    public:
     explicit WholeOrNot(Parts& parts) noexcept : parts_(parts), thrown_(std::uncaught_exceptions()) {}
-    ~WholeOrNot() {
+    [[gnu::noinline]] ~WholeOrNot() {
       if (std::uncaught_exceptions() > thrown_ && !parts_.error)
         parts_.error.emplace(Error{.code = Code::short_of_resources});
     }
@@ -60,12 +60,6 @@ struct StageEdit::Parts {
     int thrown_;
   };
 
-  /// Notes the step that `change()` makes of the patch.
-  template <class Make>
-  void note(const std::weak_ptr<StageState>& of, PatchName name, const Make& change) {
-    const WholeOrNot whole(*this);
-    step(of, name, change());
-  }
   void step(const std::weak_ptr<StageState>& of, PatchName name, StageState::Change change) {
     const bool other = of.owner_before(stage) || stage.owner_before(of);
     if (other && !error)
@@ -105,33 +99,47 @@ Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options
 }
 
 void StageEdit::set(const Patch& patch, std::string_view parameter, double value) {
-  if (parts_) parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::set(std::string(parameter), value); });
+  if (!parts_) return;
+  const Parts::WholeOrNot whole(*parts_);
+  parts_->step(patch.stage_, StageState::name_of(patch), changes::set(std::string(parameter), value));
 }
 
 void StageEdit::move(const Patch& patch, glm::vec2 to) {
-  if (parts_) parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::move(to); });
+  if (!parts_) return;
+  const Parts::WholeOrNot whole(*parts_);
+  parts_->step(patch.stage_, StageState::name_of(patch), changes::move(to));
 }
 
 void StageEdit::resize(const Patch& patch, PatchSize size) {
-  if (parts_) parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::resize(size); });
+  if (!parts_) return;
+  const Parts::WholeOrNot whole(*parts_);
+  parts_->step(patch.stage_, StageState::name_of(patch), changes::resize(size));
 }
 
 void StageEdit::replace(const Patch& patch, const Program& program) {
-  if (const auto state = parts_ ? parts_->stage.lock() : nullptr)
-    parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::replace(program, *state); });
+  const auto state = parts_ ? parts_->stage.lock() : nullptr;
+  if (!state) return;
+  const Parts::WholeOrNot whole(*parts_);
+  parts_->step(patch.stage_, StageState::name_of(patch), changes::replace(program, *state));
 }
 
 void StageEdit::enable(const Patch& patch, bool enabled) {
-  if (parts_) parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::enable(enabled); });
+  if (!parts_) return;
+  const Parts::WholeOrNot whole(*parts_);
+  parts_->step(patch.stage_, StageState::name_of(patch), changes::enable(enabled));
 }
 
 void StageEdit::bring(const Patch& patch, const BringOptions& to) {
-  if (const auto state = parts_ ? parts_->stage.lock() : nullptr)
-    parts_->note(patch.stage_, StageState::name_of(patch), [&] { return changes::bring(to.layer, state->table); });
+  const auto state = parts_ ? parts_->stage.lock() : nullptr;
+  if (!state) return;
+  const Parts::WholeOrNot whole(*parts_);
+  parts_->step(patch.stage_, StageState::name_of(patch), changes::bring(to.layer, state->table));
 }
 
 void StageEdit::remove(const Patch& patch) {
-  if (parts_) parts_->note(patch.stage_, StageState::name_of(patch), [] { return StageState::Change(); });
+  if (!parts_) return;
+  const Parts::WholeOrNot whole(*parts_);
+  parts_->step(patch.stage_, StageState::name_of(patch), StageState::Change());
 }
 
 void StageEdit::fail(Error error) {

@@ -57,20 +57,18 @@ Result<> check_layer(float layer) {
 
 }  // namespace
 
-Error malformed(std::string name, std::string sentence, std::string mend, std::string expected, std::string found) {
-  return {.code = Code::malformed_value,
-          .sentence = std::move(sentence),
-          .mend = std::move(mend),
-          .place = {.name = std::move(name), .text = found},
-          .expected = std::move(expected),
-          .found = found};
+[[gnu::noinline]] Error malformed(std::string_view name, std::string_view sentence, std::string_view mend,
+                                  std::string_view expected, std::string_view found) {
+  Error error{.code = Code::malformed_value};
+  error.sentence = sentence, error.mend = mend, error.expected = expected, error.found = found;
+  error.place.name = name, error.place.text = found;
+  return error;
 }
 
-Error wrong_moment(std::string name, std::string sentence, std::string mend) {
-  return {.code = Code::wrong_moment,
-          .sentence = std::move(sentence),
-          .mend = std::move(mend),
-          .place = {.name = std::move(name)}};
+[[gnu::noinline]] Error wrong_moment(std::string_view name, std::string_view sentence, std::string_view mend) {
+  Error error{.code = Code::wrong_moment};
+  error.sentence = sentence, error.mend = mend, error.place.name = name;
+  return error;
 }
 
 Error stage_is_gone() {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "runtime/record/record_writer.hpp"
@@ -17,8 +18,9 @@
 namespace wale {
 
 /// The error for a wrong argument: what it should be, and its value as a text.
-Error malformed(std::string name, std::string sentence, std::string mend, std::string expected, std::string found);
-Error wrong_moment(std::string name, std::string sentence, std::string mend);
+Error malformed(std::string_view name, std::string_view sentence, std::string_view mend, std::string_view expected,
+                std::string_view found);
+Error wrong_moment(std::string_view name, std::string_view sentence, std::string_view mend);
 Error stage_is_gone();
 Error stage_was_moved();
 Error another_run();

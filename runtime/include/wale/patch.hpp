@@ -77,15 +77,15 @@ class Patch {
   /// Names no patch.
   Patch() = default;
 
-  /// Sets a parameter, in SI units, in the range that the program declares. A value outside it is refused, since a person
-  /// or a program that asks for it would feel something else: clamp it where that is meant, as a slider does. (A `Bank`
+  /// Sets a parameter, in SI units, in the range that the program declares. A value outside it is refused, since who
+  /// asks for it would feel something else: clamp it where that is meant, as a slider does. (A `Bank`
   /// and a batch clamp, since among thousands of values by chance one beyond the range must not end an experiment.)
   /// Errors also: `unknown_name`.
   Result<> set(std::string_view parameter, double value);
   /// Moves the patch's centre, m from the workspace's centre. A hand that is still on it does not enter anew; the
   /// energy that moving gives to the hand counts as the program's own.
   Result<> move(glm::vec2 to);
-  /// Full width and height, and rim, in m. A shape is stretched with it. No length is too great, here and in `add`: a side
+  /// Full width and height, and rim, in m. A shape is stretched with it. No length is too great, here and in `add`: one
   /// beyond the workspace's diameter (of a pad without a position 10 m) counts as that diameter, and a rim of half the
   /// smaller side or more as a quarter of it. `Placement::size` is what was asked for, `Bank::size` what counts.
   Result<> resize(PatchSize size);

@@ -134,8 +134,8 @@ class Stage {
   /// - `wrong_moment`: nothing is on the stage, it has no device, or another run is under way on it, or one that
   ///   `start` began waits for its `stop`, or another stage runs on its device, or the device was opened by the parent
   ///   of this process;
-  /// - `unusable_device`: the device's profile lacks a figure that a loop needs, or one is out of its range; `place.name`
-  ///   is the figure. It needs a rate and a peak; with a position also workspace, counts and speed limit. One that pushes
+  /// - `unusable_device`: the device's profile lacks a figure that a loop needs, or one is out of its range;
+  ///   `place.name` is it. It needs a rate and a peak; with a position also workspace, counts, speed limit. One that pushes
   ///   needs a slew: without it the force could jump by its whole range under a hand. (A pad may be without: then its
   ///   amplitude is not slowed. To slow nothing on purpose, declare a slew of 1e9 N/s.)
   /// - `unwritable_file`: the recording cannot be made;
