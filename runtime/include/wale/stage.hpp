@@ -136,8 +136,8 @@ class Stage {
   ///   of this process;
   /// - `unusable_device`: the device's profile lacks a figure that a loop needs, or one is out of its range;
   ///   `place.name` is it. It needs a rate and a peak; with a position also workspace, counts, speed limit. One that
-  ///   pushes needs a slew: without it the force could jump by its whole range under a hand. (A pad may be without: then
-  ///   its amplitude is not slowed. To slow nothing on purpose, declare a slew of 1e9 N/s.)
+  ///   pushes needs a slew: without it the force could jump by its whole range under a hand. (A pad may be without:
+  ///   then its amplitude is not slowed. To slow nothing on purpose, declare a slew of 1e9 N/s.)
   /// - `unwritable_file`: the recording cannot be made;
   /// - `short_of_resources`: the system gives no thread.
   Result<RunResult> run(const RunOptions& options);
