@@ -254,6 +254,8 @@ BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number) {
   return {static_cast<std::uint16_t>(input_rows + number - first_state), false};
 }
 
+// Once for each program, so it is compiled to be small.
+[[gnu::cold]]
 BlockCode decode_block(const PatchProgram& program, std::span<const std::reference_wrapper<const Spline>> splines,
                        std::span<const GridShape> grids, std::span<const Instruction> code, Vectors vectors) {
   BlockCode decoded(code.size());

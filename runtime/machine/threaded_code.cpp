@@ -75,6 +75,9 @@ template <Operation operation, unsigned forwarded>
 #define WALE_STEP(name, forwarded) step<Operation::name, forwarded>(*at, last, registers, lookups)
 // clang-format on
 
+#if defined(WALE_TAIL_CALLS)
+[[gnu::cold]]  // only compared with the others there: small
+#endif
 #if defined(__GNUC__)
 __attribute__((noinline))  // see FloatingPointMode
 #endif
