@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <streambuf>
 #include <string>
@@ -23,11 +24,13 @@
 #include "calibration/command/interrupt.hpp"
 #include "calibration/command/trusted_here.hpp"
 #include "calibration/device/ask_for_forces.hpp"
+#include "calibration/device/calibration_json.hpp"
 #include "calibration/device/device_calibration.hpp"
 #include "calibration/device/edit_declaration.hpp"
 #include "calibration/device/force_table.hpp"
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
+#include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
 #include "compiler/text/resolver.hpp"
 #include "compiler/text/standard_output.hpp"
@@ -39,7 +42,7 @@ namespace {
 
 struct CalibrateDeviceOptions {
   std::string device, table, readings, out, transport;
-  bool yes = false;
+  bool yes = false, json = false;
   std::vector<std::string> trusted;
   std::optional<double> max_force, hold;
   std::optional<std::uint64_t> seed;
@@ -356,8 +359,15 @@ Result<std::string> owners_text(const std::string& file, const DeviceToMeasure& 
   return known->files.front().bytes + text.substr(header.size());
 }
 
+/// Shows the declaration, or as JSON what was found with it.
+void show(const CalibrateDeviceOptions& options, nlohmann::ordered_json& found, const std::string& declaration) {
+  if (!options.json) return print_out(declaration);
+  found["declaration"] = declaration;
+  print_out(json_lines(found));
+}
+
 /// Writes a simulation's figures where they were asked for, and nowhere else.
-int write_simulated(const CalibrateDeviceOptions& options, DeclaredDevice device) {
+int write_simulated(const CalibrateDeviceOptions& options, DeclaredDevice device, nlohmann::ordered_json& found) {
   device.wiring.usb.clear();
   device.wiring.is_generic = false;
   if (!device.profile.name.starts_with("simulated_")) device.profile.name = "simulated_" + device.profile.name;
@@ -365,17 +375,15 @@ int write_simulated(const CalibrateDeviceOptions& options, DeclaredDevice device
       device, {"`wale calibrate device` measured this on a simulation: it says nothing about a real device."},
       {"grade simulated"});
   print_error("measured on a simulation: nothing of it enters your trusted file\n");
-  if (options.out.empty()) {
-    print_out(text);
-    return done;
-  }
+  if (options.json || options.out.empty()) show(options, found, text);
+  if (options.out.empty()) return done;
   if (const auto written = write_file(options.out, text, {options.table}); !written) return refuse(written.error());
   if (options.out != "-") print_error("{} has the declaration, of the grade simulated\n", visible_text(options.out));
   return done;
 }
 
 int write_measured(const CalibrateDeviceOptions& options, const DeviceToMeasure& device,
-                   const DeclaredDevice& measured) {
+                   const DeclaredDevice& measured, nlohmann::ordered_json& found) {
   const bool is_owners = !device.file.empty();
   const DeclaredDevice own = is_owners ? measured : own_device(measured, device);
   const std::vector<std::string> comments{"measured by `wale calibrate device`; its other figures are those of " +
@@ -383,6 +391,7 @@ int write_measured(const CalibrateDeviceOptions& options, const DeviceToMeasure&
   if (!options.out.empty()) {
     const std::string text = device_declaration(own, comments);
     if (auto same = reads_back(options.out, text, own); !same) return refuse(same.error());
+    if (options.json) show(options, found, text);
     if (const auto written = write_file(options.out, text, {options.table}); !written) return refuse(written.error());
     if (options.out != "-")
       print_error("{} has the declaration; name it with --devices, or save it in {}\n", visible_text(options.out),
@@ -401,7 +410,7 @@ int write_measured(const CalibrateDeviceOptions& options, const DeviceToMeasure&
   const auto text = owners_text(file, device, own, comments);
   if (!text) return refuse(text.error());
   if (auto same = reads_back(file, *text, own); !same) return refuse(same.error());
-  print_out(device_declaration(own, comments));
+  show(options, found, device_declaration(own, comments));
   finish_standard_output();  // before the question
   if (!options.yes && !says_yes(fmt::format("write this into {}?", visible_text(file)))) {
     print_error("nothing was written\n");
@@ -415,6 +424,11 @@ int write_measured(const CalibrateDeviceOptions& options, const DeviceToMeasure&
 }
 
 int calibrate_device(const CalibrateDeviceOptions& options) {
+  if (options.json && options.out == "-")
+    return refuse(Error{Code::malformed_value,
+                        "both would be written to standard output",
+                        "name a file with -o; the JSON has the declaration too",
+                        {.name = "--json", .text = "-o -"}});
   const std::atomic<bool>& stop = stop_on_signals();
   auto device = device_to_measure(options);
   if (!device) return refuse(device.error());
@@ -436,7 +450,9 @@ int calibrate_device(const CalibrateDeviceOptions& options) {
   }
   if (const auto sure = confirm_gains(before, measured->calibration); !sure) return refuse(sure.error());
   const DeclaredDevice result = calibrated(before, measured->calibration);
-  return is_trusted ? write_measured(options, *device, result) : write_simulated(options, result);
+  nlohmann::ordered_json found = {{"device", device->declared.profile.name}, {"simulated", measured->forces.is_simulated}};
+  if (options.json) found.update(calibration_json(measured->calibration, device->declared.profile));
+  return is_trusted ? write_measured(options, *device, result, found) : write_simulated(options, result, found);
 }
 
 Run declare_calibrate_device(CLI::App& verb) {
@@ -457,6 +473,7 @@ Run declare_calibrate_device(CLI::App& verb) {
   offer_output(verb, options->out, "a Wale file with the declaration, instead of your trusted file");
   verb.add_flag("--yes", options->yes,
                 "writes into your trusted file without asking; a gain far from the declared one is still asked about");
+  offer_json(verb, options->json, "prints the figures, their intervals and residuals, and the declaration as JSON");
   offer_force(verb, "--max-force", options->max_force, "the largest force to measure with, as in \"3 N\"");
   offer_duration(verb, "--hold", options->hold, {.most = 60, .example = 4},
                  "how long each push is held for the gauge (default: 4 s)");

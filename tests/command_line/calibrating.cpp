@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/command_line/child.hpp"
@@ -84,6 +85,39 @@ TEST(Calibrating, ATableBecomesSettingsInTheOwnersFile) {
   for (std::size_t at = twice.find("gain right"); at != std::string::npos; at = twice.find("gain right", at + 1))
     ++count;
   EXPECT_EQ(count, 1u) << twice;
+}
+
+TEST(Calibrating, WhatWasFoundIsToldAsJson) {
+  const Owner owner;
+  const std::string out = owner.folder / "measured.wale";
+  const Outcome outcome = wale(
+      {"calibrate-device", "--device", "my_stick", "--table", owner.table(), "--json", "-o", out}, {}, owner.config());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["device"], "my_stick");
+  EXPECT_EQ(json["simulated"], false);
+  ASSERT_EQ(json["ways"].size(), 4u);
+  for (const auto& way : json["ways"]) {
+    EXPECT_EQ(way["readings"], 22);
+    EXPECT_NEAR(way["gain"]["value"].get<double>(), 0.9, 0.01);
+    EXPECT_LT(way["gain"]["low"].get<double>(), way["gain"]["value"].get<double>());
+    EXPECT_NEAR(way["dead_band_newton"]["value"].get<double>(), 0.3, 0.03);
+    EXPECT_TRUE(way["saturation_newton"].is_null()) << "none was reached";
+    EXPECT_EQ(way["residuals_newton"].size(), 22u);
+  }
+  EXPECT_TRUE(json["handle"].empty()) << "a table shakes no handle";
+  EXPECT_EQ(json["declaration"], bytes_of(out));
+  const Outcome both =
+      wale({"calibrate-device", "--device", "my_stick", "--table", owner.table(), "--json", "-o", "-"}, {}, owner.config());
+  EXPECT_EQ(both.status, 2);
+  EXPECT_TRUE(both.out.empty()) << both.out;
+  const Outcome shaken = wale({"calibrate-device", "--device", "simulated:sandpaper", "--json", "--seed", "3"});
+  ASSERT_EQ(shaken.status, 0) << shaken.err;
+  const auto planted = nlohmann::json::parse(shaken.out);
+  EXPECT_EQ(planted["simulated"], true);
+  ASSERT_EQ(planted["handle"].size(), 2u);
+  const auto& mass = planted["handle"][0]["mass_kg"];
+  EXPECT_LE(mass["low"].get<double>(), mass["high"].get<double>());
 }
 
 TEST(Calibrating, NothingIsWrittenWithoutAYes) {
