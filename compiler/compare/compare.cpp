@@ -54,6 +54,13 @@ double same_of(CueKind kind) {
   }
 }
 
+/// Whether an other force of the same size is surely the same: one that pushes much the same way everywhere, which its
+/// rows x and y tell, and that of the same program.
+bool is_same_other_force(const Cues& a, const Cues& b) {
+  const auto pushes = [](const Cues& of) { return of[CueKind::other_push_x] || of[CueKind::other_push_y]; };
+  return (a.executed != 0 && a.executed == b.executed) || (pushes(a) && pushes(b));
+}
+
 bool is_across(CueKind kind) {
   return kind == CueKind::stiffness_across || kind == CueKind::viscosity_across || kind == CueKind::friction_across ||
          kind == CueKind::mass_across || kind == CueKind::drag_across;
@@ -100,7 +107,8 @@ std::optional<double> Comparer::noticeable(const CueFacts& facts, const Cues& of
     const double turned = std::remainder(x - y, (is_full_direction(facts.kind) ? 2 : 1) * std::numbers::pi);
     return std::abs(turned) < same_of(facts.kind) * std::numbers::pi ? std::optional(0.0) : std::nullopt;
   }
-  if (std::abs(x - y) <= same_of(facts.kind) * std::max(std::abs(x), std::abs(y))) return 0;
+  if (std::abs(x - y) <= same_of(facts.kind) * std::max(std::abs(x), std::abs(y)))
+    return facts.kind == CueKind::other_force && !is_same_other_force(of_a, of_b) ? std::nullopt : std::optional(0.0);
   const std::optional<double> distance = people_[static_cast<std::size_t>(facts.kind)].distance(x, y);
   return is_of_unread(facts.kind) && distance && *distance < 1 ? std::nullopt : distance;
 }

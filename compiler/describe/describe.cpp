@@ -15,6 +15,8 @@
 #include "compiler/describe/describe_percept.hpp"
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/measure/rehearsal.hpp"
+#include "compiler/prove/domain.hpp"
+#include "compiler/prove/prove.hpp"
 #include "compiler/read/cues.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/tolerances.hpp"
@@ -130,6 +132,8 @@ Measured measured(const Bank& bank, const Declarations& declarations) {
   return force;
 }
 
+constexpr double nearly_all = 0.99;  // of a proved bound: then what was found is the largest
+
 /// The proved bounds of the force.
 void describe_bounds(Description& description, const Program& program) {
   constexpr float lasting = 1e9f;    // s, thirty years: a time at which formulas still give numbers
@@ -149,6 +153,20 @@ void describe_bounds(Description& description, const Program& program) {
   description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
 }
 
+/// N: a bound, proved for the bank's parameters and size, of a program whose force depends on motion: no search tries all
+/// places at all velocities. 0 for others, whose places are searched closely.
+double bound_with_these(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  if (leaves_out_motion(program)) return 0;
+  Domain domain = domain_at_defaults(program);
+  domain[Input::patch_half_width] = Interval::of(0.5f * bank.size().width);
+  domain[Input::patch_half_height] = Interval::of(0.5f * bank.size().height);
+  domain[Input::patch_rim] = Interval::of(bank.size().rim);
+  for (std::size_t i = 0; i < program.parameters.size(); ++i)
+    domain.parameters[i] = Interval::of(bank.registers()[program.first_parameter() + i]);
+  return prove(bank.program(), domain).bound_newton;
+}
+
 /// What is called the largest force is the largest of all searches: with these parameters on this patch, and of any.
 void settle_largest(Description& description, const Bank& bank, const ForceReading& read) {
   float& most = description.force.max_newton;
@@ -163,6 +181,7 @@ void settle_largest(Description& description, const Bank& bank, const ForceReadi
     most = std::max(most, static_cast<float>(found.newton));
   // The bound is proved; a sum of squares in floats may be above it by rounding.
   most = std::min(most, static_cast<float>(description.bound.newton));
+  description.force.may_be_larger |= most < nearly_all * bound_with_these(bank);
   found.newton = std::max(found.newton, static_cast<double>(most));
 }
 

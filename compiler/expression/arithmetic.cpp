@@ -86,13 +86,16 @@ std::string as_vector(const ExpressionReading& reading, const OperatorUse& use) 
 
 Value added_or_compared(ExpressionReading& reading, const OperatorUse& use) {
   const auto& [tree, node, left, right, scope, span] = use;
-  if (left.type != right.type)
+  if (left.type != right.type) {
+    const bool orders = node.op != BinaryOperator::add && node.op != BinaryOperator::subtract;  // vectors have no order
     return reading.calls.report(
         Code::wrong_type, span,
-        fmt::format("expected two numbers or two vectors around `{}`, found {} and {}", sign(node.op),
-                    type_words(left.type), type_words(right.type)),
-        "", fmt::format("make the number a vector, as in `{}`, or take `length(…)` of the vector",
-                        as_vector(reading, use)));
+        fmt::format("expected two numbers{} around `{}`, found {} and {}", orders ? "" : " or two vectors",
+                    sign(node.op), type_words(left.type), type_words(right.type)),
+        "", orders ? std::string("take `length(…)` of the vector, or its part along an axis, as in `hand.x`")
+                   : fmt::format("make the number a vector, as in `{}`, or take `length(…)` of the vector",
+                                 as_vector(reading, use)));
+  }
   if (left.dimension != right.dimension) {
     report_mismatch(reading, use);
     return failed_value(span);

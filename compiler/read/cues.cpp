@@ -6,9 +6,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/read/tolerances.hpp"
+#include "schema/fnv1a.hpp"
 
 namespace wale {
 namespace {
@@ -136,10 +139,34 @@ std::optional<double> carrier_of(const ForceReading& found, const Percept& perce
   return std::nullopt;
 }
 
+namespace {
+
+/// A hash of what a bank executes on a hand: without names, levels and pictures.
+std::uint64_t executed_by(const Bank& bank) {
+  const PatchProgram& whole = bank.program().description();
+  PatchProgram program;
+  program.constants = whole.constants, program.setup_registers = whole.setup_registers;
+  program.temporaries = whole.temporaries;
+  program.setup = whole.setup, program.peaks = whole.peaks, program.states = whole.states, program.enter = whole.enter;
+  program.grids = whole.grids, program.tick = whole.tick, program.outputs = whole.outputs;
+  program.writes = whole.writes, program.tables = whole.tables, program.device = whole.device;
+  for (State& each : program.states) each.name.clear();
+  for (Grid& each : program.grids) each.name.clear();
+  Fnv1a<std::uint64_t> hash;
+  const std::vector<std::byte> bytes = write_patch_program(program);
+  hash.take_all(bytes);
+  hash.take_all(std::as_bytes(bank.registers()));
+  const PatchSize size = bank.size();
+  return hash.take_all(std::as_bytes(std::span(&size, 1))).hash();
+}
+
+}  // namespace
+
 Cues cues_of(const Bank& bank, const ForceReading& reading) {
   const PatchProgram& program = bank.program().description();
-  Cues cues{program.material, program.device.name, {}, coarseness_of(program)};
+  Cues cues{program.material, program.device.name, {}, coarseness_of(program), 0};
   for (const CueFacts& facts : cue_table()) cues[facts.kind] = cue_of(facts.kind, reading);
+  if (cues[CueKind::other_force]) cues.executed = executed_by(bank);
   if (cues[CueKind::amplitude]) return cues;
   for (const CueFacts& facts : cue_table())
     if (whole_of(facts.kind) == CueKind::amplitude) cues[facts.kind] = std::nullopt;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -39,6 +40,9 @@ struct Cues {
   std::string device;
   std::array<std::optional<double>, cue_count> values;
   std::size_t coarseness = 1;  ///< of how many places one was sampled
+  /// A hash of what is executed, of materials with a force whose course no cue tells: of such a force only the same
+  /// program is surely the same. 0: not known.
+  std::uint64_t executed = 0;
 
   std::optional<double>& operator[](CueKind kind) { return values[static_cast<std::size_t>(kind)]; }
   const std::optional<double>& operator[](CueKind kind) const { return values[static_cast<std::size_t>(kind)]; }

@@ -19,7 +19,8 @@ constexpr std::size_t largest_kept = std::size_t{256} << 20;  // bytes: two mill
 Json json_of(const MaterialFacts& facts) {
   Json json = {{"name", facts.name}, {"standing", facts.standing}, {"damping", facts.damping}, {"newton", facts.newton}};
   if (facts.cues) {
-    Json& cues = json["cues"] = {{"device", facts.cues->device}, {"coarseness", facts.cues->coarseness}};
+    Json& cues = json["cues"] = {{"device", facts.cues->device}, {"coarseness", facts.cues->coarseness},
+                                 {"executed", facts.cues->executed}};
     for (const CueFacts& each : cue_table())
       if (const auto& value = (*facts.cues)[each.kind]) cues["values"][each.name] = *value;
   }
@@ -40,6 +41,7 @@ MaterialFacts facts_in(const Json& json) {
     const Json& told = json.at("cues");
     Cues& cues = facts.cues.emplace();
     cues.material = facts.name, cues.device = told.at("device"), cues.coarseness = told.at("coarseness");
+    cues.executed = told.at("executed");
     if (told.contains("values"))
       for (const CueFacts& each : cue_table())
         if (const auto found = told.at("values").find(each.name); found != told.at("values").end())

@@ -136,6 +136,23 @@ TEST(Compare, WhoSaysHowSmallADifferenceIsNoticedIsNamed) {
   EXPECT_EQ(cue(large, CueKind::amplitude)->floor, nullptr);
 }
 
+/// What only one number tells, how hard it pushes, may be of any course: that two are as hard says nothing.
+TEST(Compare, OtherForcesOfTheSameSizeAreNotKnownToBeAlike) {
+  const auto of = [](const std::string& force) { return cues("active 3 W\nforce = " + force); };
+  const auto held = [&](const std::string& force) { return of("if button then " + force + " else vector(0 N, 0 N)"); };
+  const auto verdict = [](const Cues& a, const Cues& b) { return compare(a, b).verdict; };
+  const Cues fine = held("vector(1 N * sin(2 * pi * x / 3 mm), 0 N)");
+  EXPECT_EQ(verdict(fine, held("vector(1 N * sin(2 * pi * x / 9 mm), 0 N)")), Verdict::unknown);
+  EXPECT_EQ(verdict(fine, held("vector(0 N, 1 N * sin(2 * pi * y / 3 mm))")), Verdict::unknown);
+  EXPECT_EQ(verdict(held("vector(-50 N/m * x, 0 N)"), held("vector(0 N, -50 N/m * y)")), Verdict::unknown);
+  EXPECT_EQ(verdict(of("vector(1 N * sin(2 * pi * x / 4 mm), 0 N) * smoothstep(time / 2 s)"),
+                    of("vector(1 N * sin(2 * pi * x / 9 mm), 0 N) * smoothstep(time / 2 s)")),
+            Verdict::unknown);
+  // The same program is the same, whatever it is called; and a push is known by its direction.
+  EXPECT_EQ(verdict(fine, held("vector(1 N * sin(2 * pi * x / 3 mm), 0 N)")), Verdict::alike);
+  EXPECT_EQ(verdict(held("vector(1 N, 0 N)"), held("vector(1 N, 0.01 N)")), Verdict::alike);
+}
+
 TEST(Compare, ACueThatOneMaterialLacksIsComparedByForce) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::stiffness] = 100;

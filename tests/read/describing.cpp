@@ -55,6 +55,16 @@ TEST(DescribingForces, ASpringWhoseForceIsCutInTheMiddlePullsToWhereItsLawSays) 
   }
 }
 
+TEST(DescribingForces, TheLargestForceOfAMovingHandIsOnlyTheLargestFoundUnlessItIsProved) {
+  // A drag that is trebled within 0.3 mm of a place, where no search need come.
+  const Description spot =
+      described("force = (if length(hand - vector(31 mm, -17 mm)) < 0.3 mm then 3 else 1) * viscous(1 N s/m)");
+  EXPECT_TRUE(spot.force.may_be_larger);
+  EXPECT_NE(description_text(spot).find("N is the largest force found with these parameters"), std::string::npos);
+  EXPECT_FALSE(described("force = viscous(2 N s/m)").force.may_be_larger);
+  EXPECT_FALSE(described("force = vector(1 N * sin(2 * pi * x / 4 mm), 0 N)").force.may_be_larger);
+}
+
 TEST(DescribingForces, APushAlongItsLinesIsNoSlopeAsTheMapWasMeasuredWith) {
   const auto roughness_of = [](const std::string& force) {
     const Description description = described("force = " + force);
