@@ -17,8 +17,8 @@ bool is_blank(char32_t c) {
 
 }  // namespace
 
-Result<> is_name_text(const std::string& argument, std::string_view text, const char* mend) {
-  const auto refuse = [&](Code code, const char* sentence, const char* what_to_do) {
+Result<> is_name_text(const std::string& argument, std::string_view text, const char* mend, const char* what) {
+  const auto refuse = [&](Code code, const std::string& sentence, const char* what_to_do) {
     return with_expectation(
         {.code = code, .sentence = sentence, .mend = what_to_do, .place = {.name = argument, .text = std::string(text)}});
   };
@@ -34,10 +34,9 @@ Result<> is_name_text(const std::string& argument, std::string_view text, const 
   if (text.find('\0') != std::string_view::npos)
     return refuse(Code::invalid_encoding, "expected a text, found a zero byte in it", "hand over the text up to there");
   if (blank)
-    return refuse(Code::malformed_value, "expected a name, found an empty text", mend);
+    return refuse(Code::malformed_value, std::string("expected ") + what + ", found an empty text", mend);
   if (controls)
-    return refuse(Code::malformed_value, "expected a name, found a text with a line break or another control character",
-                  mend);
+    return refuse(Code::malformed_value, std::string("expected ") + what + ", found a text with a line break or another control character", mend);
   return {};
 }
 

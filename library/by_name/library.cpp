@@ -27,6 +27,7 @@ namespace wale {
 namespace {
 
 constexpr std::size_t longest_level = 64;
+constexpr const char* text_name_mend = "write in one line what errors are to call the text, as in \"my.wale\"";
 
 /// Whether the text is a number as Wale writes it: "0.6", "6e-1". It cannot end the statement into which it is put.
 bool is_number(std::string_view text) {
@@ -121,12 +122,12 @@ struct Library::Parts {
       if (auto name = is_name_text("device", options.device, device_name_mend); !name) return name;
     if (!options.material.empty())
       if (auto name = is_name_text("material", options.material); !name) return name;
-    if (!options.name.empty()) return is_name_text("name", options.name);
+    if (!options.name.empty()) return is_name_text("name", options.name, text_name_mend, "a text's name");
     return {};
   }
   Result<> is_sound(const WorkspaceOptions& options) const {
     if (auto sound = is_sound(CompileOptions{.device = options.device, .name = options.name}); !sound) return sound;
-    if (!options.workspace.empty()) return is_name_text("workspace", options.workspace);
+    if (!options.workspace.empty()) return is_name_text("workspace", options.workspace, "write the name of one of the text's workspaces");
     return {};
   }
 
@@ -210,6 +211,14 @@ struct Library::Parts {
       return Compiled{*std::move(opened->program)};
     }
     if (opened->diagnostics.has_errors()) return first_error(opened->diagnostics, opened->sources);
+    if (!opened->material.empty() && !find_material(*opened->module, opened->material, opened->name)) {
+      const std::string asked = std::exchange(opened->material, {});
+      if (const auto has = materials_of(*opened); !has.empty()) {
+        Error error = unknown(Code::unknown_material, "material", asked, has);
+        error.place = {.name = "name", .text = opened->name + ":" + asked};
+        return error;
+      }
+    }
     if (!options.material.empty() && !find_material(*opened->module, options.material, opened->name)) {
       opened->material.clear();
       return unknown(Code::unknown_material, "material", options.material, materials_of(*opened));
@@ -257,7 +266,9 @@ Result<Compiled> Library::find(const std::string& name, const CompileOptions& op
     }
     return error;
   }
-  return parts_->compiled(*std::move(named), options);
+  auto compiled = parts_->compiled(*std::move(named), options);
+  if (!compiled && compiled.error().place.name == "name") compiled.error().place.text = name;
+  return compiled;
 }
 
 Result<Compiled> Library::level(const std::string& percept, const std::string& level,
@@ -267,6 +278,11 @@ Result<Compiled> Library::level(const std::string& percept, const std::string& l
   const Declarations& known = parts_->common->declarations;
   if (!known.percept_named(percept).percept)
     return unknown(Code::unknown_name, "percept", percept, known.percept_spellings());
+  if (!options.material.empty())
+    return Error{.code = Code::unknown_material,
+                 .sentence = "a level has no materials to choose from",
+                 .mend = "leave `material` out, or ask `find` for the material",
+                 .place = {.name = "material", .text = options.material}};
   const FileRequest request = parts_->request(options);
   const auto devices = parts_->device_names();
   if (std::ranges::find(devices, request.device) == devices.end())
@@ -402,10 +418,15 @@ std::vector<DeclaredDevice> Library::devices() const {
 }
 
 Result<SimulatedPerson> Library::person(const std::string& name) const {
-  if (auto is_name = is_name_text("name", name); !is_name) return std::move(is_name.error());
+  if (auto is_name = is_name_text("name", name, "write the name of a hand, as in \"normal\""); !is_name)
+    return std::move(is_name.error());
   const auto& hands = parts_->common->declarations.hands;
   const HandDeclaration* found = hands.find(name);
-  if (!found) return unknown(Code::unknown_name, "hand", name, hands.spellings());
+  if (!found) {
+    Error error = unknown(Code::unknown_name, "hand", name, hands.spellings());
+    error.place.name = "name";  // as the argument is called
+    return error;
+  }
   const HandDeclaration& hand = *found;
   return SimulatedPerson{.hand = {hand.mass, hand.damping, hand.stiffness},
                          .lateral = {hand.lateral_amplitude, hand.lateral_frequency, {}},

@@ -17,9 +17,9 @@ bool is_blank(const std::string& text) { return text.find_first_not_of(" \t\n\r"
 /// Errors of the words and the kind that are sought.
 Result<> are_sound(const std::string& text, const SearchOptions& options) {
   if (!is_blank(text))
-    if (auto name = is_name_text("text", text, "write words, as in \"rough ribbed cotton\""); !name) return name;
+    if (auto name = is_name_text("text", text, "write words, as in \"rough ribbed cotton\"", "words"); !name) return name;
   if (!options.kind.empty())
-    if (auto name = is_name_text("kind", options.kind, "write a kind, as in \"fabric\""); !name) return name;
+    if (auto name = is_name_text("kind", options.kind, "write a kind, as in \"fabric\"", "a kind"); !name) return name;
   return {};
 }
 
@@ -74,8 +74,8 @@ Result<> is_kind(const std::string& kind, const std::vector<std::string>& kinds)
 
 /// The error about a material that is an argument.
 Error about_material(Error error, const char* argument, const std::string& text) {
-  if (error.place.name == text) error.place = {.name = argument, .text = text};
-  return error;
+  if (error.place.name == text && !error.place.number) error.place = {.name = argument, .text = text};
+  return in_own_words(std::move(error));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "calibration/feel/trusted_declarations.hpp"
@@ -98,10 +99,11 @@ struct LanguageService::Parts {
   /// The first error of the service or of options that cannot be names.
   std::optional<Error> wrong(const CompileOptions& options) const {
     if (missing) return missing;
-    for (const auto& [argument, text] : {std::pair{"device", &options.device}, std::pair{"material", &options.material},
-                                         std::pair{"name", &options.name}})
+    for (const auto& [argument, text, mend] :
+         {std::tuple{"device", &options.device, device_name_mend}, std::tuple{"material", &options.material, usual_name_mend},
+          std::tuple{"name", &options.name, "write in one line what errors are to call the text"}})
       if (!text->empty())
-        if (auto name = is_name_text(argument, *text); !name) return std::move(name.error());
+        if (auto name = is_name_text(argument, *text, mend); !name) return std::move(name.error());
     return std::nullopt;
   }
 

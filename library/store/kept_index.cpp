@@ -103,7 +103,7 @@ Result<> open_index(IndexHere& here, const std::string& place, const FileRequest
   auto kept = refresh(here, request, files, told.progress);
   if (kept || kept.error().code == Code::stopped) return kept;
   told.warn({.code = Code::unwritable_file,
-             .sentence = "no index can be kept, so the whole library is read, which takes some seconds: " +
+             .sentence = "no index can be kept, so the whole library is read, which takes seconds to minutes: " +
                          visible_text(kept.error().sentence)});
   auto entries = read_library(files, request, told.progress);
   if (!entries) return entries.error();

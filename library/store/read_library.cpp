@@ -115,7 +115,11 @@ Result<std::vector<Entry>> read_library(const std::vector<LibraryFile>& files, c
     read[i] = std::move(each);
     return {};
   });
-  if (!done) return done.error();
+  if (!done) {
+    Error error = done.error();
+    if (error.code == Code::stopped) error.mend = "begin again: no index can be kept, so all is read again";
+    return error;
+  }
   std::vector<Entry> entries;
   for (ReadFile& each : read)
     for (Entry& entry : each.entries) entries.push_back(std::move(entry));

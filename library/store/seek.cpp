@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "compiler/diagnostics/told.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "library/index/words.hpp"
 #include "schema/visible_text.hpp"
@@ -24,6 +26,38 @@ bool has_half_of(const Entry& entry, const std::vector<std::string>& words) {
   return 2 * static_cast<std::size_t>(std::ranges::count_if(words, has)) >= words.size();
 }
 
+/// The first error of a file's text, with its place and the further ones; nothing if the text has none.
+std::optional<Error> error_in(OpenedFile& opened) {
+  opened.diagnostics.sort();
+  std::optional<Error> error;
+  std::vector<Error> others;
+  for (const Diagnostic& each : opened.diagnostics.all())
+    if (!error && severity_of(each.code) == Severity::error)
+      error = told(each, opened.sources);
+    else
+      others.push_back(told(each, opened.sources));
+  if (error) error->others = std::move(others);
+  return error;
+}
+
+/// The numbers of a material of a file that the index has too.
+std::vector<std::uint32_t> of_file(const MaterialIndex& index, const Entry& own, const std::string& path) {
+  namespace fs = std::filesystem;
+  std::vector<std::uint32_t> is;
+  const FeltColumns& columns = index.columns();
+  for (std::size_t row = 0; row < columns.size(); ++row) {
+    if (columns.name(row) != own.name) continue;
+    const auto known = index.entry(columns.material(row));
+    if (!known) continue;
+    std::error_code ignored;
+    // A file that is not here, as one that is in this binary only, is the same if all that it rests on is.
+    const bool is_same = fs::exists(known->file, ignored) ? fs::equivalent(known->file, path, ignored)
+                                                          : known->content == own.content;
+    if (is_same) is.push_back(columns.material(row));
+  }
+  return is;
+}
+
 }  // namespace
 
 Result<FeltMaterial> felt_material(const MaterialIndex& index, const FileRequest& request, const std::string& text) {
@@ -33,6 +67,8 @@ Result<FeltMaterial> felt_material(const MaterialIndex& index, const FileRequest
                  .mend = "take one that pushes",
                  .place = {.name = text}};
   };
+  FileRequest own = request;
+  own.device = index.device();
   const auto felt = [&](Entry entry, std::vector<std::uint32_t> is) -> Result<FeltMaterial> {
     if (!entry.felt.cues)
       return unknown_feel(entry.name, entry.trouble.empty() ? "it only vibrates" : entry.trouble);
@@ -42,16 +78,24 @@ Result<FeltMaterial> felt_material(const MaterialIndex& index, const FileRequest
   if (meant) {
     auto entry = index.entry(*meant);
     if (!entry) return entry.error();
+    if (!entry->trouble.empty()) {
+      own.file = entry->file + ":" + entry->name;
+      if (auto read = read_entries(own, entry->module); read)
+        if (auto error = error_in(read->opened)) return *std::move(error);
+    }
     return felt(*std::move(entry), {*meant});
   }
   const std::string path = text.substr(0, text.find(".wale") == std::string::npos ? 0 : text.find(".wale") + 5);
   if (path.empty()) return meant.error();
-  FileRequest own = request;
-  own.device = index.device(), own.file = text;
+  own.file = text;
   auto read = read_entries(own, std::filesystem::path(path).stem().string());
   if (!read) return read.error();
+  if (read->entries.empty() || !read->entries.front().trouble.empty())
+    if (auto error = error_in(read->opened)) return *std::move(error);
   if (read->entries.empty()) return unknown_feel(text, "the file declares no material");
-  return felt(std::move(read->entries.front()), {});
+  Entry& first = read->entries.front();
+  std::vector<std::uint32_t> is = of_file(index, first, read->opened.name);
+  return felt(std::move(first), std::move(is));
 }
 
 Result<FoundEntries> seek_by_feel(const MaterialIndex& index, const FileRequest& request, const Seeking& sought) {

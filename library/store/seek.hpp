@@ -28,11 +28,11 @@ struct Seeking {
 struct FeltMaterial {
   std::string name;
   Cues cues;
-  std::vector<std::uint32_t> is;  ///< its number, if the index has it
+  std::vector<std::uint32_t> is;  ///< its number, if the index has it, also if its file was named
 };
 
-/// `request` says how a file of one's own is read. Errors: those of `meant_entry`, of `read_entries`, and W0602 for a
-/// material whose cues are not known, as of one that only vibrates.
+/// `request` says how a file of one's own is read. Errors: those of `meant_entry`, of `read_entries`, the first one
+/// of its text, and W0602 for a material whose cues are not known, as of one that only vibrates.
 Result<FeltMaterial> felt_material(const MaterialIndex& index, const FileRequest& request, const std::string& text);
 
 /// By feel, by words, or both, in an index. Errors: those of `felt_material`, `LevelProbe::make` and `find_entries`.

@@ -44,7 +44,7 @@ Error Database::trouble(int status) const {
   if (kind == SQLITE_NOTADB || kind == SQLITE_CORRUPT)
     return {.code = Code::damaged_file,
             .sentence = fmt::format("this is no index, or a damaged one: {}", said),
-            .mend = "remove it and make it again: `wale library index -o FILE`",
+            .mend = "name another file, or make one: `wale library index -o FILE`",
             .place = {.name = path_}};
   const bool writes = kind == SQLITE_READONLY || kind == SQLITE_FULL || kind == SQLITE_IOERR;
   return {.code = writes ? Code::unwritable_file : Code::unreadable_file,

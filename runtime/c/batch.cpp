@@ -40,7 +40,7 @@ Result<> is_sound(const WaleBatchOptions& given, const WaleVector* forces) {
 Result<std::vector<float>> parameters_of(const Program& program, const WaleBatchOptions& given) {
   std::vector<float> values = program.default_parameters();
   for (const WaleSetting& each : std::span(given.settings, given.setting_count)) {
-    const auto name = read_name("settings", each.name);
+    const auto name = read_name("settings", each.name, "write the name of one of the program's parameters");
     if (!name) return name.error();
     const auto index = program.parameter(*name);
     if (!index) {

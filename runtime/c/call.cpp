@@ -121,10 +121,10 @@ Result<std::string> read_text(const char* argument, WaleText text) {
   return read;
 }
 
-Result<std::string> read_name(const char* argument, WaleText text, const char* mend) {
+Result<std::string> read_name(const char* argument, WaleText text, const char* mend, const char* what) {
   auto read = read_text(argument, text);
   if (!read) return read;
-  if (auto name = is_name_text(argument, *read, mend); !name) return std::move(name).error();
+  if (auto name = is_name_text(argument, *read, mend, what); !name) return std::move(name).error();
   return read;
 }
 

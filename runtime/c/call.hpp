@@ -54,8 +54,9 @@ Result<bool> read_flag(const char* argument, std::int32_t value);
 Result<std::string_view> bytes_of(const char* argument, WaleText text);
 /// The text of an argument. Errors: `malformed_value`; `invalid_encoding` if it is not UTF-8 or holds a zero byte.
 Result<std::string> read_text(const char* argument, WaleText text);
-/// The name of an argument. Errors: as for a text, and those of `is_name_text`, with its `mend`.
-Result<std::string> read_name(const char* argument, WaleText text, const char* mend = usual_name_mend);
+/// The name of an argument. Errors: as for a text, and those of `is_name_text`, with its `mend` and `what`.
+Result<std::string> read_name(const char* argument, WaleText text, const char* mend = usual_name_mend,
+                              const char* what = "a name");
 /// The path of an argument, which need not be UTF-8. Errors: as for a text.
 Result<std::string> read_path(const char* argument, WaleText text);
 

@@ -40,7 +40,7 @@ WaleCode call_of_edit(WaleEdit* edit, WaleError** error, const Body& body) {
 /// A text of one line, `otherwise` if it is empty.
 Result<std::string> read_line(const char* argument, WaleText text, const char* otherwise) {
   auto read = read_text(argument, text);
-  if (!read || !read->empty()) return read ? read_name(argument, text, "write one line") : std::move(read);
+  if (!read || !read->empty()) return read ? read_name(argument, text, "write one line", "a line") : std::move(read);
   return std::string(otherwise);
 }
 
@@ -192,7 +192,7 @@ WaleCode wale_edit_fail(WaleEdit* edit, WaleCode code, WaleText argument, WaleTe
     if (code <= 0 || wale::code_title(known).empty() || wale::severity_of(known) != wale::Severity::error)
       return about_argument("code", "expected the code of an error, found " + std::to_string(code),
                             "take WALE_CODE_malformed_value, or another one that fits");
-    auto what = read_name("sentence", sentence, "say in a line what is wrong");
+    auto what = read_name("sentence", sentence, "say in a line what is wrong", "a sentence");
     if (!what) return std::move(what).error();
     auto name = read_line("argument", argument, "edit");
     if (!name) return std::move(name).error();

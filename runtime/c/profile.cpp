@@ -72,7 +72,7 @@ Result<DeviceProfile> read_profile(const WaleProfile* profile) {
   if (auto given = is_given("profile", profile); !given) return std::move(given).error();
   const auto given = read_sized("profile", profile);
   if (!given) return given.error();
-  auto name = read_name("name", given->name);
+  auto name = read_name("name", given->name, device_name_mend);
   if (!name) return std::move(name).error();
   DeviceProfile read{.name = *std::move(name)};
   for (const Figure& each : all_figures) {
@@ -103,7 +103,7 @@ Result<DeviceProfile> read_profile(const WaleProfile* profile) {
 }
 
 Result<> give_profile(const std::vector<DeclaredDevice>& declared, WaleText name, WaleProfile* to) {
-  const auto wanted = read_name("name", name);
+  const auto wanted = read_name("name", name, device_name_mend);
   if (!wanted) return wanted.error();
   std::vector<std::string> names;
   for (const DeclaredDevice& each : declared) {

@@ -177,42 +177,49 @@ void verify_vibration(const Shaker& vibration) {
 
 }  // namespace
 
-void verify_device(const DeviceProfile& device) {
+void verify_device(const DeviceProfile& device, RefusedFigure* refused) {
+  const auto require = [refused](std::string_view name, double value, double low, double high, const char* what) {
+    if (refused != nullptr) *refused = {name, value, low, high};
+    require_within(value, low, high, what);
+  };
   if (device.has_position()) {
-    require_within(device.workspace_diameter, 1e-3, 10, "the device's workspace diameter (m)");
-    require_within(device.position_counts, 2, 1e9, "the device's number of position counts");
-    require_within(device.speed_limit, 1e-3, 100, "the device's speed limit (m/s)");
+    require("workspace", device.workspace_diameter, 1e-3, 10, "the device's workspace diameter (m)");
+    require("position counts", device.position_counts, 2, 1e9, "the device's number of position counts");
+    require("speed limit", device.speed_limit, 1e-3, 100, "the device's speed limit (m/s)");
   } else {
-    require_within(device.workspace_diameter, 0, 0, "the workspace diameter (m) of a device without a position");
-    require_within(device.position_counts, 0, 0, "the number of position counts of a device without a position");
-    require_within(device.speed_limit, 0, 0, "the speed limit (m/s) of a device without a position");
+    require("workspace", device.workspace_diameter, 0, 0, "the workspace diameter (m) of a device without a position");
+    require("position counts", device.position_counts, 0, 0,
+            "the number of position counts of a device without a position");
+    require("speed limit", device.speed_limit, 0, 0, "the speed limit (m/s) of a device without a position");
   }
   if (device.shaker) {
+    if (refused != nullptr) *refused = {};
     verify_vibration(*device.shaker);
-    require_within(device.force_newton, 0, 0, "the force (N) of a device that vibrates");
-    require_within(device.force_counts, 0, 0, "the number of force counts of a device that vibrates");
+    require("force", device.force_newton, 0, 0, "the force (N) of a device that vibrates");
+    require("force counts", device.force_counts, 0, 0, "the number of force counts of a device that vibrates");
   } else {
-    require_within(device.force_newton, 1e-3, 1000, "the device's force (N)");
-    require_within(device.force_counts, 1, 1e9, "the device's number of force counts");
+    require("force", device.force_newton, 1e-3, 1000, "the device's force (N)");
+    require("force counts", device.force_counts, 1, 1e9, "the device's number of force counts");
   }
-  require_within(device.rate, DeviceProfile::least_rate, DeviceProfile::most_rate, "the device's rate (Hz)");
-  require_within(device.slew, 0, 1e9, "the device's slew (N/s)");
-  require_within(device.continuous_newton, 0, device.force_newton, "the device's continuous force (N)");
-  require_within(device.heating_seconds, device.continuous_newton > 0 ? DeviceProfile::least_heating_seconds : 0, 1e6,
-                 "the device's time constant of heating (s)");
-  require_within(device.active_watt, 0, most_active_watt, "the device's power for active programs (W)");
-  require_within(device.velocity_window, 0, 1e4, "the device's velocity window (ticks)");
-  require_within(device.velocity_noise_counts, 0, 1e6, "the device's velocity noise (counts)");
-  require_within(device.patch_width, 0, 10, "the device's patch width (m)");
-  require_within(device.patch_height, 0, 10, "the device's patch height (m)");
-  require_within(device.patch_rim, 0, 10, "the device's patch rim (m)");
-  require_within(device.mass, 0, 1000, "the device's mass (kg)");
-  require_within(device.damping, 0, 1e6, "the device's damping (N s/m)");
-  require_within(device.friction, 0, 1000, "the device's friction (N)");
-  require_within(device.delay_x, 0, 1, "the device's delay along x (s)");
-  require_within(device.delay_y, 0, 1, "the device's delay along y (s)");
-  require_within(device.bandwidth_x, 0, 1e6, "the device's bandwidth along x (Hz)");
-  require_within(device.bandwidth_y, 0, 1e6, "the device's bandwidth along y (Hz)");
+  require("rate", device.rate, DeviceProfile::least_rate, DeviceProfile::most_rate, "the device's rate (Hz)");
+  require("slew", device.slew, 0, 1e9, "the device's slew (N/s)");
+  require("continuous_force", device.continuous_newton, 0, device.force_newton, "the device's continuous force (N)");
+  require("heating_seconds", device.heating_seconds,
+          device.continuous_newton > 0 ? DeviceProfile::least_heating_seconds : 0, 1e6,
+          "the device's time constant of heating (s)");
+  require("active_power", device.active_watt, 0, most_active_watt, "the device's power for active programs (W)");
+  require("velocity_window", device.velocity_window, 0, 1e4, "the device's velocity window (ticks)");
+  require("velocity_noise_counts", device.velocity_noise_counts, 0, 1e6, "the device's velocity noise (counts)");
+  require("patch_width", device.patch_width, 0, 10, "the device's patch width (m)");
+  require("patch_height", device.patch_height, 0, 10, "the device's patch height (m)");
+  require("patch_rim", device.patch_rim, 0, 10, "the device's patch rim (m)");
+  require("mass", device.mass, 0, 1000, "the device's mass (kg)");
+  require("damping", device.damping, 0, 1e6, "the device's damping (N s/m)");
+  require("friction", device.friction, 0, 1000, "the device's friction (N)");
+  require("delay_x", device.delay_x, 0, 1, "the device's delay along x (s)");
+  require("delay_y", device.delay_y, 0, 1, "the device's delay along y (s)");
+  require("bandwidth_x", device.bandwidth_x, 0, 1e6, "the device's bandwidth along x (Hz)");
+  require("bandwidth_y", device.bandwidth_y, 0, 1e6, "the device's bandwidth along y (Hz)");
 }
 
 namespace {

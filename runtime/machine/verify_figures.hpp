@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "schema/sentence.hpp"
 #include "wale/patch_program.hpp"
 
@@ -15,8 +17,15 @@ template <typename... Parts>
 /// lattices of peaks, the patch, the device, percepts and fates. Throws as `refuse` does.
 void verify_figures(const PatchProgram& program);
 
-/// The part of it that checks the figures of a device.
-void verify_device(const DeviceProfile& device);
+/// A figure of a device that is out of its range.
+struct RefusedFigure {
+  std::string_view name;  ///< "slew"
+  double value = 0, low = 0, high = 0;
+};
+
+/// The part of it that checks the figures of a device. `refused` receives the figure that it throws for, if it is one of
+/// those with a name.
+void verify_device(const DeviceProfile& device, RefusedFigure* refused = nullptr);
 
 /// The part of `verify` that checks the cost of code: each section within its share of the period, setup within its
 /// limit. Throws as `refuse` does.

@@ -37,6 +37,9 @@ class RecordingReader {
     find_chunks();
     read_events();
     read_ticks();
+    const bool has_all = contents_.said_ticks && contents_.ticks == *contents_.said_ticks;
+    if (problem_ && foreign_ && has_all)
+      note(sentence("bytes follow the recording's end, from byte ", *foreign_, " on"), *foreign_);
     if (!problem_ && contents_.said_ticks && contents_.ticks != *contents_.said_ticks && most_ticks_ > contents_.ticks)
       note(sentence("its end declares ", *contents_.said_ticks, " ticks, but it has ", contents_.ticks), bytes_.size());
     if (!problem_ || most_ticks_ <= contents_.ticks) return {};
@@ -109,13 +112,18 @@ class RecordingReader {
       if (all_zero(chunk)) continue;  // it was never begun
       is_cut_ = chunk.size() < chunk_size;
       if (is_cut_) note(sentence("the file is cut short at byte ", bytes_.size()), bytes_.size());
-      if (chunk.size() < chunk_header_size) break;
+      if (chunk.size() < chunk_header_size) {
+        foreign_ = offset;
+        break;
+      }
       const auto header = at<ChunkHeader>(offset);
       auto* const chunks = header.kind == ChunkKind::ticks    ? &contents_.tick_chunks
                            : header.kind == ChunkKind::events ? &event_chunks
                                                               : nullptr;
-      if (chunks == nullptr || header.check != check_of(header, contents_.version) || header.number != chunks->size())
-        note(sentence("the chunk at byte ", offset, " is damaged"), offset);
+      if (chunks == nullptr || header.check != check_of(header, contents_.version) || header.number != chunks->size()) {
+        foreign_ = offset;
+        if (!is_cut_) note(sentence("the chunk at byte ", offset, " is damaged"), offset);
+      }
       else
         chunks->push_back(offset);
     }
@@ -201,6 +209,7 @@ class RecordingReader {
   std::size_t most_ticks_;
   std::vector<std::size_t> event_chunks_;
   std::uint32_t most_revision_ = 0;
+  std::optional<std::size_t> foreign_;  ///< where a chunk begins that is none, if not all of it is lost
   bool is_cut_ = false;  ///< the file ends within a chunk
   bool is_recording_ = false;
   std::optional<Error> problem_;

@@ -19,11 +19,11 @@ constexpr std::array<Undeclared, 3> of_a_position{{{&DeviceProfile::workspace_di
                                                    {&DeviceProfile::speed_limit, 1}}};
 constexpr std::array<Undeclared, 2> of_a_force{{{&DeviceProfile::force_newton, 1000}, {&DeviceProfile::force_counts, 1000}}};
 
-Error unusable(const DeviceProfile& profile, const char* name, std::string what, std::string mend) {
+Error unusable(const DeviceProfile& profile, std::string name, std::string what, std::string mend) {
   return {.code = Code::unusable_device,
-          .sentence = "the device " + profile.name + what,
+          .sentence = "the device" + (profile.name.empty() ? ", whose profile has no name," : " " + profile.name) + what,
           .mend = std::move(mend),
-          .place = {.name = name}};
+          .place = {.name = std::move(name)}};
 }
 
 }  // namespace
@@ -37,10 +37,16 @@ Result<> check_declared_figures(const DeviceProfile& profile) {
   if (whole.has_position()) fill(of_a_position);
   if (!whole.shaker) fill(of_a_force);
   if (whole.rate == 0) whole.rate = DeviceProfile::least_rate;
+  RefusedFigure refused;
   try {
-    verify_device(whole);
+    verify_device(whole, &refused);
   } catch (const Error& error) {
-    return unusable(profile, "profile", " cannot be used: " + error.sentence, "give its profile a figure in this range");
+    Error unfit = unusable(profile, refused.name.empty() ? "vibration" : std::string(refused.name),
+                           " cannot be used: " + error.sentence, "give its profile a figure in this range");
+    if (refused.name.empty()) return unfit;
+    unfit.expected = sentence(refused.low, " .. ", refused.high);
+    unfit.found = unfit.place.text = sentence(refused.value);
+    return unfit;
   }
   if (profile.velocity_window > most_velocity_window)
     return unusable(profile, "velocity_window",

@@ -15,6 +15,11 @@ Error no_memory_for_a_call() {
           .place = {.name = "edit"}};
 }
 
+Error is_removed_before() {
+  return wrong_moment("patch", "an earlier call of the edit removes the patch",
+                      "leave out the removal, or make it the last of the patch's changes");
+}
+
 Error edit_was_moved() { return wrong_moment("edit", "the edit was moved from", "use the edit that it was moved to"); }
 
 }  // namespace
@@ -29,7 +34,8 @@ struct StageEdit::Parts {
   std::weak_ptr<StageState> stage;
   std::vector<std::pair<PatchName, WantedPatch>> added;
   std::vector<Step> steps;
-  std::optional<Error> error;  // the first; without a sentence where there was no memory for one
+  std::optional<Error> error;  // the first that a call found; without a sentence where there was no memory for one
+  std::size_t before_error = 0;  // so many steps were called before it; one of them may still be found to fail
 
   ~Parts() { discard(); }
 
@@ -43,14 +49,18 @@ struct StageEdit::Parts {
     steps.clear();
     error.reset();
   }
+  void fail(Error why) noexcept {
+    if (error) return;
+    error.emplace(std::move(why));
+    before_error = steps.size();
+  }
   /// While one exists, an exception (there is no memory) makes the edit fail as a whole, as an error does: the call that
   /// it ends has changed nothing, so a commit of the others would be half of what was asked for.
   class WholeOrNot {
    public:
     explicit WholeOrNot(Parts& parts) noexcept : parts_(parts), thrown_(std::uncaught_exceptions()) {}
     [[gnu::noinline]] ~WholeOrNot() {
-      if (std::uncaught_exceptions() > thrown_ && !parts_.error)
-        parts_.error.emplace(Error{.code = Code::short_of_resources});
+      if (std::uncaught_exceptions() > thrown_) parts_.fail(Error{.code = Code::short_of_resources});
     }
     WholeOrNot(const WholeOrNot&) = delete;
     WholeOrNot& operator=(const WholeOrNot&) = delete;
@@ -62,8 +72,9 @@ struct StageEdit::Parts {
 
   void step(const std::weak_ptr<StageState>& of, PatchName name, StageState::Change change) {
     const bool other = of.owner_before(stage) || stage.owner_before(of);
-    if (other && !error)
-      error = wrong_moment("patch", "the patch is not on the edit's stage", "begin an edit of the patch's own stage");
+    if (other)
+      return fail(wrong_moment("patch", "the patch is not on the edit's stage",
+                               "begin an edit of the patch's own stage"));
     steps.push_back({name, std::move(change)});
   }
 };
@@ -83,7 +94,7 @@ Result<Patch> StageEdit::add(const Program& program, const PatchOptions& options
   const auto& state = *found;
   Result<WantedPatch> placement = state->wanted(program, options);
   if (!placement) {
-    fail(placement.error());
+    parts_->fail(placement.error());
     return std::move(placement).error();
   }
   const std::lock_guard lock(state->mutex);
@@ -143,7 +154,16 @@ void StageEdit::remove(const Patch& patch) {
 }
 
 void StageEdit::fail(Error error) {
-  if (parts_ && !parts_->error) parts_->error = std::move(error);
+  if (!parts_) return;
+  const Parts::WholeOrNot whole(*parts_);
+  const bool is_error = !code_title(error.code).empty() && severity_of(error.code) == Severity::error;
+  if (!is_error)
+    error = malformed("code", "expected the code of an error", "take Code::malformed_value, or another one that fits",
+                      "the code of an error", code_name(error.code));
+  else if (error.code != Code::short_of_resources && error.sentence.find_first_not_of(" \t\r\n") == std::string::npos)
+    error = malformed("sentence", "expected a sentence, found an empty text", "say in a line what is wrong", "a sentence",
+                      "an empty text");
+  parts_->fail(std::move(error));
 }
 
 Result<> StageEdit::commit() {
@@ -155,8 +175,10 @@ Result<> StageEdit::commit() {
     parts_->discard();
     return error;
   };
-  if (parts_->error)
+  const auto refuse_as_called = [&] {
     return refuse(parts_->error->sentence.empty() ? no_memory_for_a_call() : *parts_->error);
+  };
+  if (parts_->error && parts_->before_error == 0) return refuse_as_called();
   std::unique_lock lock(state->mutex);
   if (state->over) return stage_is_gone();
   std::vector<PatchTable::Wish> wishes;
@@ -166,7 +188,9 @@ Result<> StageEdit::commit() {
     known.emplace(name.number, wishes.size());
     wishes.emplace_back(name, placement);
   }
-  for (const Parts::Step& step : parts_->steps) {
+  for (std::size_t i = 0; i < parts_->steps.size(); ++i) {
+    if (parts_->error && i == parts_->before_error) break;
+    const Parts::Step& step = parts_->steps[i];
     const auto [place, is_new] = known.try_emplace(step.name.number, wishes.size());
     if (is_new) {
       const auto there = state->has(step.name);
@@ -178,8 +202,10 @@ Result<> StageEdit::commit() {
     }
     auto& [name, wish] = wishes[place->second];
     Result<> done;
-    if (!(name == step.name) || !wish)
+    if (!(name == step.name))
       done = patch_is_gone();
+    else if (!wish)
+      done = is_removed_before();
     else if (!step.change)
       wish.reset();
     else
@@ -188,6 +214,10 @@ Result<> StageEdit::commit() {
       lock.unlock();
       return refuse(std::move(done).error());
     }
+  }
+  if (parts_->error) {
+    lock.unlock();
+    return refuse_as_called();
   }
   // A patch that was added and removed again was never there.
   std::erase_if(wishes, [&](const PatchTable::Wish& wish) {

@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "runtime/stage/patches_in_run.hpp"
 #include "runtime/stage/stage_state.hpp"
+#include "schema/sentence.hpp"
 #include "wale/felt.hpp"
 
 namespace wale {
@@ -43,10 +46,25 @@ Result<std::uint32_t> last_change(const RunResult& run, const Patch& patch) {
   return static_cast<std::uint32_t>(as_felt->change);
 }
 
+/// Error: an option that is not finite, or negative.
+Result<> can_be_measured(const MeasureOptions& options, long least_crossings) {
+  for (const auto& [name, value] : {std::pair{"settling", options.settling},
+                                    std::pair{"stuck_seconds", options.stuck_seconds},
+                                    std::pair{"stuck_counts", options.stuck_counts}})
+    if (!(std::isfinite(value) && value >= 0))
+      return malformed(name, "expected a finite number that is not negative", "leave it out for the usual one",
+                       "a finite number that is not negative", sentence(value));
+  if (least_crossings < 0)
+    return malformed("least_crossings", "expected a number that is not negative", "leave it out for the usual one, 50",
+                     "a number that is not negative", sentence(least_crossings));
+  return {};
+}
+
 }  // namespace
 
 Result<FeltPatch> measure(const RunResult& run, const Patch& patch, const MeasureOptions& options,
                           long least_crossings) {
+  if (auto good = can_be_measured(options, least_crossings); !good) return std::move(good).error();
   const Result<Bank> bank = patch.bank();  // its errors are those of the patch
   if (!bank) return bank.error();
   const auto state = StageState::of(patch).lock();

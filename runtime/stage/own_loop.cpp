@@ -54,7 +54,7 @@ Result<Loop> Loop::begin(Stage& stage) {
   const auto there = here(stage.state_, stage_was_moved);
   if (!there) return there.error();
   const std::shared_ptr<StageState>& state = *there;
-  if (state->profile.name.empty() && state->profile.rate == 0)
+  if (state->device == nullptr && !state->has_profile)
     return wrong_moment("stage", "the stage has no device", "make it with a device, or with the profile of one");
   auto parts = std::make_unique<Parts>(state->profile);
   auto session = Session::begin(state, {.seconds = HUGE_VAL, .kept_seconds = 1 / state->profile.rate},

@@ -175,6 +175,9 @@ void Session::fail() noexcept {
 Result<> Session::begin_recording() {
   const std::optional<RecordTo>& to = stage_->options.record;
   if (!to) return {};
+  if (to->file.empty())
+    return malformed("record", "the recording has no file", "name one, as in \"run.wrec\", or leave `record` out",
+                     "the path of a file", "an empty text");
   if (!to->hand.empty())
     if (auto text = is_name_text("record_hand", to->hand, record_hand_mend); !text) return text;
   const RecordingHeader header{.device = stage_->profile,

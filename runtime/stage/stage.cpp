@@ -34,7 +34,9 @@ Stage::Stage(Device& device, StageOptions options)
     : state_(std::make_shared<StageState>(nullptr, &device, device.profile(), std::move(options))) {}
 
 Stage::Stage(const DeviceProfile& profile, StageOptions options)
-    : state_(std::make_shared<StageState>(nullptr, nullptr, profile, std::move(options))) {}
+    : state_(std::make_shared<StageState>(nullptr, nullptr, profile, std::move(options))) {
+  state_->has_profile = true;
+}
 
 Stage::Stage(Stage&&) noexcept = default;
 

@@ -94,7 +94,7 @@ Result<std::shared_ptr<StageState>> here(std::shared_ptr<StageState> stage, Erro
 }
 
 Result<std::size_t> index_of(const Program& program, std::string_view parameter) {
-  if (auto named = is_name_text("parameter", parameter); !named) return std::move(named).error();
+  if (auto named = is_name_text("parameter", parameter, "write the name of one of the program's parameters"); !named) return std::move(named).error();
   if (const auto index = program.parameter(parameter)) return *index;
   std::string names;
   std::vector<std::string> known;
@@ -131,7 +131,7 @@ Result<> StageState::fits(const PatchProgram& program) const {
   const bool same_kind = program.vibrates() == profile.shaker.has_value();
   if (same_kind && program.device.name == profile.name) return is_built_for(program, profile);
   std::string sentence = program.material + " was built for " + program.device.name;
-  const bool is_nameless = profile.name.empty() && (device != nullptr || profile.rate > 0);
+  const bool is_nameless = profile.name.empty() && (device != nullptr || has_profile);
   if (is_nameless)
     sentence += ", and the profile of the stage's device has no name";
   else if (same_kind)

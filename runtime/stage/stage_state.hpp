@@ -37,6 +37,7 @@ struct StageState : std::enable_shared_from_this<StageState> {
   std::unique_ptr<Device> owned;
   Device* device;  // null where the program serves the ticks itself
   DeviceProfile profile;
+  bool has_profile = false;  // it was given, though there is no device
   StageOptions options;
 
   mutable std::mutex mutex;      // never taken by the thread that serves the ticks

@@ -462,6 +462,7 @@ static void edits(void) {
   CHECK_MALFORMED(wale_edit_bring(NULL, two, 0, &error));
   CHECK_MALFORMED(wale_edit_remove(NULL, two, &error));
   CHECK_MALFORMED(wale_edit_commit(NULL, &error));
+  wale_patch_free(two);
   /* Whoever finds out by himself that a change cannot be made says so. */
   const size_t before = wale_stage_size(stage);
   CHECK_GOOD(wale_stage_edit(stage, &edit, &error));
@@ -471,6 +472,11 @@ static void edits(void) {
   CHECK_CODE(WALE_CODE_unknown_name, wale_edit_commit(edit, &error));
   CHECK(wale_stage_size(stage) == before);
   CHECK_GOOD(wale_edit_commit(edit, &error)); /* it is empty again */
+  /* The first error counts, also one that the commit finds. */
+  CHECK_GOOD(wale_edit_add(edit, corduroy, NULL, &two, &error));
+  CHECK_GOOD(wale_edit_set(edit, two, WALE_TEXT("wale"), 1, &error)); /* beyond its range, as only the commit finds */
+  CHECK_GOOD(wale_edit_fail(edit, WALE_CODE_unknown_name, WALE_TEXT("x"), WALE_TEXT("y"), WALE_TEXT("z"), &error));
+  CHECK_CODE(WALE_CODE_malformed_value, wale_edit_commit(edit, &error));
   const WaleCode no_errors[] = {0, -1, 99999, WALE_CODE_shadowed_name};
   for (size_t i = 0; i < 4; ++i)
     CHECK_MALFORMED(wale_edit_fail(edit, no_errors[i], WALE_TEXT("x"), WALE_TEXT("y"), WALE_TEXT("z"), &error));

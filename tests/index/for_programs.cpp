@@ -156,6 +156,42 @@ TEST_F(ForPrograms, ErrorsNameTheArgument) {
   refused(Library(missing).nearest("ribs1"), Code::unreadable_file, missing.index.c_str());
 }
 
+TEST_F(ForPrograms, AFileOfOnesOwnIsNotNearItself) {
+  const Library library(in_index());
+  for (const std::string& file : {folder_ / "shelf/ribs3.wale", folder_ / "shelf/../shelf/ribs3.wale:ribs3"}) {
+    expect_same(library.nearest(file), told({"find", "--near", "ribs3"}));
+    EXPECT_EQ(library.nearest(file, {.most = 1})->matches.at(0).name, "ribs4");
+  }
+  // Another file of that name is another material.
+  const std::string copy = folder_.write("ribs3.wale", command_line::bytes_of(folder_ / "shelf/ribs3.wale"));
+  EXPECT_EQ(library.nearest(copy, {.most = 1})->matches.at(0).name, "ribs3");
+}
+
+TEST_F(ForPrograms, ErrorsInAFileOfOnesOwnAreItsOwn) {
+  const Library library(in_index());
+  const std::string own = folder_.write("own.wale", "wale 1\nmaterial own { perceptual { roughnes 0.62 } }\n");
+  const auto opened = library.open(own);
+  ASSERT_FALSE(opened);
+  for (const auto& result : {library.nearest(own), library.search("", {.near = own}), library.between("ribs1", own)}) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, opened.error().code) << in_words(result.error());
+    EXPECT_EQ(result.error().place.name, own);
+    EXPECT_EQ(result.error().place.number, 2u);
+    EXPECT_EQ(in_words(result.error()), in_words(opened.error()));
+  }
+}
+
+TEST_F(ForPrograms, MendsAreInTheWordsOfTheInterface) {
+  const Library library(in_index());
+  EXPECT_EQ(library.nearest("zzzzzzzzzzzzzzz").error().mend.find("wale find"), std::string::npos);
+  EXPECT_EQ(library.search("a\nb").error().sentence.find("a name"), std::string::npos);
+  LibraryOptions other;
+  other.index = folder_.write("no.index", std::string(5000, 'x'));
+  const auto refused = Library(other).nearest("ribs1");
+  EXPECT_EQ(refused.error().code, Code::damaged_file);
+  EXPECT_TRUE(refused.error().mend.starts_with("name another file")) << refused.error().mend;
+}
+
 /// Without an index one is kept in the user's cache; that can be seen and ended, and goes on where it was.
 TEST_F(ForPrograms, ReadsALibraryThatCanBeStopped) {
   const Variable cache("XDG_CACHE_HOME", folder_ / "cache");

@@ -134,7 +134,8 @@ def test_patches(stage: wale.Stage, corduroy: wale.Program) -> None:
     assert patch.exists and len(stage) == 1
     assert code_of(lambda: patch.set("whale", 0.003)) == wale.Code.unknown_name
     for wrong in [lambda: patch.set("wale", math.nan), lambda: patch.set("wale", 1), lambda: patch.move((math.inf, 0)),
-                  lambda: patch.resize((-1, 1)), lambda: patch.bring(math.nan),
+                  lambda: patch.resize((-1, 1)), lambda: patch.resize((0, 0)), lambda: stage.add(corduroy, size=(0, 0)),
+                  lambda: patch.bring(math.nan),
                   lambda: stage.add(corduroy, at=(math.nan, 0))]:
         assert code_of(wrong) == wale.Code.malformed_value
     with pytest.raises(ValueError):
@@ -177,6 +178,12 @@ def test_an_edit_is_all_or_nothing(stage: wale.Stage, corduroy: wale.Program) ->
         edit.remove(two)
         edit.move(one, (math.nan, 0))
     assert len(stage) == 2
+    edit = stage.edit()  # the first error counts, and it is one of the calls that are checked by the commit
+    edit.move(one, (math.nan, 0))
+    edit.fail("there is none", argument="mine")
+    with pytest.raises(wale.Error) as raised:
+        edit.commit()
+    assert raised.value.argument == "to"
     with pytest.raises(KeyError), stage.edit() as edit:
         edit.remove(two)
         raise KeyError

@@ -126,6 +126,22 @@ TEST(FeltPatch, ARunWithoutARecordSaysSo) {
   EXPECT_NE(felt.error().sentence.find("kept no record"), std::string::npos);
 }
 
+TEST(FeltPatch, OptionsOutsideTheirRangeAreRefused) {
+  TwoPatches two;
+  const RunResult run = two.run();
+  const auto refused = [&](const MeasureOptions& options, long least, const char* name) {
+    const auto felt = measure(run, two.left, options, least);
+    ASSERT_EQ(code_of(felt), Code::malformed_value) << name;
+    EXPECT_EQ(felt.error().place.name, name);
+  };
+  refused({.settling = -1}, 50, "settling");
+  refused({.settling = HUGE_VAL}, 50, "settling");
+  refused({.stuck_seconds = NAN}, 50, "stuck_seconds");
+  refused({.stuck_counts = -0.5}, 50, "stuck_counts");
+  refused({}, -3, "least_crossings");
+  EXPECT_TRUE(measure(run, two.left, {}, 0));
+}
+
 TEST(FeltPatch, ASettlingLongerThanTheRunIsNamed) {
   TwoPatches two;
   const auto felt = measure(two.run(), two.left, {.settling = 9});

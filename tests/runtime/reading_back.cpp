@@ -44,6 +44,25 @@ TEST(ReadingBack, ADeviceThatPushesNeedsASlew) {
     Stage of_profile(device.profile_);
     EXPECT_FALSE(Loop::begin(of_profile)) << name;
   }
+  struct Beyond {
+    double DeviceProfile::*figure;
+    double value;
+    const char* name;
+    const char* found;
+  };
+  for (const auto& [figure, value, name, found] :
+       {Beyond{&DeviceProfile::slew, NAN, "slew", "nan"}, {&DeviceProfile::rate, 1e6, "rate", "1 000 000"},
+        {&DeviceProfile::rate, -1, "rate", "-1"}, {&DeviceProfile::mass, NAN, "mass", "nan"},
+        {&DeviceProfile::workspace_diameter, -0.5, "workspace", "-0.5"}}) {
+    DeviceProfile profile = sandpaper();
+    profile.*figure = value;
+    Stage stage(profile);
+    const auto begun = Loop::begin(stage);
+    ASSERT_FALSE(begun) << name;
+    EXPECT_EQ(begun.error().code, Code::unusable_device);
+    EXPECT_EQ(begun.error().place.name, name) << in_words(begun.error());
+    EXPECT_EQ(begun.error().found, found) << in_words(begun.error());
+  }
   DeviceProfile slow = sandpaper();
   slow.slew = 0;
   EXPECT_TRUE(check_recorded_figures(slow)) << "what was recorded replays";
@@ -222,6 +241,13 @@ TEST(ReadingBack, ErrorsOfAStageSayWhatTheyFound) {
   Stage without_name(nameless), without_device(std::unique_ptr<Device>{});
   EXPECT_NE(without_name.add(push(1)).error().sentence.find("has no name"), std::string::npos);
   EXPECT_NE(without_device.add(push(1)).error().sentence.find("no device"), std::string::npos);
+  Stage empty{DeviceProfile{}};
+  EXPECT_NE(empty.add(push(1)).error().sentence.find("has no name"), std::string::npos);
+  const auto begun = Loop::begin(empty);
+  EXPECT_NE(begun.error().sentence.find("has no name"), std::string::npos) << in_words(begun.error());
+  Stage recorded(std::make_unique<Puppet>(at_rest), {.record = RecordTo{"", "h"}});
+  const auto unrecorded = recorded.start();
+  expect(unrecorded, "record", "an empty text");
 }
 
 TEST(ReadingBack, AnEditWithoutMemoryForOneCallChangesNothing) {

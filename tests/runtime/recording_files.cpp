@@ -242,6 +242,21 @@ TEST(RecordingFile, TicksBeforeADamagedChangeOfTheStageCanBeRead) {
   expect_same(*before);
 }
 
+TEST(RecordingFile, BytesAfterItsEndAreNoCut) {
+  const std::vector<std::byte> whole = some_recording();
+  const std::size_t ticks = Recording::read(whole, "whole")->ticks();
+  for (const std::size_t more : {std::size_t{1}, std::size_t{100}, chunk_size, 3 * chunk_size + 5}) {
+    std::vector<std::byte> longer = whole;
+    longer.insert(longer.end(), more, std::byte{'x'});
+    const auto read = Recording::read(longer, "longer");
+    ASSERT_FALSE(read) << more;
+    EXPECT_EQ(read.error().sentence,
+              "bytes follow the recording's end, from byte " + std::to_string(whole.size()) + " on");
+    EXPECT_EQ(read.error().place.number, whole.size());
+    EXPECT_TRUE(Recording::read(longer, "longer", ticks));
+  }
+}
+
 TEST(RecordingFile, OtherFilesAreRefusedWithAReason) {
   const auto reason = [](const std::string& text) {
     const auto bytes = std::as_bytes(std::span(text));

@@ -295,6 +295,36 @@ TEST(Stage, ANewPatchReplacesTheOldOneWhileItRuns) {
   EXPECT_EQ(run.record.ticks[110].force.x, 1);
 }
 
+TEST(Stage, AnEditTellsItsFirstError) {
+  Stage stage(sandpaper());
+  Patch patch = *stage.add(push(1)), other = *stage.add(push(2));
+  const auto committed = [&](const auto& make) {
+    StageEdit edit = stage.edit();
+    make(edit);
+    const Result<> done = edit.commit();
+    EXPECT_FALSE(done);
+    EXPECT_TRUE(patch.placement() && other.placement()) << "nothing has changed";
+    EXPECT_TRUE(edit.commit()) << "the edit is empty";
+    return done ? Error{} : done.error();
+  };
+  const Error own{.code = Code::unknown_name, .sentence = "there is none", .place = {.name = "mine"}};
+  EXPECT_EQ(committed([&](StageEdit& edit) { edit.fail(own); }).place.name, "mine");
+  EXPECT_EQ(committed([&](StageEdit& edit) { edit.move(patch, {NAN, 0}), edit.fail(own); }).place.name, "to");
+  EXPECT_EQ(committed([&](StageEdit& edit) { edit.fail(own), edit.move(patch, {NAN, 0}); }).place.name, "mine");
+  EXPECT_EQ(committed([&](StageEdit& edit) { edit.move(patch, {0, 0}), edit.fail(own), edit.remove(patch); }).place.name,
+            "mine");
+  for (const Error& none : {Error{}, Error{.code = Code::unused_name, .sentence = "so"},
+                            Error{.code = static_cast<Code>(9999), .sentence = "so"},
+                            Error{.code = Code::malformed_value, .sentence = " "}}) {
+    const Error refused = committed([&](StageEdit& edit) { edit.fail(none); });
+    EXPECT_EQ(refused.code, Code::malformed_value) << in_words(refused);
+    EXPECT_TRUE(refused.place.name == "code" || refused.place.name == "sentence") << in_words(refused);
+  }
+  const Error removed = committed([&](StageEdit& edit) { edit.remove(patch), edit.move(patch, {0, 0}); });
+  EXPECT_EQ(removed.code, Code::wrong_moment);
+  EXPECT_EQ(removed.sentence, "an earlier call of the edit removes the patch");
+}
+
 TEST(Stage, TheHandFeelsThePatchInFront) {
   class Mover : public Notebook {
     void elapse(long periods) noexcept override {

@@ -106,13 +106,14 @@ class Library {
   /// A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL, by
   /// the rule of the command line: of the project in the process's current folder, of `LibraryOptions::folders`, or of
   /// the shipped library. Never a file of that name. Errors: `unknown_name`; `ambiguous_material` if several materials
-  /// have that name; `malformed_value` for a text that is no name; `unknown_material` for an `options.material`.
+  /// have that name; `malformed_value` for a text that is no name; `unknown_material` for an `options.material`, and for
+  /// a MATERIAL that the module does not have.
   Result<Compiled> find(const std::string& name, const CompileOptions& options = {}) const;
 
   /// A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6"). Errors:
   /// `unknown_name` for an unknown percept or level; `level_out_of_range` for a number outside 0 .. 1;
   /// `malformed_value` for a level that is neither a name nor a number as Wale writes them (0.5, 5e-1);
-  /// `percept_unrealised` for a percept that the device cannot render.
+  /// `percept_unrealised` for a percept that the device cannot render; `unknown_material` for any `options.material`.
   Result<Compiled> level(const std::string& percept, const std::string& level,
                          const CompileOptions& options = {}) const;
 
@@ -148,7 +149,7 @@ class Library {
   /// a library reads all of it and keeps that in an index, which takes from seconds to minutes (`SearchOptions::progress`);
   /// later ones read what has changed. A destructor ends such reading. Searches by feel wait for each other. Errors:
   /// `unknown_name` for an unknown kind, percept, or material in `near`, `ambiguous_material` for one that may be several;
-  /// `unknown_material` for one that pushes nothing; `level_out_of_range`; `malformed_value`; `stopped` if `progress` ended
+  /// those in its text; `unknown_material` for one that pushes nothing; `level_out_of_range`; `malformed_value`; `stopped` if `progress` ended
   /// it; `other_device` if the named index is for another device than `options.device`; for an index that was named,
   /// `unreadable_file`, `damaged_file`, `newer_file`, and `missing_library` in a Wale that was built without its database.
   Result<SearchResult> search(const std::string& text, const SearchOptions& options = {}) const;

@@ -52,7 +52,7 @@ typedef struct WaleMatch {
    reads all of it and keeps that in an index, which takes from seconds to minutes: with `_later` a program sees how far it is
    (wale_future_progress) and may end it (wale_future_cancel), and so does wale_library_free. Searches by feel wait for each
    other. `options` may be NULL; `matches` gets a handle to free, also if nothing was found. Errors: unknown_name for an unknown
-   kind, percept or material; ambiguous_material; unknown_material for one that pushes nothing; level_out_of_range;
+   kind, percept or material; ambiguous_material; those in its text; unknown_material for one that pushes nothing; level_out_of_range;
    malformed_value; stopped; other_device if the index is for another device; of an index that was named, unreadable_file,
    damaged_file, newer_file, and missing_library in a Wale that was built without its database. */
 WALE_API WaleCode wale_library_search(WaleLibrary* library, WaleText text, const WaleSearchOptions* options,
@@ -74,7 +74,7 @@ WALE_API WaleCode wale_library_between_later(WaleLibrary* library, WaleText one,
 /* How many files of the library are read for its index, of how many. Both 0 before it begins, if there is nothing to read, and
    for a future of a program. Either place may be NULL. */
 WALE_API void wale_future_progress(const WaleFuture* future, size_t* done, size_t* all);
-/* Ends that reading: the search then gives `stopped`, unless it was ready. What was read is kept. */
+/* Ends that reading: the search then gives `stopped`, unless it was ready. What was read is kept, where an index can be. */
 WALE_API void wale_future_cancel(WaleFuture* future);
 /* As wale_future_take, of a search. Errors also: wrong_moment for the future of a program, as wale_future_take gives it for that
    of a search. */

@@ -61,8 +61,6 @@ def size_in_full(size: Sequence[float]) -> tuple[float, float, float]:
     if count not in (2, 3):
         raise ValueError(f"size: expected width, height and perhaps a rim, found {count} numbers")
     size = [number(each, "size") for each in size]
-    if size[0] == 0 and size[1] == 0:
-        raise ValueError("size: expected positive sides")  # in the C interface two zeros mean the program's own size
     return (size[0], size[1], size[2] if len(size) == 3 else 0.0)
 
 

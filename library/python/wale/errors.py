@@ -57,6 +57,12 @@ class Error(Exception):
         return Error(f"{shown}: {sentence}; {mend}", code=Code.unreadable_file, severity="error", sentence=sentence, mend=mend,
                      expected="", found="", argument=path, text="", span=None, nearest=(), others=())
 
+    @staticmethod
+    def of_argument(argument: str, sentence: str, mend: str, *, expected: str = "", found: str = "") -> "Error":
+        """For an argument that C takes for another wish."""
+        return Error(f"{argument}: {sentence}; {mend}", code=Code.malformed_value, severity="error", sentence=sentence,
+                     mend=mend, expected=expected, found=found, argument=argument, text=found, span=None, nearest=(), others=())
+
     @property
     def name(self) -> str:
         """ "unknown_name"; empty for a code that is newer than this package."""

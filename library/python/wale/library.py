@@ -79,7 +79,7 @@ class Future(Handle):
         return (done[0], of[0])
 
     def cancel(self) -> None:
-        """Ends that reading. What was read is kept."""
+        """Ends that reading. What was read is kept, where an index can be."""
         lib.wale_future_cancel(self._pointer)
 
     def take_matches(self) -> SearchResult:

@@ -97,6 +97,7 @@ struct FeltPatch {
 /// `options` the times and `stuck_counts` count; the rest comes from the stage. From any thread. Errors:
 /// - `wrong_moment`: the patch was removed, its stage is gone, the run was one of another stage, or the patch's
 ///   program, parameters or size have changed since the run;
+/// - `malformed_value`: `settling`, `stuck_seconds`, `stuck_counts` or `least_crossings` is negative or not finite;
 /// - `not_measured`: the run kept no record, or the hand was not on the patch after `options.settling`.
 Result<FeltPatch> measure(const RunResult& run, const Patch& patch, const MeasureOptions& options = {},
                           long least_crossings = 50);

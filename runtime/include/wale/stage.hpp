@@ -22,7 +22,7 @@ inline constexpr int usual_priority = 80;
 
 /// A recording to make of a run.
 struct RecordTo {
-  std::string file;  ///< must not exist yet; usually NAME.wrec; counts from the current folder when the stage is made
+  std::string file;  ///< must not exist yet nor be empty; usually NAME.wrec; counts from the current folder when the stage is made
   /// What moves the handle, kept in the recording: "simulated, lateral"; one line of UTF-8, or empty. Otherwise the
   /// run gives `invalid_encoding` or `malformed_value`.
   std::string hand;
@@ -73,7 +73,8 @@ class StageEdit {
   void bring(const Patch& patch, const BringOptions& to);
   void remove(const Patch& patch);
   /// Makes the next `commit` fail with this error, unless an earlier call of the edit has failed. For whoever finds out
-  /// by himself that a change cannot be made, such as a binding that checks its arguments.
+  /// by himself that a change cannot be made, such as a binding that checks its arguments. If it is the code of no error,
+  /// or has no sentence (which only `short_of_resources` may lack), the commit gives `malformed_value` instead.
   void fail(Error error);
 
   /// Makes all changes. They are felt together, as soon as all banks are ready; until then these patches stay as they
