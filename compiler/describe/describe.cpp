@@ -157,7 +157,7 @@ void describe_bounds(Description& description, const Program& program) {
 /// places at all velocities. 0 for others, whose places are searched closely.
 double bound_with_these(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
-  if (leaves_out_motion(program)) return 0;
+  if (!depends_on_motion(program)) return 0;
   Domain domain = domain_at_defaults(program);
   domain[Input::patch_half_width] = Interval::of(0.5f * bank.size().width);
   domain[Input::patch_half_height] = Interval::of(0.5f * bank.size().height);

@@ -52,8 +52,11 @@ def test_wrong_arrays(corduroy: wale.Program) -> None:
     for shape in [(), (3,), (2, 3), (2, 3, 4, 2), (5, 7, 3)]:
         with pytest.raises(ValueError):
             wale.batch(corduroy, np.zeros(shape))
+    for size in [(0, 0), (-1, 1)]:
+        with pytest.raises(wale.Error, match="positive"):
+            wale.batch(corduroy, np.zeros((2, 3, 2)), size=size)
     position = np.zeros((2, 3, 2))
-    for wrong in [{"velocity": np.zeros((2, 2, 2))}, {"time": [1, 2]}, {"button": np.zeros((2, 2))}, {"size": (0, 0)}]:
+    for wrong in [{"velocity": np.zeros((2, 2, 2))}, {"time": [1, 2]}, {"button": np.zeros((2, 2))}]:
         with pytest.raises(ValueError):
             wale.batch(corduroy, position, **wrong)
     for wrong in [{"settings": {"whale": 1}}, {"settings": {"wale": math.nan}}, {"size": (-1, 1)}]:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wale._abi import ffi, number
+from wale.errors import Error
 
 _plain = {"float": np.float32, "double": np.float64, "int32_t": np.int32, "uint32_t": np.uint32, "int64_t": np.int64,
           "uint64_t": np.uint64}
@@ -61,6 +62,10 @@ def size_in_full(size: Sequence[float]) -> tuple[float, float, float]:
     if count not in (2, 3):
         raise ValueError(f"size: expected width, height and perhaps a rim, found {count} numbers")
     size = [number(each, "size") for each in size]
+    if size[0] == 0 and size[1] == 0:  # in the C interface two zeros mean the program's own size
+        raise Error.of_argument("size", "the width and height of a patch must be positive and finite",
+                                "give lengths in m, as in 0.05, or leave `size` out",
+                                expected="a positive width and height", found="0, 0")
     return (size[0], size[1], size[2] if len(size) == 3 else 0.0)
 
 

@@ -13,7 +13,6 @@ from wale._abi import Arguments, Handle, call, ffi, held, lib, made, number, pai
 from wale._arrays import size_in_full
 from wale.codes import Code, ContactKind
 from wale.device import Device, Profile
-from wale.errors import Error
 from wale.placement import Placement
 from wale.program import Program
 from wale.run import Now, Run, Vector, now_of, vector_of
@@ -41,10 +40,6 @@ class Contact:
 def _placed(at: Vector, size: Size | None, layer: float, shape: Shape | None) -> tuple[Any, Any]:
     """The options, and what keeps the shape that they point to."""
     width, height, rim = size_in_full(size) if size is not None else (0.0, 0.0, 0.0)
-    if size is not None and width == 0 and height == 0:  # in the C interface two zeros mean the program's own size
-        raise Error.of_argument("size", "the width and height of a patch must be positive and finite",
-                                "give lengths in m, as in 0.05, or leave `size` out",
-                                expected="a positive width and height", found="0, 0")
     x, y = pair(at, "at")
     kept = None if shape is None else held(shape, Shape, "shape")
     return Arguments().struct("WalePatchOptions", x=x, y=y, width=width, height=height, rim=rim, layer=layer, shape=kept), kept
