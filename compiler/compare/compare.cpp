@@ -125,7 +125,7 @@ Comparison Comparer::compare(const Cues& a, const Cues& b) const {
   const Sizes of_a = sizes_of(a, speed_), of_b = sizes_of(b, speed_);
   each_cue(a, b, [&](const CueFacts& facts, std::optional<double> noticeable) {
     CueDifference found{
-        facts.kind, value_of(facts.kind, a), value_of(facts.kind, b), noticeable, nullptr, Evidence::estimated, {}, nullptr, 0};
+        facts.kind, value_of(facts.kind, a), value_of(facts.kind, b), noticeable, nullptr, Evidence::estimated, {}};
     const Discrimination& people = people_[static_cast<std::size_t>(facts.kind)];
     // Equal cues need no threshold, and a direction has none.
     const bool compared = facts.exerts || (found.a && found.b);

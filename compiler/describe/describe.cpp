@@ -156,15 +156,8 @@ void describe_bounds(Description& description, const Program& program) {
 /// N: a bound, proved for the bank's parameters and size, of a program whose force depends on motion: no search tries all
 /// places at all velocities. 0 for others, whose places are searched closely.
 double bound_with_these(const Bank& bank) {
-  const PatchProgram& program = bank.program().description();
-  if (!depends_on_motion(program)) return 0;
-  Domain domain = domain_at_defaults(program);
-  domain[Input::patch_half_width] = Interval::of(0.5f * bank.size().width);
-  domain[Input::patch_half_height] = Interval::of(0.5f * bank.size().height);
-  domain[Input::patch_rim] = Interval::of(bank.size().rim);
-  for (std::size_t i = 0; i < program.parameters.size(); ++i)
-    domain.parameters[i] = Interval::of(bank.registers()[program.first_parameter() + i]);
-  return prove(bank.program(), domain).bound_newton;
+  if (!depends_on_motion(bank.program().description())) return 0;
+  return prove(bank.program(), domain_of(bank)).bound_newton;
 }
 
 /// What is called the largest force is the largest of all searches: with these parameters on this patch, and of any.

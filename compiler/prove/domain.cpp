@@ -49,4 +49,15 @@ Domain domain_at_defaults(const PatchProgram& program) {
   return domain;
 }
 
+Domain domain_of(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  Domain domain = domain_at_defaults(program);
+  domain[Input::patch_half_width] = Interval::of(0.5f * bank.size().width);
+  domain[Input::patch_half_height] = Interval::of(0.5f * bank.size().height);
+  domain[Input::patch_rim] = Interval::of(bank.size().rim);
+  for (std::size_t i = 0; i < program.parameters.size(); ++i)
+    domain.parameters[i] = Interval::of(bank.registers()[program.first_parameter() + i]);
+  return domain;
+}
+
 }  // namespace wale

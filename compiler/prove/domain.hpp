@@ -5,6 +5,7 @@
 
 #include "compiler/prove/interval.hpp"
 #include "wale/patch_program.hpp"
+#include "wale/program.hpp"
 
 namespace wale {
 
@@ -26,5 +27,7 @@ Domain whole_domain(const PatchProgram& program);
 
 /// The same at the program's own patch size and its parameters' defaults.
 Domain domain_at_defaults(const PatchProgram& program);
+/// The same with the bank's size and parameters.
+Domain domain_of(const Bank& bank);
 
 }  // namespace wale

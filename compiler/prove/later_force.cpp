@@ -92,12 +92,7 @@ double later_force(const Bank& bank, double seconds, bool remembers_time_only) {
     return each.a == time || each.b == time || each.c == time;
   });
   if (!timed && !remembers_time_only) return 0;
-  Domain domain = domain_at_defaults(program);
-  domain[Input::patch_half_width] = Interval::of(0.5f * bank.size().width);
-  domain[Input::patch_half_height] = Interval::of(0.5f * bank.size().height);
-  domain[Input::patch_rim] = Interval::of(bank.size().rim);
-  for (std::size_t i = 0; i < program.parameters.size(); ++i)
-    domain.parameters[i] = Interval::of(bank.registers()[program.first_parameter() + i]);
+  Domain domain = domain_of(bank);
   Domain at_first = domain;
   domain[Input::time] = Interval::between(0, lasting);
   at_first[Input::time] = Interval::between(0, static_cast<float>(seconds));

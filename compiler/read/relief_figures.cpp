@@ -226,8 +226,8 @@ class ReliefFigures {
     }
   }
 
-  /// Of several waves along one direction that do not repeat together after the period told, the waveform is that of
-  /// all, over as much as the patch holds.
+  /// Of several waves along one direction the waveform is that of all, over as much as the patch holds. Waves that do
+  /// not repeat together after the period told are not wholly regular.
   void tell_sum() {
     const glm::dvec2 way = glm::normalize(from_.waves.waves.front().felt()), common = way / relief_.period;
     double together = 0, all = 0;
@@ -239,9 +239,13 @@ class ReliefFigures {
       if (!aside) along.push_back(&each);
       if (aside || whole_periods(common, each.felt(), from_.whole.size) != 0) together += each.power;
     }
-    if (!(together < (1 - weak) * all)) return;
-    relief_.repeating = relief_.regularity;
-    relief_.regularity *= together / all;
+    const bool repeats = together >= (1 - weak) * all;
+    if (!repeats) {
+      relief_.repeating = relief_.regularity;
+      relief_.regularity *= together / all;
+    } else if (along.size() < 2) {
+      return;
+    }
     constexpr double parts = 64;  // of a period
     const double length = length_along(from_.whole.size, way);
     const auto count = static_cast<std::size_t>(parts * length / relief_.period);
@@ -256,7 +260,8 @@ class ReliefFigures {
       sizes.push_back(glm::length(forces[i]));
       if (i >= apart) change = std::max(change, glm::length(forces[i] - forces[i - apart]));
     }
-    const double most = percentile(sizes, percentile_of_amplitude), rms = std::sqrt(mean_square(forces));
+    const double most = repeats ? *std::ranges::max_element(sizes) : percentile(sizes, percentile_of_amplitude);
+    const double rms = std::sqrt(mean_square(forces));
     if (!(rms > 0)) return;
     relief_.crest = most / rms;
     relief_.abruptness = change / (2 * most * std::sin(std::numbers::pi * apart / parts));

@@ -49,7 +49,7 @@ std::optional<std::string> formatted(const std::string& text) {
 }
 
 /// Reading takes microseconds, checking the language's own files milliseconds, measuring a program a tenth of a second
-/// under the sanitizers: of every 16 inputs all are read, 4 checked and 3 compiled, each for another
+/// to five seconds under the sanitizers: of every 16 inputs all are read, 4 checked and 3 compiled, each for another
 /// device. Which, the input alone decides.
 unsigned turn_of(const std::string& text) {
   unsigned hash = 2166136261u;
