@@ -135,6 +135,29 @@ std::optional<PartLimit> limit_made_at(const Bank& bank, std::size_t minimum) {
   return std::nullopt;
 }
 
+/// The limit of a number that is kept between one and its opposite, as `clamp` writes it, by the instruction that keeps it
+/// last.
+std::optional<PartLimit> kept_at(const Bank& bank, std::size_t last) {
+  const PatchProgram& program = bank.program().description();
+  const TickCode& code = program.tick;
+  const bool from_above = is(code[last], Operation::minimum);
+  const Operation other = from_above ? Operation::maximum : Operation::minimum;
+  const auto fixed = [&](RegisterNumber number) {
+    return number > static_cast<RegisterNumber>(Input::shape_edge_y) && !writer_before(code, code.size(), number);
+  };
+  for (const auto& [inner, bound] : {std::pair(code[last].a, code[last].b), {code[last].b, code[last].a}}) {
+    const auto first = made_by(code, last, inner, other);
+    if (!first || !fixed(bound) || !is_only_for(program, *first, last)) continue;
+    for (const auto& [kept, opposite] : {std::pair(code[*first].a, code[*first].b), {code[*first].b, code[*first].a}}) {
+      const double most = bank.registers()[from_above ? bound : opposite];
+      if (!fixed(opposite) || fixed(kept) || !(most > 0)) continue;
+      if (std::abs(most + bank.registers()[from_above ? opposite : bound]) > (1 - just_below) * most) continue;
+      return PartLimit{.keeping = {{*first, kept}, {last, inner}}};
+    }
+  }
+  return std::nullopt;
+}
+
 std::vector<float> parameters_of(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
   std::vector<float> parameters;
@@ -194,7 +217,10 @@ std::vector<PartLimit> part_limits(const Bank& bank) {
   if (program.vibrates()) return found;
   const auto whole = author_limit(program);
   for (std::size_t i = 0; i < program.tick.size(); ++i) {
-    if (!is(program.tick[i], Operation::minimum)) continue;
+    const bool least = is(program.tick[i], Operation::minimum);
+    if (!least && !is(program.tick[i], Operation::maximum)) continue;
+    if (auto kept = kept_at(bank, i)) found.push_back(*std::move(kept));
+    if (!least) continue;
     auto limit = limit_made_at(bank, i);
     if (limit && (!whole || std::ranges::find(limit->multiply, whole->multiply[0]) == limit->multiply.end()))
       found.push_back(*std::move(limit));
@@ -204,13 +230,15 @@ std::vector<PartLimit> part_limits(const Bank& bank) {
 
 std::optional<Unlimited> without_part_limits(const Bank& bank, std::span<const PartLimit> parts) {
   PatchProgram program = bank.program().description();
-  for (const PartLimit& part : parts)
+  for (const PartLimit& part : parts) {
+    for (const auto& [keeps, kept] : part.keeping) program.tick[keeps].a = program.tick[keeps].b = kept;
     for (std::size_t i = 0; i < part.multiply.size(); ++i) {
       Instruction& smaller = program.tick[part.multiply[i]];
       (smaller.a == part.factor ? smaller.a : smaller.b) = part.one;
       Instruction& limit = program.tick[part.limit[i]];
       limit = {static_cast<std::uint8_t>(Operation::multiply), limit.destination, limit.a, part.one, 0};
     }
+  }
   return without_limit(std::move(program), bank, 1);
 }
 

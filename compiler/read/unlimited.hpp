@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "wale/program.hpp"
@@ -37,12 +38,14 @@ struct Unlimited {
 /// meets the limit still. Nothing if the program has no such form, which does not happen to a program of the compiler.
 std::optional<Unlimited> without_limit(const Bank& bank, int times = 1);
 
-/// A `limit` of a part of the force, beside other forces.
+/// A `limit` of a part of the force, beside other forces, or a number that is kept between two opposite ones.
 struct PartLimit {
-  double newton = 0;                         ///< at this bank's parameters
+  double newton = 0;                         ///< at this bank's parameters; 0 of a number that is kept: it may be no force
   std::vector<std::size_t> multiply, limit;  ///< instructions of a tick: where the part becomes smaller
   RegisterNumber factor = 0;                 ///< by which both are multiplied
   RegisterNumber one = 0;                    ///< has the number 1
+  /// Of a number that is kept: the instructions that do so, and what each is given.
+  std::vector<std::pair<std::size_t, RegisterNumber>> keeping = {};
 };
 
 /// The limits of parts of the force, in the order of the program; that of the whole force is not among them. The

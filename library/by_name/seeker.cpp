@@ -1,6 +1,7 @@
 #include "library/by_name/seeker.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "compiler/modules/load_modules.hpp"
@@ -85,14 +86,23 @@ Seeker::Opened::~Opened() = default;
 
 Result<> Seeker::open(Opened& opened, const SearchOptions& options, const FileRequest& request,
                       const std::vector<std::string>& meant) const {
+  // It is called by threads that nothing may leave.
+  std::exception_ptr thrown;
   const auto go_on = [&](std::size_t done, std::size_t all) {
-    return !ends_ && (!options.progress || options.progress(done, all));
+    if (ends_ || thrown) return false;
+    try {
+      return !options.progress || options.progress(done, all);
+    } catch (...) {
+      thrown = std::current_exception();
+      return false;
+    }
   };
   std::vector<Error> warnings;
   const bool was_open = opened.here->store || opened.here->in_memory;
   const MaterialIndex* const before = was_open ? &opened.here->index() : nullptr;
   auto done = open_index(*opened.here, place_, request, meant,
                          {go_on, [&](Error warning) { warnings.push_back(std::move(warning)); }});
+  if (thrown) std::rethrow_exception(thrown);
   if (!done) return done;
   if (!before || before != &opened.here->index() || !warnings.empty()) opened.warnings = std::move(warnings);
   const std::string device = opened.here->index().device();

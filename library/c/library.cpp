@@ -299,7 +299,7 @@ WaleCode wale_library_devices(WaleLibrary* library, WaleDevices** devices, WaleE
     if (auto given = is_given("library", library); !given) return given;
     const auto trusted = library->library.trusted_devices();
     if (!trusted) return trusted.error();
-    hand_out_devices(wale::devices(*trusted), devices);
+    hand_out_devices(wale::devices(*trusted, library->library.devices()), devices);
     return {};
   });
 }

@@ -183,7 +183,8 @@ class Chooser {
     const std::string from = is_of_program
                                  ? "` is known only from the patch program, which does not say whether there is a real "
                                    "one"
-                                 : "` is declared by a material, its imports or its project";
+                             : request_.by_call ? "` is declared by the application"
+                                                : "` is declared by a material, its imports or its project";
     return error(Code::untrusted_device,
                  "`" + name + from + ", and only a declaration that you trust says what a newton is on a real device",
                  std::string("`wale devices --identify` writes one of your own; ") +

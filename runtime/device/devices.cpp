@@ -128,10 +128,14 @@ Result<std::unique_ptr<Device>> simulation(const DeviceProfile& profile, const O
 }
 
 /// The profile to simulate where the choice does not say one.
-Result<DeviceProfile> profile_named(const std::string& name, std::span<const TrustedDevice> trusted) {
+Result<DeviceProfile> profile_named(const std::string& name, std::span<const DeclaredDevice> declared,
+                                    std::span<const TrustedDevice> trusted) {
+  for (const DeclaredDevice& each : declared)
+    if (each.profile.name == name) return each.profile;
   for (const TrustedDevice& each : trusted)
     if (each.profile().name == name) return each.profile();
   std::vector<std::string> names;
+  for (const DeclaredDevice& each : declared) names.push_back(each.profile.name);
   for (const TrustedDevice& each : trusted) names.push_back(each.profile().name);
   Error unknown{Code::unknown_device,
                 "there is no device `" + visible_text(name) + "`",
@@ -144,19 +148,22 @@ Result<DeviceProfile> profile_named(const std::string& name, std::span<const Tru
 
 }  // namespace
 
-std::vector<DeviceInfo> devices(const TrustedDevices& trusted) {
+std::vector<DeviceInfo> devices(const TrustedDevices& trusted, std::span<const DeclaredDevice> declared) {
   std::vector<DeviceInfo> all;
   const auto known = all_of(trusted);
   if (!known) return all;
   const Connections connections = Connections::open();
   for (const PluggedIn& each : plugged_in(connections, pointer_driver_name)) all.push_back(info_of(each, *known));
   std::set<std::string> named;  // of two declarations of one name the first counts
-  for (const TrustedDevice& each : *known)
-    if (named.insert(each.profile().name).second)
-      all.push_back({.spelling = "simulated:" + each.profile().name,
+  const auto add = [&](const DeviceProfile& profile) {
+    if (named.insert(profile.name).second)
+      all.push_back({.spelling = "simulated:" + profile.name,
                      .kind = DeviceKind::simulated,
-                     .name = each.profile().name,
-                     .profile = each.profile()});
+                     .name = profile.name,
+                     .profile = profile});
+  };
+  for (const DeclaredDevice& each : declared) add(each.profile);
+  for (const TrustedDevice& each : *known) add(each.profile());
   return all;
 }
 
@@ -182,7 +189,7 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
     connections = Connections::open();
     plugged = plugged_in(*connections, spelling);
   }
-  auto choice = choose_device(request, {}, *trusted, plugged);
+  auto choice = choose_device(request, options.declared, *trusted, plugged);
   if (!choice) {
     Error error = std::move(choice.error());
     if (error.code == Code::absent_device && !connections->usb)
@@ -197,7 +204,7 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
                    {.name = "transport", .text = options.transport}};
     const std::string name = options.built_for.empty() ? default_device : options.built_for;
     const Result<DeviceProfile> profile =
-        choice->declared ? Result<DeviceProfile>(choice->declared->profile) : profile_named(name, *trusted);
+        choice->declared ? Result<DeviceProfile>(choice->declared->profile) : profile_named(name, options.declared, *trusted);
     if (!profile) return profile.error();
     auto simulated = simulation(*profile, options);
     if (!simulated) return simulated;

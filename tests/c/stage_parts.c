@@ -108,6 +108,15 @@ static void placements(void) {
   WaleProfile profile = {.size = sizeof profile};
   CHECK_GOOD(wale_library_profile(own, WALE_TEXT("my_stick"), &profile, &error));
   CHECK(profile.force == 4);
+  WaleDevice* simulated = NULL;
+  CHECK_GOOD(wale_library_open_device(own, WALE_TEXT("simulated:my_stick"), NULL, &simulated, &error));
+  WaleProfile of_it = {.size = sizeof of_it};
+  CHECK_GOOD(wale_device_profile(simulated, &of_it, &error));
+  CHECK(of_it.force == 4 && of_it.rate == 1000);
+  wale_device_free(simulated);
+  CHECK_CODE(WALE_CODE_unknown_device,
+             wale_library_open_device(library, WALE_TEXT("simulated:my_stick"), NULL, &simulated, &error));
+  CHECK_CODE(WALE_CODE_unknown_device, wale_device_open(WALE_TEXT("simulated:my_stick"), NULL, &simulated, &error));
   WaleProgram *cloth = NULL, *rough = NULL, *unknown = NULL;
   WaleCompileOptions for_it = {.size = sizeof for_it, .device = WALE_TEXT("my_stick")};
   CHECK_GOOD(wale_library_find(own, WALE_TEXT("corduroy"), &for_it, &cloth, &error));

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 
 #include "tests/command_line/running.hpp"
 #include "wale/library.hpp"
@@ -214,6 +215,10 @@ TEST_F(ForPrograms, ReadsALibraryThatCanBeStopped) {
                                      }});
   EXPECT_EQ(again.error().code, Code::stopped);
   EXPECT_EQ(left, of - 8) << "what was read is kept";
+  // What it throws comes out of the search, also by a future.
+  const SearchOptions throwing{.progress = [](std::size_t, std::size_t) -> bool { throw std::runtime_error("enough"); }};
+  EXPECT_THROW(library.nearest("corduroy", throwing), std::runtime_error);
+  EXPECT_THROW(library.nearest_later("corduroy", throwing).get(), std::runtime_error);
   // An unknown name is known to be none before anything is read, and so is one of the command line.
   const auto unknown = library.nearest("nix", {.progress = [](std::size_t, std::size_t) -> bool {
                                          ADD_FAILURE();

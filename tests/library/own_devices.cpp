@@ -58,7 +58,40 @@ TEST(OwnDevices, ShippedMaterialsAreCompiledForThem) {
   const auto misspelt = library.find("corduroy", {.device = "rail_stik"});
   ASSERT_FALSE(misspelt);
   EXPECT_EQ(misspelt.error().nearest.front(), "rail_stick");
-  EXPECT_FALSE(library.open_device("rail_stick")) << "it scales no device";
+}
+
+TEST(OwnDevices, AreSimulatedByNameAndScaleNoRealOne) {
+  std::string wired = declared("wired_stick");
+  wired.insert(wired.find("  class"), "  usb \"1209:ffb0\"\n");
+  const Library library({.devices = "wale 1\n" + declared("rail_stick") + wired});
+  ASSERT_TRUE(library.is_usable()) << in_words(library.is_usable().error());
+  const auto program = library.compile("wale 1\nmaterial m { physical { force = -2 N s/m * velocity } }",
+                                       {.device = "rail_stick"});
+  ASSERT_TRUE(program) << in_words(program.error());
+  for (const char* spelling : {"simulated:rail_stick", "rail_stick"}) {
+    auto device = library.open_device(spelling);
+    ASSERT_TRUE(device) << in_words(device.error());
+    EXPECT_EQ((*device)->profile(), program->program.description().device);
+    Stage stage(*std::move(device));
+    ASSERT_TRUE(stage.add(program->program));
+    const auto run = stage.run({.seconds = 1, .virtual_time = true});
+    ASSERT_TRUE(run) << in_words(run.error());
+    float most = 0;
+    for (const TickRecord& each : run->record.ticks) most = std::max(most, std::abs(each.force.x));
+    EXPECT_GT(most, 0.05) << "it moves, and syrup resists";
+  }
+  EXPECT_TRUE(library.open_device("simulated", {.built_for = "rail_stick"}));
+  EXPECT_TRUE(library.open_device("simulated:wired_stick"));
+  const auto refused = library.open_device("wired_stick");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::untrusted_device);
+  EXPECT_NE(refused.error().sentence.find("declared by the application"), std::string::npos) << refused.error().sentence;
+  const auto misspelt = library.open_device("simulated:rail_stik");
+  ASSERT_FALSE(misspelt);
+  EXPECT_EQ(misspelt.error().nearest.front(), "simulated:rail_stick");
+  const auto shown = devices(*library.trusted_devices(), library.devices());
+  EXPECT_EQ(std::ranges::count(shown, "simulated:rail_stick", &DeviceInfo::spelling), 1);
+  EXPECT_EQ(std::ranges::count(shown, "simulated:sandpaper", &DeviceInfo::spelling), 1);
 }
 
 TEST(OwnDevices, WhatIsWrongWithThemIsSaid) {

@@ -400,6 +400,13 @@ def test_a_device_that_a_text_declares(library: wale.Library) -> None:
         for count in range(200):
             force = loop.step((count, 0))
     assert -4 <= force[0] < -0.01  # syrup resists
+    own = wale.Library(devices=text)
+    with own.open_device("simulated:rail_stick") as device, wale.Stage(device) as stage:
+        assert device.profile == syrup.profile
+        stage.add(syrup)
+        assert 0.01 < abs(stage.run(1, virtual_time=True).ticks["force"][:, 0]).max() <= 4
+    assert [each.spelling for each in own.devices()].count("simulated:rail_stick") == 1
+    assert "simulated:rail_stick" not in [each.spelling for each in library.devices()]
     assert library.find("corduroy").profile == wale.profile("sandpaper")
 
 

@@ -71,6 +71,43 @@ TEST(Limits, OfSpringsAndWallsAreNoBumps) {
   }
 }
 
+TEST(Limits, OfSpringsAlongAnAxisAreNoSteps) {
+  std::mt19937 random(21);
+  for (int i = 0; i < 10; ++i) {
+    const double stiffness = std::exp(between(random, std::log(60.0), std::log(600.0)));
+    const double limit = between(random, 0.15, 0.7) * stiffness * 0.07, off = i % 3 == 2 ? between(random, -10, 10) : 0;
+    const double angle = i % 4 == 3 ? between(random, 0.2, 1.3) : 0;
+    const std::string u = fmt::format("(x * {} + y * {} - {} mm)", std::cos(angle), std::sin(angle), off);
+    const std::string way = fmt::format("vector({}, {})", std::cos(angle), std::sin(angle));
+    const std::string spellings[] = {
+        fmt::format("{} * clamp(-{} N/m * {}, -{} N, {} N)", way, stiffness, u, limit, limit),
+        fmt::format("-{} N/m * clamp({}, -{} m, {} m) * {}", stiffness, u, limit / stiffness, limit / stiffness, way),
+        fmt::format("{} * max(min(-{} N/m * {}, {} N), -{} N)", way, stiffness, u, limit, limit)};
+    for (const std::string& spring : spellings) {
+      for (const std::string beside : {"", " + lateral(sin(2 pi * x / 3 mm), amplitude: 0.5 N)", " + viscous(2 N s/m)"}) {
+        const ForceReading found = reading(spring + beside);
+        EXPECT_NEAR(found.stiffness, stiffness, exact * stiffness) << spring << beside;
+        EXPECT_NEAR(found.stiffness_across, 0, exact * stiffness) << spring << beside;
+        EXPECT_NEAR(found.cut_spring(), limit, exact * limit) << spring << beside;
+        EXPECT_TRUE(found.steps.empty() && !found.wall) << spring << beside;
+        EXPECT_NEAR(found.relief().amplitude, beside.find("lateral") != beside.npos ? 0.5 : 0, 0.02) << spring << beside;
+      }
+    }
+  }
+}
+
+TEST(Limits, OfAWaveIsItsShape) {
+  for (const double period : {3.0, 12.0, 40.0, 160.0}) {
+    const std::string wave = fmt::format("vector(clamp(1.5 N * sin(2 pi * x / {} mm), -1 N, 1 N), 0 N)", period);
+    const ForceReading found = reading(wave);
+    EXPECT_EQ(found.cut_spring(), 0) << wave;
+    if (period < 50) {
+      EXPECT_NEAR(found.relief().amplitude, 1, 0.03) << wave;
+      EXPECT_NEAR(found.relief().period, 1e-3 * period, 1e-5 * period) << wave;
+    }
+  }
+}
+
 TEST(Obstacles, ThatJumpLeaveNoSmallFeature) {
   std::mt19937 random(13);
   for (int i = 0; i < 8; ++i) {

@@ -119,11 +119,13 @@ WALE_API WaleCode wale_future_take(WaleFuture* future, WaleProgram** program, Wa
 /* Does not wait; the work goes on, and its result is dropped. */
 WALE_API void wale_future_free(WaleFuture* future);
 
-/* As wale_devices, with the declarations of the owner of this computer. Errors also: those in the owner's file. */
+/* As wale_devices, with the declarations of the owner of this computer, and a simulation of each device that the library's
+   text `devices` declares. Errors also: those in the owner's file. */
 WALE_API WaleCode wale_library_devices(WaleLibrary* library, WaleDevices** devices, WaleError** error);
 /* As wale_profile, also of a device that the owner declares. The text belongs to the library. */
 WALE_API WaleCode wale_library_profile(WaleLibrary* library, WaleText name, WaleProfile* profile, WaleError** error);
-/* As wale_device_open, with the declarations of the owner of this computer. A simulated device is in the hand of a simulated
+/* As wale_device_open, with the declarations of the owner of this computer, and with the devices of the library's text
+   `devices`, which are simulated by name. A simulated device is in the hand of a simulated
    person who rubs to and fro, unless the options say otherwise. Errors also: those in the owner's file. */
 WALE_API WaleCode wale_library_open_device(WaleLibrary* library, WaleText spelling, const WaleDeviceOptions* options,
                                            WaleDevice** device, WaleError** error);

@@ -33,7 +33,7 @@ typedef struct WaleMatch {
   size_t size;
   WaleText name;     /* "corduroy" */
   WaleText module;   /* "fabric.corduroy": "fabric.corduroy:corduroy" is a name for wale_library_find */
-  WaleText file;     /* its path */
+  WaleText file;     /* its path; shipped ones are in the library itself, not on the disk */
   WaleText title;    /* may be empty */
   WaleText kind;     /* may be empty */
   WaleText found_by; /* where it has the sought words: "name", "title", "called" and so on; empty if none were sought */

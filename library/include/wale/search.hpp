@@ -26,7 +26,7 @@ struct SearchOptions {
   std::string device = {};  ///< on which they are compared, by its profile; empty: `default_device`, or that of the named index
   /// Told while the library is read for its index, which the first search by feel of a library needs and which takes from
   /// seconds to minutes: how many files are read, of how many. It returns whether to go on. Called by other threads,
-  /// one at a time; it does not call the library.
+  /// one at a time; it does not call the library. What it throws ends the search, which throws it then.
   std::function<bool(std::size_t done, std::size_t all)> progress = {};
 };
 
@@ -42,7 +42,7 @@ struct FeltDistance {
 struct Match {
   std::string name;    ///< "corduroy"
   std::string module;  ///< the file that declares it, as an import names it: "fabric.corduroy"
-  std::string file;    ///< its path: "library/fabric/corduroy.wale"
+  std::string file;    ///< its path, "library/fabric/corduroy.wale"; shipped ones are in the binary
   std::string title;   ///< may be empty
   std::string kind;    ///< "fabric.woven"; may be empty
   /// Where it has the sought words, "name", "replaces", "title", "called", "kind", "feels" or "documentation", and its

@@ -228,7 +228,8 @@ class Library(Handle):
                                          kind=kind, most=most, device=device))
 
     def devices(self) -> Sequence[DeviceInfo]:
-        """As `wale.devices`, with the declarations of the owner of this computer."""
+        """As `wale.devices`, with the declarations of the owner of this computer, and a simulation of each device that the
+        text `devices` of this library declares."""
         return devices_of(made(lib.wale_library_devices, "WaleDevices", self._pointer))
 
     def profile(self, name: str) -> Profile:
@@ -242,7 +243,7 @@ class Library(Handle):
                     hand: Hand | None = None, motion: Motion | None = None) -> Device:
         """Opens a device as `--device` of the command line spells it, with the declarations of its owner.
 
-        A simulated one is in the hand of a simulated person who rubs to and fro, unless `hand` or `motion` are given.
+        The devices of the text `devices` of this library are simulated by name. A simulated one is in the hand of a simulated person who rubs to and fro, unless `hand` or `motion` are given.
         """
         arguments = Arguments()
         options = device_options(arguments, built_for=built_for, transport=transport, keeper=keeper,

@@ -50,7 +50,10 @@ class Recording(Handle):
 
     @staticmethod
     def intact(path: str | os.PathLike[str]) -> int:
-        """How many ticks of a file can be read: all of a whole one, else those before the place where it is damaged or cut."""
+        """How many ticks of a file can be read: all of a whole one, else those before the place where it is damaged or cut.
+
+        The first 320 KiB hold the conditions and the first events: of a file cut there nothing is left.
+        """
         arguments, ticks = Arguments(), ffi.new("uint64_t*")
         call(lib.wale_recording_intact, arguments.text(path, "path"), ticks)
         return int(ticks[0])

@@ -4,10 +4,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "wale/declared_device.hpp"
 #include "wale/device.hpp"
 #include "wale/result.hpp"
 #include "wale/simulated.hpp"
@@ -51,16 +53,18 @@ struct DeviceInfo {
   std::vector<std::string> held_by = {};      ///< other programs that have it open
 };
 
-/// All that is plugged in, also what cannot be used, then the pointer, then one simulation for each declared device.
-/// Takes some milliseconds for each real device, which is asked for its descriptors only. From any thread, not from a
+/// All that is plugged in, also what cannot be used, then the pointer, then one simulation for each declared device, also
+/// of those `declared`, which come first. Takes some milliseconds for each real device, which is asked for its descriptors only. From any thread, not from a
 /// real-time one.
-std::vector<DeviceInfo> devices(const TrustedDevices& trusted = {});
+std::vector<DeviceInfo> devices(const TrustedDevices& trusted = {}, std::span<const DeclaredDevice> declared = {});
 
 struct OpenOptions {
   /// The declarations that scale a real device. If none are handed over, only the shipped ones count, and a real device
   /// is refused where its owner declares devices (~/.config/wale/devices.wale), which the runtime alone cannot read:
   /// without the owner's wiring it might push the wrong way. `TrustedDevices{}` disregards that file.
   std::optional<TrustedDevices> trusted = {};
+  /// More devices that can be simulated by name, before those of the owner and the shipped ones. They scale no real one.
+  std::vector<DeclaredDevice> declared = {};
   /// The device that a program is built for, by the name of its profile; others are refused then. Empty: any.
   std::string built_for = {};
   /// N at the handle (of a pad m/s^2): what is sent to the device keeps within it, also to a simulated one; positive.

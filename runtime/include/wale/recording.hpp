@@ -113,7 +113,8 @@ class Recording {
   /// file and the byte.
   static Result<Recording> open(const std::string& path, std::size_t most_ticks = SIZE_MAX);
   /// How many ticks of a file can be opened: all of a whole one, and of one that is damaged or cut short those before
-  /// that place. For the `most_ticks` of `open` after `damaged_file`. Reads the whole file. Errors: `unreadable_file`,
+  /// that place. For the `most_ticks` of `open` after `damaged_file`. The first 320 KiB hold the conditions and the first
+  /// events: of a file cut there nothing is left. Reads the whole file. Errors: `unreadable_file`,
   /// `newer_file`, and `damaged_file` for a file that is no recording.
   static Result<std::size_t> intact(const std::string& path);
   /// The same for any bytes in memory. Errors call them `name`.
