@@ -365,12 +365,11 @@ TEST(DescribingForces, ASquareWaveOfOneNewtonReadsOneNewtonAtAnyRate) {
   }
 }
 
-TEST(DescribingForces, WhatDrivesTheHandAwayAndASpringThatSlipsAreNoWalls) {
+TEST(DescribingForces, WhatDrivesTheHandAwayAndASpringThatEndsAreNoWalls) {
   // Each pushes with what is noted behind it, and nowhere back out of a face that it stands behind.
   const std::pair<const char*, double> forces[] = {
       {"vector(if x > 20 mm then 300 N/m * (x - 20 mm) else 0 N, 0 N)", 10},  // the device's limit
-      {"vector(0 N, if y < -15 mm then 200 N/m * (y + 15 mm) else 0 N)", 10},
-      {"vector(-clamp(x * 200 N/m, -2 N, 2 N), 0 N)", 2}};
+      {"vector(0 N, if y < -15 mm then 200 N/m * (y + 15 mm) else 0 N)", 10}};
   for (const auto& [force, most] : forces) {
     const Description description = described(std::string("active 9 W\nforce = ") + force);
     EXPECT_FALSE(percept(description, "hardness")) << force;
@@ -378,6 +377,11 @@ TEST(DescribingForces, WhatDrivesTheHandAwayAndASpringThatSlipsAreNoWalls) {
     EXPECT_TRUE(!description.wall || description.wall->face.place.x == 0.02) << force;
     EXPECT_NEAR(description.unread, most, 0.15 * most) << force;
   }
+  const Description spring = described("force = vector(-clamp(x * 200 N/m, -2 N, 2 N), 0 N)");
+  ASSERT_TRUE(percept(spring, "springiness"));
+  EXPECT_NEAR(percept(spring, "springiness")->amplitude, 200, 2);
+  EXPECT_FALSE(percept(spring, "hardness") || spring.wall);
+  EXPECT_EQ(spring.unread, 0);
   const Description wall = described("force = vector(if x > 20 mm then -300 N/m * (x - 20 mm) else 0 N, 0 N)");
   ASSERT_TRUE(wall.wall);
   EXPECT_NEAR(wall.wall->face.stiffness, 300, 3);
