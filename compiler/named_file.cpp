@@ -169,10 +169,16 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
   return error;
 }
 
-/// The file that `name` means in `name:material`: the module of that name, else the file of the material of that name.
+/// The file that `name` means in `name:material`: the module of that name that has this material, else the module of that
+/// name, else the file of the material of that name.
 Result<NamedFile> find_in_module(const std::string& name, const std::string& material,
                                  const std::vector<std::string>& roots, std::string_view is_not) {
   const std::shared_ptr<const LibraryIndex> index = index_here(roots);
+  std::vector<const IndexedMaterial*> exactly;
+  for (const IndexedMaterial& each : index->materials())
+    if (each.module == name && each.name == material) exactly.push_back(&each);
+  keep_preferred(exactly, {});
+  if (!exactly.empty()) return read_named(exactly.front()->file, material);
   const auto in_module = std::ranges::find(index->materials(), name, &IndexedMaterial::module);
   const bool is_material =
       std::ranges::find(index->materials(), name, &IndexedMaterial::name) != index->materials().end();

@@ -53,6 +53,12 @@ struct ClosedAtEnd {
 }  // namespace
 
 Result<int> open_regular_file(const std::string& path) {
+  // The system would take it for the file of the name before that byte.
+  if (path.find('\0') != std::string::npos) {
+    Error error = unreadable_path(path, "expected a path, found a zero byte in it", "hand over the text up to there");
+    error.code = Code::invalid_encoding;
+    return error;
+  }
   struct stat status {};
   // First by its name: to open some devices has an effect.
   if (stat(path.c_str(), &status) != 0) return unreadable_path(path, text_of(errno));

@@ -148,7 +148,7 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
   }
   if (!(asked.level >= 0 && asked.level <= 1))
     return report(
-        Code::level_out_of_range, asked.span, readable("the level {:.4g} is outside 0 .. 1", asked.level),
+        Code::level_out_of_range, asked.span, readable("the level {:.9g} is outside 0 .. 1", asked.level),
         Advice(asked.level > most_meant_as_level && asked.level <= 100
                    ? typeable("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`", node.name.text,
                               asked.level, asked.level / 100)

@@ -104,7 +104,8 @@ void add_force(nlohmann::ordered_json& json, const Description& description) {
                    {"p99_newton", figure(description.force.p99_newton)},
                    {"rms_newton", figure(description.force.rms_newton)},
                    {"max_may_be_larger", description.force.may_be_larger},
-                   {"over_time", description.force.over_time},
+                   {"over_time", description.force.over_seconds > 0},
+                   {"over_seconds", figure(description.force.over_seconds)},
                    {"bound_newton", figure(description.bound.newton)},
                    {"found_newton", figure(description.bound.found.newton)},
                    {"limit_matters", description.limit_matters}};

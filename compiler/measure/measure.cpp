@@ -24,6 +24,7 @@ constexpr std::size_t climbers = 4, directions = 8;    ///< places from which a 
 constexpr int climbs = 10;                             ///< steps, each half as long as the one before
 constexpr std::size_t resting_hands = 16;              ///< of a program with memory, for a second each
 constexpr double resting_cost = 2e7;                   ///< units of cost of all their ticks
+constexpr double first_seconds = 16;                   ///< of a program without memory, of which some ticks are taken
 constexpr int looking_ticks = 64;                      ///< in which a force that changes by itself shows
 
 bool reads(const PatchProgram& program, std::initializer_list<Input> inputs) {
@@ -38,9 +39,9 @@ bool reads(const PatchProgram& program, std::initializer_list<Input> inputs) {
 
 /// The time of one of the ticks of the first seconds, s; different for each `i`.
 double some_tick(std::size_t i, double rate) {
-  constexpr double golden = 0.61803398874989485, seconds = 16;
+  constexpr double golden = 0.61803398874989485;
   const double share = static_cast<double>(i) * golden;
-  return std::floor((share - std::floor(share)) * seconds * rate) / rate;
+  return std::floor((share - std::floor(share)) * first_seconds * rate) / rate;
 }
 
 /// The largest force among hands that are looked at, and the hands from which a larger one is searched.
@@ -171,9 +172,9 @@ Measured measure(const Bank& bank) {
   for (const auto& force : forces) sizes.push_back(glm::length(force));
   strongest.look_at(at_rest, forces);
   if (program.states.empty())
-    measured.over_time = changes;
+    measured.over_seconds = changes ? first_seconds : 0;
   else
-    measured.over_time = add_seconds(bank, extent, sizes);
+    measured.over_seconds = add_seconds(bank, extent, sizes) ? 1 : 0;
   find_distribution(measured, sizes);
   tick_coarsely(bank, moving, forces);
   strongest.look_at(std::span(moving).subspan(corners), std::span<const Force>(forces).subspan(corners));

@@ -14,8 +14,9 @@ struct Measured {
   /// Whether the force depends on more than the moment's place and velocity: on what a program remembers, on time or on
   /// accelerations. No search tries all of these, so a larger force than `max_newton` is possible.
   bool may_be_larger = false;
-  bool over_time = false;  ///< both are also over a second, since the force on a hand at rest changes with time
-  bool flat = false;       ///< a texture without slope: a peak of zero, so that it cannot push
+  /// s: both are also over so long after a hand has come to rest, since the force on it changes with time; 0: it does not.
+  double over_seconds = 0;
+  bool flat = false;  ///< a texture without slope: a peak of zero, so that it cannot push
 };
 
 /// Runs the program at this bank's parameters. Deterministic; about a millisecond.

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "compiler/modules/declare_records.hpp"
 #include "compiler/text/readable.hpp"
+#include "runtime/machine/verify_figures.hpp"
 
 namespace wale {
 
@@ -264,6 +266,45 @@ void read_all_realisations(RecordReader& reader, const Declarations& declaration
                    : "give a force without a `rate`, or use another class of devices");
 }
 
+/// Where a figure that the machine refuses is declared.
+const char* setting_of(std::string_view figure) {
+  constexpr std::pair<std::string_view, const char*> settings[] = {
+      {"position counts", "position"}, {"speed limit", "speed"},
+      {"force counts", "force"},       {"continuous_force", "sustained"},
+      {"heating_seconds", "sustained"}, {"active_power", "active"},
+      {"velocity_window", "velocity_filter"}, {"velocity_noise_counts", "velocity_filter"},
+      {"patch_width", "patch"},        {"patch_height", "patch"},
+      {"patch_rim", "patch"},          {"delay_x", "delay"},
+      {"delay_y", "delay"},            {"bandwidth_x", "bandwidth"},
+      {"bandwidth_y", "bandwidth"},    {"workspace", "workspace"},
+      {"force", "force"},              {"rate", "rate"},
+      {"slew", "slew"},                {"mass", "mass"},
+      {"damping", "damping"},          {"friction", "friction"}};
+  for (const auto& [of, setting] : settings)
+    if (of == figure) return setting;
+  return "acceleration";  // the figures of a vibration have no names
+}
+
+/// No program is built for a device with a figure that the machine refuses: it is told here, and not of each material.
+void require_possible_figures(RecordReader& reader, const DeviceProfile& profile) {
+  if (const auto* patch = reader.setting("patch")) {
+    const double shorter = std::min(profile.patch_width, profile.patch_height);
+    if (!(shorter > 0 && profile.patch_rim >= 0 && profile.patch_rim < shorter / 2))
+      return reader.report(Code::value_out_of_range, patch->span,
+                           "a patch has a width and a height above 0 and a rim of less than half of these",
+                           "write, for example, `patch 160 mm, 160 mm, 5 mm`");
+  }
+  RefusedFigure refused;
+  try {
+    verify_device(profile, &refused);
+  } catch (const Error& error) {
+    const auto* setting = reader.setting(setting_of(refused.name));
+    reader.report(Code::value_out_of_range, setting ? setting->span : reader.record.name.span,
+                  fmt::format("no program runs on `{}`: {}", profile.name, error.sentence),
+                  "give a figure in this range");
+  }
+}
+
 /// `grade simulated`: what was measured on a simulation is about no plugged device.
 void read_grade(RecordReader& reader, const DeviceWiring& wiring) {
   const auto* grade = reader.setting("grade");
@@ -291,6 +332,7 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
     return reader.reject(Code::declared_twice, record.name.span,
                          fmt::format("a device `{}` is declared already", profile.name), another_name(other->declared));
 
+  const std::size_t errors_before = reader.diagnostics.error_count();
   const bool vibrates = !reader.settings("acceleration").empty();
   if (vibrates) {
     profile.shaker = read_vibration(reader);
@@ -305,6 +347,8 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   read_assumptions(reader, device, vibrates);
   read_all_realisations(reader, declarations, device, vibrates);
   device.source = reader.text("source");
+  if (!reader.lacks_some() && reader.diagnostics.error_count() == errors_before)
+    require_possible_figures(reader, profile);
   const std::string name = profile.name;
   declarations.devices.add(name,
                            {.what = std::move(device), .declared = record.name.span, .exported = record.exported});

@@ -21,6 +21,8 @@ class RecordReader {
   std::vector<const Setting*> settings(const std::string& key);                 ///< all with that key
   const Setting* setting(const std::string& key);                               ///< the only one with that key, or null
   const Setting* required(const std::string& key, const std::string& example);  ///< null is reported by `report_keys`
+  /// Whether a required setting is missing, which is reported when all are read.
+  bool lacks_some() const { return !missing_.empty(); }
 
   /// Item `index` of a setting as a quantity of the named dimension ("number" for a plain one), in SI.
   std::optional<double> quantity(const Setting& setting, std::size_t index, const std::string& dimension);

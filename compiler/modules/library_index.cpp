@@ -165,7 +165,9 @@ std::vector<const IndexedMaterial*> LibraryIndex::meant_by(std::string_view text
   };
   if (take(is_called)) return found;
   if (take([&](const IndexedMaterial& each) { return each.kind == text; })) return found;
-  take([&](const IndexedMaterial& each) { return each.module == text || each.module + "." + each.name == text; });
+  std::string dotted(text);  // `MODULE:NAME` too
+  std::ranges::replace(dotted, ':', '.');
+  take([&](const IndexedMaterial& each) { return each.module == text || each.module + "." + each.name == dotted; });
   return found;
 }
 

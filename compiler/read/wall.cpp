@@ -26,6 +26,7 @@ constexpr int steps_free = 8;             // 4 mm without force before a face; n
 constexpr int steps_deep = 3;             // 1.5 mm over which the force must grow in proportion to depth
 constexpr double least_push = 0.02;       // N at that depth
 constexpr double proportional = 0.15;     // of the force: tolerance for a straight line
+constexpr double gently = 0.03;           // of the largest push: what may be felt where a face begins
 constexpr double slow = 0.02;             // m/s, the speed at which damping is measured
 constexpr double nearly_straight = 0.02;  // of the largest push
 constexpr double jump_of_rise = 3;        // times the usual rise from one step to the next
@@ -154,8 +155,11 @@ std::optional<FaceFound> face_of(const Feature& feature, bool from_low) {
   double off = 0;
   for (std::size_t i = first; i <= last; ++i)
     off = std::max(off, std::abs(against[i] - slope * (feature.step * static_cast<double>(i) - onset)));
-  // A spring is as steep at the flat end; a bend is no face.
+  // A spring is as steep at the flat end; a bend is no face, nor is a push that grows with the square of the depth, which
+  // is a twentieth of the largest where its straight line begins.
   if (!(slope > 0) || off > proportional * 0.6 * most || onset < steps_free * step) return std::nullopt;
+  const auto at_onset = static_cast<std::size_t>(onset / feature.step);
+  if (against[at_onset] > gently * most + slope * feature.step) return std::nullopt;
   const auto before = static_cast<std::size_t>(0.7 * onset / feature.step);
   for (std::size_t i = 0; i < before; ++i)
     if (std::abs(against[i]) > 0.1 * most) return std::nullopt;

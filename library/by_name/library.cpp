@@ -446,10 +446,9 @@ Result<std::unique_ptr<Device>> Library::open_device(std::string_view spelling, 
     if (!trusted) return std::move(trusted.error());
     options.trusted = *std::move(trusted);
   }
-  if (parts_->own) {
-    const std::vector<DeclaredDevice>& own = parts_->own->devices;
-    options.declared.insert(options.declared.end(), own.begin(), own.end());
-  }
+  if (!parts_->own) return parts_->own.error();
+  const std::vector<DeclaredDevice>& own = parts_->own->devices;
+  options.declared.insert(options.declared.end(), own.begin(), own.end());
   const HandModel& hand = options.hand;
   if (hand.mass == 0 && hand.damping == 0 && hand.stiffness == 0) {
     const SimulatedPerson person = *this->person();

@@ -12,6 +12,8 @@ Error wrong_with(const std::string& folder) {
   std::error_code ignored;
   const std::string shown = "`" + visible_text(folder) + "`";
   if (folder.empty()) return {.sentence = "expected a folder, found an empty text", .mend = "write \".\" for the current one"};
+  if (folder.find('\0') != std::string::npos)
+    return {.sentence = "expected a path, found a zero byte in it", .mend = "hand over the text up to there"};
   if (std::filesystem::is_directory(folder, ignored)) return {};
   if (std::filesystem::exists(folder, ignored))
     return {.sentence = shown + " is a file, and no folder", .mend = "name the folder that it is in"};
@@ -24,7 +26,7 @@ std::optional<Error> missing_folder(const std::vector<std::string>& folders, con
   for (const std::string& each : folders) {
     Error error = wrong_with(each);
     if (error.sentence.empty()) continue;
-    error.code = Code::unreadable_file;
+    error.code = each.find('\0') == std::string::npos ? Code::unreadable_file : Code::invalid_encoding;
     error.place = {.name = argument, .text = each};
     return error;
   }

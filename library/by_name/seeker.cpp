@@ -1,6 +1,7 @@
 #include "library/by_name/seeker.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "library/store/kept_index.hpp"
 #include "library/store/seek.hpp"
 #include "schema/name_text.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
@@ -31,6 +33,11 @@ Result<std::vector<SoughtLevel>> sought_levels(const std::vector<PerceptRange>& 
   for (const PerceptRange& each : ranges) {
     if (!known.percept_named(each.percept).percept)
       return unknown(Code::unknown_name, "percept", each.percept, known.percept_spellings());
+    if (!std::isfinite(each.low) || !std::isfinite(each.high))
+      return Error{.code = Code::malformed_value,
+                   .sentence = "expected finite levels",
+                   .mend = "write, for example, low 0.4 and high 0.6",
+                   .place = {.name = "percepts", .text = each.percept}};
     if (!(each.low >= 0) || !(each.high <= 1) || !(each.low <= each.high))
       return Error{.code = Code::level_out_of_range,
                    .sentence = "expected levels from 0 to 1, the lower one first",
@@ -75,7 +82,13 @@ Result<> is_kind(const std::string& kind, const std::vector<std::string>& kinds)
 
 /// The error about a material that is an argument.
 Error about_material(Error error, const char* argument, const std::string& text) {
-  if (error.place.name == text && !error.place.number) error.place = {.name = argument, .text = text};
+  if (error.place.name == text && !error.place.number) {
+    if (error.code == Code::unreadable_file) {
+      error.sentence = "`" + visible_text(text) + "` " + error.sentence;
+      error.mend = "name a Wale file that exists, or a material";
+    }
+    error.place = {.name = argument, .text = text};
+  }
   return in_own_words(std::move(error));
 }
 

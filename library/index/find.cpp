@@ -146,7 +146,8 @@ Result<std::uint32_t> meant_entry(const MaterialIndex& index, std::string_view t
     return Error{.code = Code::ambiguous_material,
                  .sentence = fmt::format("`{}` may be {} materials: {}", visible_text(text), found->size(), all),
                  .mend = fmt::format("name its module too, as in `{}`", places.front()),
-                 .place = {.name = std::string(text)}};
+                 .place = {.name = std::string(text)},
+                 .nearest = places};
   }
   // The nearest name, of as many as there are. Among equally near ones it is the first by its bytes, since rows are in
   // another order in each storage.

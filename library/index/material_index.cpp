@@ -56,6 +56,11 @@ class IndexInMemory final : public MaterialIndex, WordTable {
 }  // namespace
 
 std::string meant_text(MeantBy by, std::string_view text) {
+  if (by == MeantBy::module) {  // as in `MODULE:NAME` too
+    std::string dotted(text);
+    std::ranges::replace(dotted, ':', '.');
+    return dotted;
+  }
   if (by != MeantBy::called) return std::string(text);
   std::string joined;
   for (const std::string& word : words_of(text)) joined += (joined.empty() ? "" : " ") + word;

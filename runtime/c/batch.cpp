@@ -33,6 +33,21 @@ Result<> is_sound(const WaleBatchOptions& given, const WaleVector* forces) {
   for (const WaleVector& each : std::span(given.position, given.hands * given.ticks))
     if (!std::isfinite(each.x) || !std::isfinite(each.y))
       return about_argument("position", "expected finite numbers", "give m from the patch's centre");
+  struct Motion {
+    const char* name;
+    const WaleVector* rows;
+    const char* mend;
+  };
+  const Motion motions[] = {{"velocity", given.velocity, "give m/s"},
+                            {"raw_velocity", given.raw_velocity, "give m/s"},
+                            {"acceleration", given.acceleration, "give m/s^2"},
+                            {"raw_acceleration", given.raw_acceleration, "give m/s^2"},
+                            {"workspace", given.workspace, "give m from the workspace's centre"}};
+  for (const auto& [name, rows, mend] : motions)
+    if (rows != nullptr)
+      for (const WaleVector& each : std::span(rows, given.hands * given.ticks))
+        if (!std::isfinite(each.x) || !std::isfinite(each.y))
+          return about_argument(name, "expected finite numbers", mend);
   return is_given("forces", forces);
 }
 

@@ -35,8 +35,9 @@ WaleVector wale_loop_step(WaleLoop* loop, const WaleReading* reading, int64_t pe
     read.counts = {given.counts_x, given.counts_y};
     read.button = given.button != 0;
     if (given.measures_interaction != 0) read.interaction = {given.interaction_x, given.interaction_y};
-    if (given.contact == WALE_READING_good) read.contact = wale::Contact::good;
-    if (given.contact == WALE_READING_lost) read.contact = wale::Contact::lost;
+    read.contact = given.contact == WALE_READING_good    ? wale::Contact::good
+                   : given.contact == WALE_READING_stale ? wale::Contact::stale
+                                                         : wale::Contact::lost;
   }
   return vector_of(loop->loop->step(read, periods));
 }

@@ -1,9 +1,13 @@
 #include "runtime/c/profile.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <optional>
 
 #include "runtime/c/sized.hpp"
 #include "runtime/device/shipped_devices.hpp"
+#include "runtime/machine/verify_figures.hpp"
 #include "runtime/stage/device_figures.hpp"
 #include "schema/closest_names.hpp"
 #include "schema/sentence.hpp"
@@ -49,14 +53,52 @@ constexpr Figure all_figures[] = {
 static_assert(sizeof(WaleProfile) ==
               sizeof(size_t) + sizeof(WaleText) + sizeof(double) * std::size(all_figures) + 2 * sizeof(int32_t));
 
-/// The shipped pad of that name: what shakes it is in no struct.
-Result<Shaker> shaker_of(const std::string& name) {
+/// What shakes the pads whose profiles were given out: it is in no struct. A process gives out the profiles of few pads.
+class Shakers {
+ public:
+  void remember(const DeviceProfile& profile) {
+    const std::lock_guard lock(mutex_);
+    const auto known = std::ranges::find(pads_, profile);
+    if (known == pads_.end())
+      pads_.push_back(profile);
+    else
+      std::rotate(known, known + 1, pads_.end());
+    if (pads_.size() > most) pads_.erase(pads_.begin());
+  }
+  /// Of the last pad that was given out with these figures, or else of the last one of that name.
+  std::optional<Shaker> of(const DeviceProfile& figures) const {
+    const std::lock_guard lock(mutex_);
+    std::optional<Shaker> found;
+    for (auto each = pads_.rbegin(); each != pads_.rend(); ++each) {
+      if (each->name != figures.name) continue;
+      if (!found) found = each->shaker;
+      DeviceProfile same = *each;
+      same.shaker = figures.shaker;
+      if (same == figures) return each->shaker;
+    }
+    return found;
+  }
+
+ private:
+  static constexpr std::size_t most = 1000;
+  mutable std::mutex mutex_;
+  std::vector<DeviceProfile> pads_;
+};
+
+Shakers& shakers() {
+  static Shakers all;
+  return all;
+}
+
+/// What shakes the shipped pad of that name, or the pad whose profile was given out.
+Result<Shaker> shaker_of(const DeviceProfile& figures) {
+  if (auto known = shakers().of(figures)) return *std::move(known);
   const auto& shipped = shipped_devices();
   if (shipped)
     for (const DeclaredDevice& each : *shipped)
-      if (each.profile.name == name && each.profile.shaker) return *each.profile.shaker;
-  return about_argument("profile", "expected the profile of a shipped pad, since no other one's shaker is known",
-                        "ask wale_profile for it by its name");
+      if (each.profile.name == figures.name && each.profile.shaker) return *each.profile.shaker;
+  return about_argument("profile", "expected the profile of a pad, as a call gave it: what shakes it is not in it",
+                        "ask wale_profile or wale_library_profile for it by its name");
 }
 
 }  // namespace
@@ -65,6 +107,7 @@ WaleProfile figures_of(const DeviceProfile& profile) {
   WaleProfile figures{
       .name = text_of(profile.name), .vibrates = profile.shaker.has_value(), .has_position = profile.has_position()};
   for (const Figure& each : all_figures) figures.*each.in_c = profile.*each.in_cpp;
+  if (profile.shaker) shakers().remember(profile);
   return figures;
 }
 
@@ -90,9 +133,12 @@ Result<DeviceProfile> read_profile(const WaleProfile* profile) {
   const auto vibrates = read_flag("vibrates", given->vibrates);
   if (!vibrates) return vibrates.error();
   if (*vibrates) {
-    auto shaker = shaker_of(read.name);
+    auto shaker = shaker_of(read);
     if (!shaker) return std::move(shaker).error();
     read.shaker = *std::move(shaker);
+  } else if (const auto placed = read_flag("has_position", given->has_position); !placed || !*placed) {
+    if (!placed) return placed.error();
+    return about_argument("has_position", "a device that pushes has a position", "give 1");
   }
   if (auto sound = check_declared_figures(read); !sound) {
     Error error = std::move(sound).error();

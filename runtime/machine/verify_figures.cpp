@@ -208,7 +208,7 @@ void verify_device(const DeviceProfile& device, RefusedFigure* refused) {
           device.continuous_newton > 0 ? DeviceProfile::least_heating_seconds : 0, 1e6,
           "the device's time constant of heating (s)");
   require("active_power", device.active_watt, 0, most_active_watt, "the device's power for active programs (W)");
-  require("velocity_window", device.velocity_window, 0, 1e4, "the device's velocity window (ticks)");
+  require("velocity_window", device.velocity_window, 0, most_velocity_window, "the device's velocity window (ticks)");
   require("velocity_noise_counts", device.velocity_noise_counts, 0, 1e6, "the device's velocity noise (counts)");
   require("patch_width", device.patch_width, 0, 10, "the device's patch width (m)");
   require("patch_height", device.patch_height, 0, 10, "the device's patch height (m)");

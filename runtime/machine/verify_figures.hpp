@@ -17,6 +17,9 @@ template <typename... Parts>
 /// lattices of peaks, the patch, the device, percepts and fates. Throws as `refuse` does.
 void verify_figures(const PatchProgram& program);
 
+/// Ticks. The filter tries each length of its window at each tick.
+inline constexpr double most_velocity_window = 100;
+
 /// A figure of a device that is out of its range.
 struct RefusedFigure {
   std::string_view name;  ///< "slew"

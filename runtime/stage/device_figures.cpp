@@ -48,11 +48,6 @@ Result<> check_declared_figures(const DeviceProfile& profile) {
     unfit.found = unfit.place.text = sentence(refused.value);
     return unfit;
   }
-  if (profile.velocity_window > most_velocity_window)
-    return unusable(profile, "velocity_window",
-                    sentence(" declares a velocity window of ", profile.velocity_window, " ticks, expected ",
-                             most_velocity_window, " at most"),
-                    "declare a shorter one");
   return {};
 }
 

@@ -179,6 +179,10 @@ static void wrong_readings(void) {
   longer.newer = 1;
   wale_loop_step(loop, &longer.known, 1);
   CHECK(wale_stage_now(stage, &now) == 0 && now.guards.stale == 1);
+  /* A contact that nobody knows is none. */
+  WaleReading unknown = {.size = sizeof unknown, .contact = 77};
+  wale_loop_step(loop, &unknown, 1);
+  CHECK(wale_stage_now(stage, &now) == 0 && now.guards.stale == 1 && now.guards.lost == 2);
   wale_loop_free(loop), wale_stage_free(stage);
 }
 

@@ -114,6 +114,15 @@ TEST_F(ForPrograms, AnswersAreThoseOfTheCommandLine) {
   const std::string own = folder_.write("own.wale", "wale 1\nmaterial own { perceptual { roughness 0.62 } }\n");
   expect_same(library.nearest(own), told({"find", "--near", own}));
   expect_same(library.nearest_later("ribs2").get(), told({"find", "--near", "ribs2"}));
+  // Each match names a material for `find` and for another search.
+  for (const Match& each : near->matches) {
+    const auto again = library.nearest(each.module + ":" + each.name), by_name = library.nearest(each.name);
+    ASSERT_TRUE(again && by_name) << each.name;
+    ASSERT_EQ(again->matches.size(), by_name->matches.size());
+    EXPECT_EQ(again->matches.front().name, by_name->matches.front().name);
+  }
+  const double not_a_number = std::nan("");
+  EXPECT_EQ(library.search("", {.percepts = {{"roughness", not_a_number, 1}}}).error().code, Code::malformed_value);
 }
 
 /// Words alone need no index: the catalogue is that of `wale find`.
@@ -148,7 +157,7 @@ TEST_F(ForPrograms, ErrorsNameTheArgument) {
   refused(library.nearest("ribs1", {.kind = "trial.wovn"}), Code::unknown_name, "kind", "trial.woven");
   refused(library.search("", {.percepts = {{"roughnes", 0, 1}}}), Code::unknown_name, "percept", "roughness");
   refused(library.search("", {.percepts = {{"roughness", 0.5, 0.2}}}), Code::level_out_of_range, "percepts");
-  refused(library.search("", {.percepts = {{"roughness", std::nan(""), 0.2}}}), Code::level_out_of_range, "percepts");
+  refused(library.search("", {.percepts = {{"roughness", std::nan(""), 0.2}}}), Code::malformed_value, "percepts");
   refused(library.nearest("ribs1", {.device = "falcon"}), Code::other_device, "device");
   refused(library.nearest("ribs1", {.device = "falcom"}), Code::unknown_device, "device", "falcon");
   refused(library.search("\xff"), Code::invalid_encoding, "text");
@@ -185,6 +194,10 @@ TEST_F(ForPrograms, ErrorsInAFileOfOnesOwnAreItsOwn) {
 TEST_F(ForPrograms, MendsAreInTheWordsOfTheInterface) {
   const Library library(in_index());
   EXPECT_EQ(library.nearest("zzzzzzzzzzzzzzz").error().mend.find("wale find"), std::string::npos);
+  const Error missing = library.nearest("zzz.wale").error();
+  EXPECT_EQ(missing.code, Code::unreadable_file);
+  EXPECT_NE(missing.sentence.find("zzz.wale"), std::string::npos) << missing.sentence;
+  EXPECT_EQ(missing.mend.find("`nearest`"), std::string::npos) << missing.mend;
   EXPECT_EQ(library.search("a\nb").error().sentence.find("a name"), std::string::npos);
   LibraryOptions other;
   other.index = folder_.write("no.index", std::string(5000, 'x'));

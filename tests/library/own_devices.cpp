@@ -118,6 +118,42 @@ TEST(OwnDevices, WhatIsWrongWithThemIsSaid) {
   const Error wrong = refused("wale 1\n" + declared("rail_stick") + "export device lost {\n  force 4 N m, 10 counts\n}\n");
   EXPECT_FALSE(wrong.others.empty());
   EXPECT_TRUE(Library({.devices = ""}).is_usable());
+  for (const std::string spelling : {"auto", "usb", "simulated", "pointer"})
+    EXPECT_EQ(refused("wale 1\n" + declared(spelling)).code, Code::declared_twice) << spelling;
+  const Library hidden({.devices = "wale 1\nexport device rail_stick { }"});
+  EXPECT_EQ(in_words(hidden.open_device("simulated:rail_stick").error()), in_words(hidden.is_usable().error()))
+      << "what hides the device is said";
+}
+
+TEST(OwnDevices, FiguresThatNoProgramRunsWithAreToldWhereTheyStand) {
+  const std::pair<const char*, const char*> changes[] = {
+      {"mass 0.1 kg", "mass -1 kg"},
+      {"mass 0.1 kg", "mass 5 t"},
+      {"friction assumed 0.05 N", "friction -3 N"},
+      {"damping assumed 1 N s/m", "damping -1 N s/m"},
+      {"force 4 N, 1000 counts", "force 4 N, 0 counts"},
+      {"force 4 N, 1000 counts", "force 4 N, -5 counts"},
+      {"force 4 N, 1000 counts", "force 5 kN, 1000 counts"},
+      {"disc(100 mm)", "disc(1 km)"},
+      {"speed assumed 1 m/s", "speed 1 km/s"},
+      {"slew assumed 100 N/s", "slew 1e12 N/s"},
+      {"velocity_filter 15, 1 counts", "velocity_filter 101, 1 counts"},
+      {"velocity_filter 15, 1 counts", "velocity_filter 15, -1 counts"},
+      {"patch 80 mm, 80 mm, 5 mm", "patch -80 mm, 80 mm, 5 mm"},
+      {"patch 80 mm, 80 mm, 5 mm", "patch 80 mm, 0 mm, 5 mm"},
+      {"patch 80 mm, 80 mm, 5 mm", "patch 80 mm, 80 mm, 40 mm"},
+      {"patch 80 mm, 80 mm, 5 mm", "patch 80 mm, 80 mm, -1 mm"}};
+  for (const auto& [figure, wrong] : changes) {
+    std::string text = "wale 1\nunit t = 1000 kg\n" + declared("rail_stick");
+    const std::size_t at = text.find(figure);
+    ASSERT_NE(at, std::string::npos) << figure;
+    text.replace(at, std::string(figure).size(), wrong);
+    const auto usable = Library({.devices = text}).is_usable();
+    ASSERT_FALSE(usable) << wrong;
+    EXPECT_EQ(usable.error().code, Code::value_out_of_range) << in_words(usable.error());
+    EXPECT_EQ(usable.error().place.number, 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'))
+        << in_words(usable.error());
+  }
 }
 
 TEST(OwnDevices, ComeBeforeThoseOfTheOwner) {

@@ -59,6 +59,9 @@ def test_wrong_arrays(corduroy: wale.Program) -> None:
     for wrong in [{"velocity": np.zeros((2, 2, 2))}, {"time": [1, 2]}, {"button": np.zeros((2, 2))}]:
         with pytest.raises(ValueError):
             wale.batch(corduroy, position, **wrong)
+    for name in ["velocity", "raw_velocity", "acceleration", "raw_acceleration", "workspace"]:
+        with pytest.raises(wale.Error, match=name):
+            wale.batch(corduroy, position, **{name: np.full((2, 3, 2), math.nan)})
     for wrong in [{"settings": {"whale": 1}}, {"settings": {"wale": math.nan}}, {"size": (-1, 1)}]:
         with pytest.raises(wale.Error):
             wale.batch(corduroy, position, **wrong)

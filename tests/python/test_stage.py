@@ -410,6 +410,28 @@ def test_a_device_that_a_text_declares(library: wale.Library) -> None:
     assert library.find("corduroy").profile == wale.profile("sandpaper")
 
 
+def test_a_pad_that_a_text_declares() -> None:
+    from dataclasses import replace
+
+    text = ("wale 1\nexport device pad {\n  class vibrating_pad\n  position none\n  explores 0.1 m/s\n  acceleration 60 Hz, 100 % = %A m/s^2\n"
+            "  frequency 30 Hz .. 180 Hz\n  rate 250 Hz\n  patch 80 mm, 60 mm, 3 mm\n}\n")
+    strong, weak = (wale.Library(devices=text.replace("%A", most)) for most in ("12", "3"))
+    for own, most in [(strong, 12), (weak, 3), (strong, 12)]:
+        program = own.find("corduroy", device="pad")
+        with own.open_device("simulated:pad") as device:
+            profiles = [device.profile, own.profile("pad"), program.profile]
+        for profile in profiles:
+            with wale.Stage(profile) as stage:
+                stage.add(program)
+                with wale.Loop(stage) as loop:
+                    drives = [loop.step((0, 0)) for _ in range(100)]
+                assert 0 < max(drive[0] for drive in drives) <= most
+    with pytest.raises(wale.Error, match="shakes"):
+        wale.Stage(replace(wale.profile("gamepad"), name="nobodys_pad"))
+    with pytest.raises(wale.Error, match="position"):
+        wale.Stage(replace(wale.profile("sandpaper"), has_position=False))
+
+
 def test_ticks_say_which_patch_they_were_on(device: wale.Device, library: wale.Library, tmp_path) -> None:
     file = tmp_path / "run.wrec"
     with wale.Stage(device, record=file) as stage:

@@ -44,7 +44,8 @@ struct LibraryOptions {
   /// no real device (`trusted_devices`): the application's class derived from `Device` serves one. Imports are looked for
   /// in `folders`. An error in it (with `place.name` "devices"), a text that exports no device (`unknown_device`) and a
   /// name that a shipped device has (`declared_twice`) come from `is_usable` and from each call that makes or checks a
-  /// program or a workspace.
+  /// program or a workspace, or opens a device. Figures that no program runs with are `value_out_of_range`; a device that
+  /// is called as another spelling of `open_device` ("auto") is `declared_twice`.
   std::string devices = {};
 };
 

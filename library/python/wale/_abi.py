@@ -88,7 +88,8 @@ class Arguments:
             try:
                 setattr(made, name, value)
             except OverflowError as why:
-                raise ValueError(f"{name}: expected a smaller number, found {value!r}") from why
+                size = "smaller" if value > 0 else "larger"
+                raise ValueError(f"{name}: expected a {size} number, found {value!r}") from why
         self._kept.append(made)
         return made
 

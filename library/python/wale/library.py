@@ -243,7 +243,8 @@ class Library(Handle):
                     hand: Hand | None = None, motion: Motion | None = None) -> Device:
         """Opens a device as `--device` of the command line spells it, with the declarations of its owner.
 
-        The devices of the text `devices` of this library are simulated by name. A simulated one is in the hand of a simulated person who rubs to and fro, unless `hand` or `motion` are given.
+        The devices of the text `devices` of this library are simulated by name. A simulated one
+        is in the hand of a simulated person who rubs to and fro, unless `hand` (not all 0) or `motion` are given.
         """
         arguments = Arguments()
         options = device_options(arguments, built_for=built_for, transport=transport, keeper=keeper,

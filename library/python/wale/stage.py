@@ -210,10 +210,11 @@ def _interrupts_later() -> Iterator[list[int]]:
         usual(heard[0], None)
 
 
-def _wait_for_end(over: threading.Event, heard: list[int], interrupt: Callable[[], None]) -> None:
+def _wait_for_end(over: threading.Event, thread: threading.Thread, heard: list[int],
+                  interrupt: Callable[[], None]) -> None:
     """Waits for the end of a run, and ends it when an interrupt is heard or another signal's handler raises."""
     raised: BaseException | None = None
-    while not over.is_set():
+    while not over.is_set() and thread.is_alive():  # without memory it may end before it has begun
         try:
             if heard or raised is not None:  # again and again, since the run may not have begun
                 interrupt()
@@ -314,8 +315,11 @@ class Stage(Handle):
         # On a thread of its own, since this one must hear an interrupt. Meanwhile an interrupt raises nothing, since
         # it might do so anywhere here: it ends the run, and is handed on afterwards.
         with _interrupts_later() as heard:
-            threading.Thread(target=serve).start()
-            _wait_for_end(over, heard, interrupt)
+            thread = threading.Thread(target=serve)
+            thread.start()
+            _wait_for_end(over, thread, heard, interrupt)
+        if not done:
+            raise MemoryError("the run's thread found no memory")
         if isinstance(done[0], BaseException):
             raise done[0]
         run: Run = done[0]

@@ -35,8 +35,8 @@ typedef struct WaleBatchOptions {
 /* Runs the program on all hands, on all cores, and writes a force (N; of a pad amplitude and frequency) for each hand and tick.
    Each hand has its own states, which it keeps from tick to tick, and enters where it is at its first tick; nothing writes
    grids. The forces are those of a patch before the guards, to the bit, and do not depend on the number of cores.
-   Errors: unknown_name for a setting; malformed_value for NULL, a size that makes no sense, or a setting, a position or a
-   time that is not finite. */
+   Errors: unknown_name for a setting; malformed_value for NULL, a size that makes no sense, or a setting, a place, a
+   motion or a time that is not finite. */
 WALE_API WaleCode wale_batch(const WaleProgram* program, const WaleBatchOptions* options, WaleVector* forces,
                              WaleError** error);
 

@@ -14,8 +14,9 @@ struct TickRecord {
   double time = 0;            ///< s since the run began
   glm::vec2 position{0};      ///< m from the workspace's centre, by the encoder
   glm::vec2 velocity{0};      ///< m/s, filtered
-  Force force{0};             ///< N, exerted by the actuator from this tick on (clamped, quantised, held); of a pad
-                              ///< its vibration, m/s^2 and Hz
+  /// N, told to the actuator from this tick on (clamped, in its steps, held): its delay and bandwidth are not in it. Of a
+  /// pad its vibration, m/s^2 and Hz.
+  Force force{0};
   Force interaction{0};       ///< N from hand to handle over the period before; not-a-number where unknown
   float lateness = 0;         ///< s, how long after its deadline the tick began
   std::uint32_t skipped = 0;  ///< periods that were not served just before this tick

@@ -10,7 +10,8 @@ extern "C" {
 /* The figures of a run that is over, and its record. It never changes. */
 typedef struct WaleRun WaleRun;
 
-/* What came out of the handle, and the levels as which it is felt. It never changes. */
+/* What the device was told to exert, and the levels as which that is felt. What an actuator's delay and bandwidth take away shows
+   in the interaction alone. It never changes. */
 typedef struct WaleFelt WaleFelt;
 
 /* On how many ticks each guard changed the force. Its layout never changes. */
@@ -85,7 +86,7 @@ typedef struct WaleTick {
   double time;            /* s since the run began */
   WaleVector position;    /* m from the workspace's centre, by the encoder */
   WaleVector velocity;    /* m/s, filtered */
-  WaleVector force;       /* exerted by the actuator from this tick on */
+  WaleVector force;       /* what the device was told to exert from this tick on, in its steps; its delay and bandwidth are not in it */
   WaleVector interaction; /* N from hand to handle over the period before; not-a-number where unknown */
   float lateness;         /* s */
   uint32_t skipped;       /* periods that were not served just before this tick */
@@ -120,8 +121,8 @@ typedef struct WaleFeltFigures {
   int64_t ticks_rubbing; /* of them, those with the hand not stuck; of a pad all */
   int64_t crossings;     /* flanks of a texture that the hand crossed */
   double stuck;          /* share of the ticks within the patch */
-  double force_p99, force_maximum, force_rms;                   /* the actuator's */
-  double rubbing_p99, rubbing_maximum, rubbing_rms;             /* the actuator's while rubbing */
+  double force_p99, force_maximum, force_rms;                   /* of the commands, in the device's steps */
+  double rubbing_p99, rubbing_maximum, rubbing_rms;             /* the same while rubbing */
   double interaction_p99, interaction_maximum, interaction_rms; /* between hand and handle while rubbing */
   double drag;           /* N: what the force would be by this law alone, against the motion */
   double viscosity;      /* N s/m */

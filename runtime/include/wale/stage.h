@@ -64,8 +64,8 @@ typedef struct WalePlacementDetails {
    Errors: malformed_value; wrong_moment if another stage has the device, or in a child of fork, whose parent has opened it. */
 WALE_API WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, WaleStage** stage,
                                     WaleError** error);
-/* Without a device, for a loop of one's own (wale/loop.h). Of a pad the profile must be that of wale_profile or
-   wale_device_profile: what shakes it is found by its name. Errors: malformed_value, also for a profile without a name or with
+/* Without a device, for a loop of one's own (wale/loop.h). Of a pad the profile must be one that a call of this process gave:
+   what shakes it is not in it, and is that of the last one with this name and these figures, or else with this name. Errors: malformed_value, also for a profile without a name or with
    a figure beyond its range; invalid_encoding. */
 WALE_API WaleCode wale_stage_create_for(const WaleProfile* profile, const WaleStageOptions* options, WaleStage** stage,
                                         WaleError** error);
