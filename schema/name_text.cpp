@@ -40,4 +40,12 @@ Result<> is_name_text(const std::string& argument, std::string_view text, const 
   return {};
 }
 
+Result<> is_path_text(const std::string& argument, std::string_view path) {
+  if (path.find('\0') == std::string_view::npos) return {};
+  return with_expectation({.code = Code::invalid_encoding,
+                           .sentence = "expected a path, found a zero byte in it",
+                           .mend = "hand over the text up to there",
+                           .place = {.name = argument, .text = std::string(path)}});
+}
+
 }  // namespace wale

@@ -19,4 +19,8 @@ inline constexpr const char* device_name_mend = "write the name of a device's pr
 Result<> is_name_text(const std::string& argument, std::string_view text, const char* mend = usual_name_mend,
                       const char* what = "a name");
 
+/// Whether a text may be a path: the system would take one with a zero byte for what stands before that. Error:
+/// `invalid_encoding`, about `argument`.
+Result<> is_path_text(const std::string& argument, std::string_view path);
+
 }  // namespace wale

@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "schema/name_text.hpp"
+
 namespace wale {
 namespace {
 
@@ -53,12 +55,7 @@ struct ClosedAtEnd {
 }  // namespace
 
 Result<int> open_regular_file(const std::string& path) {
-  // The system would take it for the file of the name before that byte.
-  if (path.find('\0') != std::string::npos) {
-    Error error = unreadable_path(path, "expected a path, found a zero byte in it", "hand over the text up to there");
-    error.code = Code::invalid_encoding;
-    return error;
-  }
+  if (auto possible = is_path_text(path, path); !possible) return std::move(possible.error());
   struct stat status {};
   // First by its name: to open some devices has an effect.
   if (stat(path.c_str(), &status) != 0) return unreadable_path(path, text_of(errno));

@@ -398,10 +398,9 @@ void write_pushing(std::string& text, const Description& description) {
       readable("\npushes\n  {:.3f} N {} with these parameters; with any, never more than {:.3f} N (proved)\n",
                description.force.max_newton, description.force.may_be_larger ? "is the largest force found" : "at most",
                description.bound.newton);
+  const double seconds = description.force.over_seconds;
   text += readable("  on a hand at rest, over the patch{}: P99 {:.3f} N, RMS {:.3f} N\n",
-                   description.force.over_seconds > 0
-                       ? readable(" and the first {:.3g} s there", description.force.over_seconds)
-                       : "", description.force.p99_newton,
+                   seconds > 0 ? readable(" and the first {:.3g} s there", seconds) : "", description.force.p99_newton,
                    description.force.rms_newton);
   if (description.wall) text += wall_line(*description.wall);
   for (const Description::Wall& each : description.more_walls) text += wall_line(each);

@@ -266,23 +266,25 @@ void read_all_realisations(RecordReader& reader, const Declarations& declaration
                    : "give a force without a `rate`, or use another class of devices");
 }
 
-/// Where a figure that the machine refuses is declared.
-const char* setting_of(std::string_view figure) {
-  constexpr std::pair<std::string_view, const char*> settings[] = {
-      {"position counts", "position"}, {"speed limit", "speed"},
-      {"force counts", "force"},       {"continuous_force", "sustained"},
-      {"heating_seconds", "sustained"}, {"active_power", "active"},
-      {"velocity_window", "velocity_filter"}, {"velocity_noise_counts", "velocity_filter"},
-      {"patch_width", "patch"},        {"patch_height", "patch"},
-      {"patch_rim", "patch"},          {"delay_x", "delay"},
-      {"delay_y", "delay"},            {"bandwidth_x", "bandwidth"},
-      {"bandwidth_y", "bandwidth"},    {"workspace", "workspace"},
-      {"force", "force"},              {"rate", "rate"},
-      {"slew", "slew"},                {"mass", "mass"},
-      {"damping", "damping"},          {"friction", "friction"}};
-  for (const auto& [of, setting] : settings)
-    if (of == figure) return setting;
-  return "acceleration";  // the figures of a vibration have no names
+/// The setting of a figure that the machine refuses. Most have one name in both.
+std::string setting_of(std::string_view figure) {
+  constexpr std::pair<std::string_view, std::string_view> others[] = {{"position counts", "position"},
+                                                                      {"speed limit", "speed"},
+                                                                      {"force counts", "force"},
+                                                                      {"continuous_force", "sustained"},
+                                                                      {"heating_seconds", "sustained"},
+                                                                      {"active_power", "active"},
+                                                                      {"velocity_window", "velocity_filter"},
+                                                                      {"velocity_noise_counts", "velocity_filter"},
+                                                                      {"patch_width", "patch"},
+                                                                      {"patch_height", "patch"},
+                                                                      {"delay_x", "delay"},
+                                                                      {"delay_y", "delay"},
+                                                                      {"bandwidth_x", "bandwidth"},
+                                                                      {"bandwidth_y", "bandwidth"}};
+  for (const auto& [of, setting] : others)
+    if (of == figure) return std::string(setting);
+  return std::string(figure.empty() ? "acceleration" : figure);  // the figures of a vibration have no names
 }
 
 /// No program is built for a device with a figure that the machine refuses: it is told here, and not of each material.

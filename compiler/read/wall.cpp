@@ -155,8 +155,8 @@ std::optional<FaceFound> face_of(const Feature& feature, bool from_low) {
   double off = 0;
   for (std::size_t i = first; i <= last; ++i)
     off = std::max(off, std::abs(against[i] - slope * (feature.step * static_cast<double>(i) - onset)));
-  // A spring is as steep at the flat end; a bend is no face, nor is a push that grows with the square of the depth, which
-  // is a twentieth of the largest where its straight line begins.
+  // A spring is as steep at the flat end; a bend is no face, nor is a push that grows with the square of the distance:
+  // where the line through it begins it is a twentieth of its largest.
   if (!(slope > 0) || off > proportional * 0.6 * most || onset < steps_free * step) return std::nullopt;
   const auto at_onset = static_cast<std::size_t>(onset / feature.step);
   if (against[at_onset] > gently * most + slope * feature.step) return std::nullopt;

@@ -31,8 +31,9 @@ std::optional<double> slope_of(PlaceEvaluator& value) {
 bool warn_of_cycles(const CheckedMaterial& material, const DeviceProfile& device, Diagnostics& diagnostics) {
   constexpr double patches = 4;  // even half a period of it is not felt any more
   constexpr std::size_t most_looked_at = 64;
-  const double widest = material.patch ? std::max((*material.patch)[0], (*material.patch)[1])
-                                       : std::max(device.patch_width, device.patch_height);
+  const double widest = std::min(device.widest_patch(), material.patch
+                                                            ? std::max((*material.patch)[0], (*material.patch)[1])
+                                                            : std::max(device.patch_width, device.patch_height));
   std::set<TermId> seen;
   for (const CheckedCycle& cycle : material.cycles) {
     if (!seen.insert(cycle.value).second) continue;

@@ -19,8 +19,10 @@ class PlaceEvaluator {
   PlaceEvaluator(const CheckedMaterial& material, const DeviceProfile& device, std::vector<TermId> roots,
                  bool heights = false)
       : terms_(material.terms), roots_(std::move(roots)) {
-    const double width = material.patch ? (*material.patch)[0] : device.patch_width;
-    const double height = material.patch ? (*material.patch)[1] : device.patch_height;
+    // As the finished program's, which is cut to the workspace.
+    const double widest = device.widest_patch();
+    const double width = std::min(material.patch ? (*material.patch)[0] : device.patch_width, widest);
+    const double height = std::min(material.patch ? (*material.patch)[1] : device.patch_height, widest);
     rim_ = std::min(device.patch_rim, 0.25 * std::min(width, height));
     half_width_ = width / 2;
     half_height_ = height / 2;

@@ -83,9 +83,7 @@ std::optional<Jump> jump_along(PlaceEvaluator& height, const Stroke& way, std::s
     // What still differs over some nanometres is a jump, and no slope.
     constexpr double narrow = 5e-8;  // m
     while ((to - from) * length > narrow && std::abs(after - before) > least_share * (high - low)) {
-      const double middle = (from + to) / 2;
-      if (!(from < middle && middle < to)) break;  // numbers have no place between, on a patch beyond all workspaces
-      const double between = value(middle);
+      const double middle = (from + to) / 2, between = value(middle);
       if (std::abs(between - before) > std::abs(after - between))
         to = middle, after = between;
       else

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "schema/name_text.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale {
@@ -12,8 +13,6 @@ Error wrong_with(const std::string& folder) {
   std::error_code ignored;
   const std::string shown = "`" + visible_text(folder) + "`";
   if (folder.empty()) return {.sentence = "expected a folder, found an empty text", .mend = "write \".\" for the current one"};
-  if (folder.find('\0') != std::string::npos)
-    return {.sentence = "expected a path, found a zero byte in it", .mend = "hand over the text up to there"};
   if (std::filesystem::is_directory(folder, ignored)) return {};
   if (std::filesystem::exists(folder, ignored))
     return {.sentence = shown + " is a file, and no folder", .mend = "name the folder that it is in"};
@@ -24,9 +23,10 @@ Error wrong_with(const std::string& folder) {
 
 std::optional<Error> missing_folder(const std::vector<std::string>& folders, const std::string& argument) {
   for (const std::string& each : folders) {
+    if (auto possible = is_path_text(argument, each); !possible) return std::move(possible.error());
     Error error = wrong_with(each);
     if (error.sentence.empty()) continue;
-    error.code = each.find('\0') == std::string::npos ? Code::unreadable_file : Code::invalid_encoding;
+    error.code = Code::unreadable_file;
     error.place = {.name = argument, .text = each};
     return error;
   }

@@ -1,11 +1,11 @@
 #include "library/by_name/own_devices.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include "compiler/check/check.hpp"
 #include "compiler/compile.hpp"
 #include "library/by_name/told.hpp"
+#include "runtime/device/choose_device.hpp"
 
 namespace wale {
 namespace {
@@ -34,9 +34,9 @@ Result<OwnDevices> own_devices(const std::string& text, const Declarations& ship
   for (const auto& [name, entry] : module.declarations().devices.own()) {
     if (entry.imported) continue;
     const std::size_t here = sources.place(entry.declared).line;
-    constexpr std::string_view spellings[] = {"auto", "simulated", "usb", "pointer"};
-    if (std::ranges::find(spellings, name) != std::end(spellings))
-      return about_device(Code::declared_twice, "a device cannot be called `" + name + "`, which means another one where devices are opened",
+    if (std::ranges::find(words_for_devices, name) != words_for_devices.end())
+      return about_device(Code::declared_twice,
+                          "a device cannot be called `" + name + "`, which means another one where devices are opened",
                           "give yours another name", name, here);
     if (shipped.devices.contains(name))
       return about_device(Code::declared_twice, "Wale has a device that is called `" + name + "` already",

@@ -197,7 +197,7 @@ class Chooser {
     for (const DeclaredDevice& each : known_) names.push_back(each.profile.name);
     for (const TrustedDevice& each : trusted_) names.push_back(each.profile().name);
     if (prefix.empty()) {
-      for (const char* word : {"auto", "simulated", "usb"}) names.emplace_back(word);
+      for (const std::string_view word : words_for_devices) names.emplace_back(word);
       for (const Driver* driver : drivers_) names.emplace_back(driver->name);
     }
     const std::string wanted = std::string(prefix) + name;

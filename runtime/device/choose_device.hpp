@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "runtime/device/driver.hpp"
 #include "runtime/device/trusted_device.hpp"
@@ -10,6 +12,9 @@
 #include "wale/result.hpp"
 
 namespace wale {
+
+/// Words that mean another device where one is chosen, beside drivers' names. `simulated` also begins `simulated:NAME`.
+inline constexpr std::array<std::string_view, 3> words_for_devices = {"auto", "simulated", "usb"};
 
 /// The device that a person asks for, as by `--device`.
 struct DeviceRequest {

@@ -204,7 +204,8 @@ Result<std::unique_ptr<Device>> open_device(std::string_view spelling, const Ope
                    {.name = "transport", .text = options.transport}};
     const std::string name = options.built_for.empty() ? default_device : options.built_for;
     const Result<DeviceProfile> profile =
-        choice->declared ? Result<DeviceProfile>(choice->declared->profile) : profile_named(name, options.declared, *trusted);
+        choice->declared ? Result<DeviceProfile>(choice->declared->profile)
+                         : profile_named(name, options.declared, *trusted);
     if (!profile) return profile.error();
     auto simulated = simulation(*profile, options);
     if (!simulated) return simulated;

@@ -12,6 +12,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "schema/name_text.hpp"
+
 namespace wale {
 namespace {
 
@@ -78,12 +80,7 @@ Error unwritable(const std::string& path, int error) {
 }  // namespace
 
 Result<std::unique_ptr<ChunkFile>> ChunkFile::create(const std::string& path) {
-  if (path.find('\0') != std::string::npos) {
-    Error error = unwritable(path, EINVAL);
-    error.code = Code::invalid_encoding, error.sentence = "expected a path, found a zero byte in it";
-    error.mend = "hand over the text up to there";
-    return error;
-  }
+  if (auto possible = is_path_text(path, path); !possible) return std::move(possible.error());
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (file < 0) return unwritable(path, errno);
   FileHeader header{.magic = magic,

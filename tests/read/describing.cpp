@@ -382,6 +382,12 @@ TEST(DescribingForces, WhatDrivesTheHandAwayAndASpringThatEndsAreNoWalls) {
   EXPECT_NEAR(percept(spring, "springiness")->amplitude, 200, 2);
   EXPECT_FALSE(percept(spring, "hardness") || spring.wall);
   EXPECT_EQ(spring.unread, 0);
+  for (const char* stiffening : {"vector(-20 N/m * x * (1 + x / 200 mm), 0 N)", "vector(-30 N/m * x * (1 - x / 180 mm), 0 N)",
+                                 "vector(0 N, -25 N/m * y * (1 + y / 220 mm))"}) {
+    const Description bent = described(std::string("active 9 W\nforce = ") + stiffening);
+    EXPECT_FALSE(percept(bent, "hardness") || bent.wall) << stiffening;
+    EXPECT_GT(bent.unread, 1) << stiffening;
+  }
   const Description wall = described("force = vector(if x > 20 mm then -300 N/m * (x - 20 mm) else 0 N, 0 N)");
   ASSERT_TRUE(wall.wall);
   EXPECT_NEAR(wall.wall->face.stiffness, 300, 3);

@@ -125,8 +125,8 @@ WALE_API WaleCode wale_library_devices(WaleLibrary* library, WaleDevices** devic
 /* As wale_profile, also of a device that the owner declares. The text belongs to the library. */
 WALE_API WaleCode wale_library_profile(WaleLibrary* library, WaleText name, WaleProfile* profile, WaleError** error);
 /* As wale_device_open, with the declarations of the owner of this computer, and with the devices of the library's text
-   `devices`, which are simulated by name. A simulated device is in the hand of a simulated
-   person who rubs to and fro, unless the options say otherwise. Errors also: those in the owner's file. */
+   `devices`, which are simulated by name. A simulated device is in the hand of a simulated person who rubs to and fro, unless the
+   options say otherwise. Errors also: those in the owner's file. */
 WALE_API WaleCode wale_library_open_device(WaleLibrary* library, WaleText spelling, const WaleDeviceOptions* options,
                                            WaleDevice** device, WaleError** error);
 

@@ -101,8 +101,8 @@ class Library {
   /// Error: `unreadable_file` about the first of `LibraryOptions::folders`, then of WALE_LIBRARY, that is no folder.
   /// `place.name` is "folders" or "WALE_LIBRARY".
   Result<> folders_exist() const;
-  /// Whether the options can be used. Errors: those of `folders_exist`, and the first one of `LibraryOptions::devices`. An index
-  /// is looked at by the first search.
+  /// Whether the options can be used. Errors: those of `folders_exist`, and the first one of `LibraryOptions::devices`.
+  /// An index is looked at by the first search.
   Result<> is_usable() const;
 
   /// A material by its name ("corduroy"), title, other name, kind or module ("fabric.denim"), or MODULE:MATERIAL, by
@@ -174,9 +174,8 @@ class Library {
   /// the first one in that file.
   Result<TrustedDevices> trusted_devices() const;
   /// As `wale::open_device`, with these declarations; the devices of `LibraryOptions::devices` are simulated by name. A
-  /// simulated device is in the hand of a simulated person who rubs
-  /// to and fro, unless the options have another hand (which then rests) or another motion. Errors also:
-  /// those of `trusted_devices`.
+  /// simulated device is in the hand of a simulated person who rubs to and fro, unless the options have another hand
+  /// (which then rests) or another motion. Errors also: those of `trusted_devices` and of `is_usable`.
   Result<std::unique_ptr<Device>> open_device(std::string_view spelling = "auto", OpenOptions options = {}) const;
 
   /// The Sandpaper joystick, simulated, in the hand of a simulated person who rubs to and fro.

@@ -53,9 +53,9 @@ struct DeviceInfo {
   std::vector<std::string> held_by = {};      ///< other programs that have it open
 };
 
-/// All that is plugged in, also what cannot be used, then the pointer, then one simulation for each declared device, also
-/// of those `declared`, which come first. Takes some milliseconds for each real device, which is asked for its descriptors only. From any thread, not from a
-/// real-time one.
+/// All that is plugged in, also what cannot be used, then the pointer, then one simulation for each declared device,
+/// first of those in `declared`. Takes some milliseconds for each real device, which is asked for its descriptors only.
+/// From any thread, not from a real-time one.
 std::vector<DeviceInfo> devices(const TrustedDevices& trusted = {}, std::span<const DeclaredDevice> declared = {});
 
 struct OpenOptions {

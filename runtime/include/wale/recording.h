@@ -57,7 +57,8 @@ WALE_API WaleCode wale_recording_open(WaleText path, WaleRecording** recording, 
    wale_recording_intact counts. `complete` is 0 if ticks are left out. */
 WALE_API WaleCode wale_recording_open_part(WaleText path, size_t most_ticks, WaleRecording** recording, WaleError** error);
 /* How many ticks of a file can be opened: all of a whole one, and of one that is damaged or cut short those before that place, for
-   `most_ticks` above. The first 320 KiB hold the conditions and the first events: of a file cut there nothing is left. Errors: unreadable_file, newer_file; damaged_file for a file that is no recording. */
+   `most_ticks` above. The first 320 KiB hold the conditions and the first events: of a file cut there nothing is left.
+   Errors: unreadable_file, newer_file; damaged_file for a file that is no recording. */
 WALE_API WaleCode wale_recording_intact(WaleText path, uint64_t* ticks, WaleError** error);
 WALE_API void wale_recording_free(WaleRecording* recording);
 WALE_API WaleCode wale_recording_details(const WaleRecording* recording, WaleRecordingDetails* details, WaleError** error);

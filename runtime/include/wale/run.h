@@ -86,7 +86,7 @@ typedef struct WaleTick {
   double time;            /* s since the run began */
   WaleVector position;    /* m from the workspace's centre, by the encoder */
   WaleVector velocity;    /* m/s, filtered */
-  WaleVector force;       /* what the device was told to exert from this tick on, in its steps; its delay and bandwidth are not in it */
+  WaleVector force;       /* told to the device from this tick on, in its steps: without its delay and bandwidth */
   WaleVector interaction; /* N from hand to handle over the period before; not-a-number where unknown */
   float lateness;         /* s */
   uint32_t skipped;       /* periods that were not served just before this tick */

@@ -64,9 +64,10 @@ typedef struct WalePlacementDetails {
    Errors: malformed_value; wrong_moment if another stage has the device, or in a child of fork, whose parent has opened it. */
 WALE_API WaleCode wale_stage_create(WaleDevice* device, const WaleStageOptions* options, WaleStage** stage,
                                     WaleError** error);
-/* Without a device, for a loop of one's own (wale/loop.h). Of a pad the profile must be one that a call of this process gave:
-   what shakes it is not in it, and is that of the last one with this name and these figures, or else with this name. Errors: malformed_value, also for a profile without a name or with
-   a figure beyond its range; invalid_encoding. */
+/* Without a device, for a loop of one's own (wale/loop.h). Of a pad the profile must be one that a call of this process gave,
+   or have a shipped pad's name: what shakes it is not in it. Of pads of one name it is that of the last one with these figures, or
+   else of the last one. Errors: malformed_value, also for a profile without a name or with a figure beyond its range;
+   invalid_encoding. */
 WALE_API WaleCode wale_stage_create_for(const WaleProfile* profile, const WaleStageOptions* options, WaleStage** stage,
                                         WaleError** error);
 /* Ends a run that is under way, also one that another thread has called, and waits for its end. The device then exerts no
