@@ -385,6 +385,7 @@ static void patches(void) {
   CHECK_GOOD(wale_patch_remove(other, &error));
   CHECK_CODE(WALE_CODE_wrong_moment, wale_patch_remove(other, &error)); /* removed already */
   CHECK(!wale_patch_exists(other) && wale_patch_exists(patch) && wale_stage_size(stage) == 1);
+  CHECK(wale_patch_number(NULL) == UINT32_MAX && wale_patch_number(patch) != wale_patch_number(other));
   wale_patch_free(other);
 
   /* The stage goes from under the patch: every call says so. */
@@ -406,7 +407,6 @@ static void patches(void) {
   wale_edit_free(edit);
   wale_patch_free(patch);
   wale_patch_free(patch); /* freed already */
-  CHECK(wale_patch_number(NULL) == UINT32_MAX && wale_patch_number(patch) != wale_patch_number(other));
   CHECK(wale_patch_id(NULL) == 0 && !wale_patch_exists(NULL));
   CHECK_MALFORMED(wale_patch_set(NULL, WALE_TEXT("wale"), 1, &error));
   CHECK_MALFORMED(wale_patch_move(NULL, 0, 0, &error));
