@@ -269,6 +269,7 @@ nlohmann::ordered_json to_json(const Description::Wall& wall) {
       {"preload_newton", figure(wall.face.preload)},
       {"depth_m", figure(wall.depth.depth)},
       {"max_newton", figure(wall.depth.newton)}};
+  if (wall.face.power != 1) json["power"] = wall.face.power > 0 ? nlohmann::ordered_json(figure(wall.face.power)) : nullptr;
   if (wall.face.radius > 0)
     json["round"] = {{"centre", {figure(wall.face.centre.x), figure(wall.face.centre.y)}},
                      {"radius_m", figure(wall.face.radius)},

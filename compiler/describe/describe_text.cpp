@@ -377,8 +377,12 @@ std::string other_forces(const Description& description) {
 }
 
 std::string wall_line(const Description::Wall& wall) {
-  return readable("  a wall {}: {:.3g} N/m{}, up to {:.3g} N on a hand that goes {:.3g} mm into it, to {}\n",
-                  wall_place(wall.face), wall.face.stiffness,
+  const double power = wall.face.power;
+  const std::string bend = power == 1  ? ""
+                           : power > 0 ? readable(" where it is deepest, growing as depth^{:.2g}", power)
+                                       : std::string(" where it is deepest, not in proportion to the depth");
+  return readable("  a wall {}: {:.3g} N/m{}{}, up to {:.3g} N on a hand that goes {:.3g} mm into it, to {}\n",
+                  wall_place(wall.face), wall.face.stiffness, bend,
                   wall.face.preload > 0 ? readable(" from {:.3g} N on", wall.face.preload) : "", wall.depth.newton,
                   1e3 * wall.depth.depth, wall.face.fills ? "its middle" : "the patch's edge");
 }

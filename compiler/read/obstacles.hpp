@@ -19,6 +19,7 @@ struct Wall {
   bool fills = false;    ///< round: it fills its circle; otherwise it lies around it
   double stiffness = 0;  ///< N/m
   double preload = 0;    ///< N: with which it pushes where it begins
+  double power = 1;      ///< of the depth, with which the push grows; 0 if with none
 
   bool round() const { return inward == glm::dvec2(0); }
   double depth(glm::dvec2 place) const;     ///< m; negative outside

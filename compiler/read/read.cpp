@@ -94,7 +94,12 @@ double most_of_wall(const Bank& bank, const StaticForce& still, const Wall& wall
 /// yielded to the hands that were placed behind the face.
 void tell_obstacles(const Bank& bank, ForceReading& found) {
   Obstacles& obstacles = found.still.obstacles;
-  std::erase_if(obstacles.walls, [&](const Wall& each) { return !pushes_back(bank, wall_face(bank, each)); });
+  bool bends = false;  // what is no wall, and its push is a feature
+  std::erase_if(obstacles.walls, [&](const Wall& each) {
+    const bool is_none = !pushes_back(bank, wall_face(bank, each));
+    bends |= is_none && each.power != 1;
+    return is_none;
+  });
   for (StaticStep& each : obstacles.steps) sharpen(bank, each);
   found.steps = obstacles.steps;
   std::ranges::stable_sort(found.steps, std::greater(),
@@ -113,7 +118,7 @@ void tell_obstacles(const Bank& bank, ForceReading& found) {
     if (wall && pushes_back(bank, *wall)) found.wall = wall;
   };
   if (remembers) keep(wall_face(bank));
-  if (found.wall || found.still.features.empty() || !obstacles.empty()) return;
+  if (found.wall || found.still.features.empty() || !obstacles.empty() || bends) return;
   keep(wall_face(bank, found.still.features));
   if (!found.wall && !remembers) keep(wall_face(bank));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "compiler/read/bent_wall.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/fundamental.hpp"
 #include "compiler/read/harmonic_fit.hpp"
@@ -111,6 +112,7 @@ class ReliefReader {
       waves_ = find_waves(field_, whole_, found_.features);
     }
     find_beside_waves(beyond);
+    bend_wall_beside_waves();
     relief_ = whole_.forces;
     take_trend_off();
     tell_cut();
@@ -194,7 +196,7 @@ class ReliefReader {
 
   /// Fits features anew beside the waves that were found. What the features took of the waves goes back to them.
   void refine(std::vector<Feature>& features) {
-    if (found_.obstacles.empty()) return refine_features(features, whole_.places, without_waves_and_with(features));
+    if (found_.obstacles.empty() || is_bent_) return refine_features(features, whole_.places, without_waves_and_with(features));
     std::vector<glm::dvec2> forces = whole_.forces;
     std::vector<SlowWave> slow;
     for (const FoundWave& each : waves_.waves) {
@@ -226,11 +228,30 @@ class ReliefReader {
     return true;
   }
 
+  /// A wall alone may push otherwise than in proportion to the depth. `forces` are all but the waves.
+  bool bend_wall(const std::vector<glm::dvec2>& forces) {
+    const Obstacles& all = found_.obstacles;
+    if (is_bent_ || all.walls.size() != 1 || !all.steps.empty() || all.hill) return false;
+    auto bent = bent_wall(whole_, forces, all.walls.front(), limit_.least());
+    if (!bent) return false;
+    is_bent_ = true;
+    found_.obstacles.walls = {bent->wall}, found_.features = {std::move(bent->push)};
+    return true;
+  }
+
+  void bend_wall_beside_waves() {
+    if (waves_.waves.empty() || waves_.local || !bend_wall(without_waves_and_with(found_.features))) return;
+    waves_ = find_waves(field_, whole_, found_.features);
+    refine(found_.features);
+    waves_ = find_waves(field_, whole_, found_.features);
+  }
+
   /// Looks for a trend that bends before any wave: a spring that saturates looks like a slow square wave.
   void find_plain_trend(const std::vector<glm::dvec2>& beyond) {
     if (auto edge = obstacle_at_edge(whole_, whole_.forces)) {
       found_.obstacles = *std::move(edge);
       found_.features = features_of(found_.obstacles, whole_.places);
+      bend_wall(whole_.forces);
       return;
     }
     const std::vector<glm::dvec2> bent = cell_means(whole_.side, beyond);
@@ -241,7 +262,7 @@ class ReliefReader {
     no_obstacles_in_whole_ = !are_obstacles(whole_.forces);
     if (!no_obstacles_in_whole_) {
       // Steps that repeat are a wave.
-      if (found_.obstacles.steps.size() < 2) return;
+      if (found_.obstacles.steps.size() < 2) return void(bend_wall(whole_.forces));
       const FoundWaves waves = find_waves(field_, whole_);
       if (waves.waves.empty() || waves.local || mean_square(waves.rest) > repeats * mean_square(beyond)) return;
       found_.obstacles = {}, found_.features.clear();
@@ -370,7 +391,7 @@ class ReliefReader {
       if (waves_.waves.empty() || waves_.local) return;
       refine(found_.features);
       waves_ = find_waves(field_, whole_, found_.features);
-      return;
+      return bend_wall_beside_waves();
     }
     if (left < curved * mean_square(forces) || left < little * mean_square(whole_.forces)) return;
     std::vector<glm::dvec2> places = cell_means(whole_.side, whole_.places), some = cell_means(whole_.side, forces);
@@ -440,6 +461,7 @@ class ReliefReader {
   ForceLimit limit_;
   const std::vector<glm::dvec2>* whole_felt_ = nullptr;  // N, at the same places: of a law that is not felt whole
   StaticForce found_;
+  bool is_bent_ = false;                // the one wall, whose push is a feature
   bool no_obstacles_in_whole_ = false;  // they were looked for in all of the force
   std::optional<SlowSine> slow_sine_;
   FoundWaves waves_;

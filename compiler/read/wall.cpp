@@ -347,7 +347,7 @@ WallFace wall_face(const Bank& bank, const Wall& wall, double most) {
     if (far < best) best = far, place = other;
   }
   if (best < 1) found.place = place;
-  found.most = most;
+  found.most = most, found.power = wall.power;
   tell_damping(bank, found);
   found.place = wall.offset * wall.inward + 0.0;
   return found;

@@ -16,7 +16,7 @@ namespace wale {
 struct WallFace {
   glm::dvec2 place{0};     ///< m from the patch's centre: where the force begins
   glm::dvec2 inward{0};    ///< unit vector into the wall
-  double stiffness = 0;    ///< N/m: the outward force over depth
+  double stiffness = 0;    ///< N/m: the outward force over depth; of one that bends, where it is deepest
   double damping = 0;      ///< N s/m: added against a hand that moves in, to what drags it outside
   double release = 0;      ///< N s/m: taken away from a hand that moves out
   double preload = 0;      ///< N: with which it pushes where it begins
@@ -24,6 +24,7 @@ struct WallFace {
   glm::dvec2 centre{0};    ///< m: of a round face
   bool fills = false;      ///< a round wall fills its circle; otherwise it lies around it
   double most = HUGE_VAL;  ///< N: it pushes no harder, since its author limits it
+  double power = 1;        ///< of the depth, with which the push grows; 0 if with none
 };
 
 /// How far into a wall a hand can go before it leaves the patch, m, and the largest force that pushes it back on the

@@ -365,6 +365,40 @@ TEST(DescribingForces, ASquareWaveOfOneNewtonReadsOneNewtonAtAnyRate) {
   }
 }
 
+TEST(DescribingForces, AWallMayPushOtherwiseThanInProportionToTheDepth) {
+  constexpr double begins = 12e-3, scale = 60e-3, newton = 2;  // newton * (depth / scale)^power
+  for (const double power : {0.7, 1.3, 1.5, 2.0, 3.0})
+    for (const double degrees : {0.0, 180.0, 90.0, 35.0}) {
+      const double angle = degrees * std::numbers::pi / 180;
+      const glm::dvec2 into(std::cos(angle), std::sin(angle));
+      const Description bent = described(
+          fmt::format("let deep = max(0 mm, x * {0:.6f} + y * {1:.6f} - 12 mm)\n"
+                      "force = -2 N * (deep / 60 mm)^{2} * vector({0:.6f}, {1:.6f})", into.x, into.y, power));
+      const std::string which = fmt::format("depth^{} at {} degrees", power, degrees);
+      ASSERT_TRUE(bent.wall) << which;
+      const WallFace& face = bent.wall->face;
+      EXPECT_NEAR(glm::dot(face.place, face.inward), begins, 1e-3) << which;
+      EXPECT_NEAR(face.power, power, 0.05 * power) << which;
+      EXPECT_GT(glm::dot(face.inward, into), 0.9998) << which;
+      // The depth at which its push has this ratio to it.
+      const double deepest = scale * std::pow(face.stiffness * scale / newton, 1 / (power - 1));
+      const double reach = 0.075 * (std::abs(into.x) + std::abs(into.y)) - begins;
+      EXPECT_GT(deepest, 0.8 * reach) << which;
+      EXPECT_LT(deepest, 1.05 * reach) << which;
+      EXPECT_FALSE(percept(bent, "bumpiness") || percept(bent, "roughness")) << which;
+      EXPECT_LT(bent.texture->force.amplitude, 0.02) << which;
+    }
+  // A texture over it is read as it is alone.
+  const Description rough = described(
+      "force = vector(-5 N * (max(0 mm, x - 12 mm) / 60 mm)^1.5 + 0.6 N * sin(2 pi * y / 4 mm), 0 N)");
+  ASSERT_TRUE(rough.wall);
+  EXPECT_NEAR(rough.wall->face.power, 1.5, 0.1);
+  EXPECT_NEAR(rough.texture->force.period, 4e-3, 8e-5);
+  EXPECT_NEAR(rough.texture->force.amplitude, 0.6, 0.03);
+  // A wall in proportion to the depth has no power but 1.
+  EXPECT_EQ(described("force = vector(if x > 20 mm then -200 N/m * (x - 20 mm) else 0 N, 0 N)").wall->face.power, 1);
+}
+
 TEST(DescribingForces, WhatDrivesTheHandAwayAndASpringThatEndsAreNoWalls) {
   // Each pushes with what is noted behind it, and nowhere back out of a face that it stands behind.
   const std::pair<const char*, double> forces[] = {

@@ -1,0 +1,102 @@
+#include "compiler/read/bent_wall.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "compiler/read/tolerances.hpp"
+
+namespace wale {
+namespace {
+
+/// The mean square of what is left beside a law and a line, N^2.
+template <class Law>
+double left_beside(const std::vector<glm::dvec2>& places, std::vector<glm::dvec2> forces, const Law& law) {
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= law.at(places[i]);
+  const LinearForce line = linear_force(places, forces);
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= line.at(places[i]);
+  return mean_square(forces);
+}
+
+struct PushAt {
+  double along = 0, push = 0;  ///< m into the wall, N against a hand that goes in
+};
+
+/// The push as a * (along - onset)^power: how much its logarithm is off, for the best power.
+struct PowerLaw {
+  double onset = 0, power = 0, off = HUGE_VAL;
+};
+PowerLaw power_from(const std::vector<PushAt>& points, double onset) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (const PushAt& each : points) {
+    const double depth = std::log(each.along - onset), push = std::log(each.push);
+    n += 1, x += depth, y += push, xx += depth * depth, xy += depth * push, yy += push * push;
+  }
+  const double spread = xx - x * x / n, power = spread > 0 ? (xy - x * y / n) / spread : 0;
+  return {onset, power, std::sqrt(std::max(0.0, yy - y * y / n - power * (xy - x * y / n)) / n)};
+}
+
+}  // namespace
+
+std::optional<BentWall> bent_wall(const StillForces& whole, const std::vector<glm::dvec2>& forces, const Wall& straight,
+                                  double limit) {
+  constexpr double much_better = 0.2;                    // of what a straight wall leaves
+  constexpr double along_it = 0.99;                      // cosine
+  constexpr double least_part = 0.03, most_part = 0.97;  // of the largest push: where the power shows
+  constexpr double touched = 2e-3;                       // of the largest push: the hand is inside
+  constexpr double before_touched = 0.15;                // of the depth: it begins so much earlier at most
+  constexpr double least_power = 0.3, most_power = 8, straight_enough = 0.03;
+  constexpr std::size_t fewest = 8;
+  if (straight.round() || straight.preload > 0) return std::nullopt;
+  const std::vector<glm::dvec2> places = cell_means(whole.side, whole.places),
+                                means = cell_means(whole.side, forces);
+  const double left = left_beside(places, means, straight);
+  if (left < least_force * least_force) return std::nullopt;
+  std::vector<Feature> features = find_features(places, means, false);
+  if (features.empty()) return std::nullopt;
+  refine_features(features, whole.places, forces);
+  if (features.size() != 1 || features.front().radial || !features.front().monotone) return std::nullopt;
+  const Feature& feature = features.front();
+  if (std::abs(glm::dot(feature.direction, straight.inward)) < along_it) return std::nullopt;
+  if (left_beside(places, means, feature) > much_better * left) return std::nullopt;
+
+  // From the flat side in.
+  const double sense = glm::dot(feature.direction, straight.inward) > 0 ? 1 : -1;
+  const glm::dvec2 inward = sense * feature.direction;
+  std::vector<PushAt> all;
+  for (std::size_t i = 0; i < feature.profile.size(); ++i) {
+    const std::size_t from = sense > 0 ? i : feature.profile.size() - 1 - i;
+    const double along = sense * (feature.low + feature.step * static_cast<double>(from));
+    all.push_back({along, -glm::dot(feature.profile[from], inward)});
+  }
+  const double flat = all[all.size() / 40].push;
+  double most = 0;
+  for (PushAt& each : all) each.push -= flat, most = std::max(most, each.push);
+  most = std::min(most, limit);
+  const auto first = [&](double part) {
+    return std::ranges::find_if(all, [&](const PushAt& each) { return each.push >= part * most; });
+  };
+  const auto inside = first(touched), deepest = first(most_part);
+  if (inside == all.begin() || inside == all.end() || deepest == all.end()) return std::nullopt;
+  // A push that has grown from the patch's edge on has no face.
+  if (inside - all.begin() < static_cast<std::ptrdiff_t>(all.size() / 20)) return std::nullopt;
+  std::vector<PushAt> points;
+  std::copy_if(first(least_part), deepest, std::back_inserter(points), [](const PushAt& each) { return each.push > 0; });
+  if (points.size() < fewest) return std::nullopt;
+  PowerLaw best;
+  constexpr int tries = 200;
+  const double earliest = inside->along - before_touched * (deepest->along - inside->along);
+  for (int i = 0; i < tries; ++i) {
+    const PowerLaw law = power_from(points, earliest + (points.front().along - earliest) * i / tries);
+    if (law.off < best.off) best = law;
+  }
+  const bool has_power = best.power > least_power && best.power < most_power && best.off < straight_enough;
+  const double onset = has_power ? best.onset : inside->along;
+  BentWall bent{.wall = {.inward = inward, .offset = onset}, .push = feature};
+  bent.wall.power = has_power ? best.power : 0;
+  bent.wall.stiffness = deepest->push / (deepest->along - onset);
+  return bent;
+}
+
+}  // namespace wale
