@@ -32,11 +32,12 @@ void notice_forks() {
 }
 
 /// What is abandoned stays reachable, so that checkers of memory do not call it lost.
-struct Left {
+std::atomic<LeftBehind*> all_left = nullptr;
+
+struct SharedLeft final : LeftBehind {
+  explicit SharedLeft(std::shared_ptr<void> its) : thing(std::move(its)) {}
   std::shared_ptr<void> thing;
-  Left* next;
 };
-std::atomic<Left*> all_left = nullptr;
 
 }  // namespace
 
@@ -47,12 +48,14 @@ HomeProcess::HomeProcess() {
 
 bool HomeProcess::is_here() const noexcept { return number_ == forks.load(std::memory_order_relaxed); }
 
-void abandon(std::shared_ptr<void> left) noexcept {
-  if (auto* const kept = new (std::nothrow) Left{std::move(left), all_left}) {
-    while (!all_left.compare_exchange_weak(kept->next, kept)) {
-    }
-    return;
+void abandon(LeftBehind* left) noexcept {
+  left->next = all_left;
+  while (!all_left.compare_exchange_weak(left->next, left)) {
   }
+}
+
+void abandon(std::shared_ptr<void> left) noexcept {
+  if (auto* const kept = new (std::nothrow) SharedLeft(std::move(left))) return abandon(kept);
   alignas(std::shared_ptr<void>) std::byte for_ever[sizeof left];
   new (for_ever) std::shared_ptr<void>(std::move(left));  // one owner more, who never lets go
 }

@@ -18,7 +18,14 @@ class HomeProcess {
   unsigned number_;
 };
 
-/// Keeps what another process has left until this one ends, and never destroys it.
+/// What one process may leave to another.
+struct LeftBehind {
+  virtual ~LeftBehind() = default;
+  LeftBehind* next = nullptr;  ///< of `abandon`
+};
+
+/// Keeps what another process has left until this one ends, and never destroys it. The first allocates nothing.
+void abandon(LeftBehind* left) noexcept;
 void abandon(std::shared_ptr<void> left) noexcept;
 
 /// A value of which each process has its own: in a child of `fork` it begins anew, in whatever state the parent's
@@ -30,8 +37,11 @@ class PerProcess {
   PerProcess(const PerProcess&) = delete;
   PerProcess& operator=(const PerProcess&) = delete;
   ~PerProcess() {
-    const std::shared_ptr<Held> held(held_.load());
-    if (held && !held->home.is_here()) abandon(held);
+    Held* const held = held_.load();
+    if (held != nullptr && !held->home.is_here())
+      abandon(held);
+    else
+      delete held;
   }
 
   /// This process's.
@@ -40,12 +50,12 @@ class PerProcess {
     if (known != nullptr && known->home.is_here()) return known->value;
     auto fresh = std::make_unique<Held>();
     if (!held_.compare_exchange_strong(known, fresh.get())) return known->value;  // another thread was faster
-    if (known != nullptr) abandon(std::shared_ptr<Held>(known));
+    if (known != nullptr) abandon(known);
     return fresh.release()->value;
   }
 
  private:
-  struct Held {
+  struct Held final : LeftBehind {
     HomeProcess home;
     Value value;
   };

@@ -158,12 +158,25 @@ std::string delivered_text(const FeltReport& report, std::size_t index) {
   return readable("{:.4g} of {:.4g} {}{}{}", size, aimed, unit, share, cut ? ", with forces that --max-force cut" : "");
 }
 
+/// "; its actuators follow to 20 Hz" behind a size that they take something off: "to 20 Hz along x and 40 Hz along y".
+std::string following_text(const FeltReport& report, std::size_t index) {
+  constexpr float plainly_less = 0.97F;
+  const double x = report.device.bandwidth_x, y = report.device.bandwidth_y;
+  const float expected = std::min(report.aimed[index], report.let_through[index]);
+  if (!(x > 0 || y > 0) || report.felt.vibration || report.levels[index].size > plainly_less * expected) return {};
+  if (x == y) return readable("; its actuators follow to {:.4g} Hz", x);
+  const std::string along_x = x > 0 ? readable("{:.4g} Hz along x", x) : "", along_y = y > 0 ? readable("{:.4g} Hz along y", y) : "";
+  return "; its actuators follow to " + along_x + (x > 0 && y > 0 ? " and " : "") + along_y;
+}
+
 /// The largest force of all ticks, if the figures of the actuator leave it out; otherwise empty.
 std::string largest_text(const FeltReport& report) {
   constexpr double hardly_more = 1.001;
   const bool rubbed = report.felt.ticks_rubbing > 0;
   const double told = rubbed ? report.felt.force_rubbing.maximum : report.felt.force.maximum;
   if (report.felt.vibration || report.largest <= hardly_more * told) return {};
+  if (report.device.bandwidth_x > 0 || report.device.bandwidth_y > 0)
+    return readable("  largest      {:.3f} N that the actuator was told, at {:.3g} s\n", report.largest, report.largest_at);
   return readable("  largest      {:.3f} N, at {:.3g} s: {}\n", report.largest, report.largest_at,
                   report.largest_at < report.settling
                       ? readable("in the first {:.2g} s, which the figures leave out", report.settling)
@@ -180,7 +193,7 @@ std::string levels_text(const FeltReport& report) {
       text += fmt::format("  {:<12} no level: {}\n", level.name, in_words_without_place(level.back.error()));
       continue;
     }
-    text += readable("  delivered    {}\n", delivered_text(report, i));
+    text += readable("  delivered    {}{}\n", delivered_text(report, i), following_text(report, i));
     text += fmt::format("  {:<12} {}{:.2f}, as its map reads that {}{}\n", level.name,
                         report.at_least[i] ? "at least " : "", level.back->level,
                         felt.vibration              ? "shaking"
@@ -261,7 +274,8 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
   const MeasureOptions options{.position_step = device.position_step(),
                                .predicted_amplitude = std::min(report.predicted_amplitude, let_through),
                                .settling = settling,
-                               .vibrates = device.shaker.has_value()};
+                               .vibrates = device.shaker.has_value(),
+                               .bandwidth = {device.bandwidth_x, device.bandwidth_y}};
   report.felt = measure(run.record, options);
   report.needed_seconds = needed_seconds(program, report.felt, report.seconds, settling);
   report.levels = levels_back(bank, report.felt, least_crossings);

@@ -53,7 +53,7 @@ struct FeltReport {
   std::vector<float> shown;
   /// Percepts that `describe` reads of the force besides those of `levels`, and their levels.
   std::vector<ReadLevel> read;
-  double largest = 0, largest_at = 0;  ///< N: the actuator's largest force of all ticks, and when, s
+  double largest = 0, largest_at = 0;  ///< N: the largest force that the device was told, and when, s
   double settling = 0;                 ///< s at the beginning that the measured figures leave out
   /// s: about how long such a run must be for the hand to cross the texture often enough, if it did not; infinite if it
   /// crossed nothing.

@@ -20,7 +20,9 @@ std::optional<Felt> measured_of_program(const Bank& bank, const Record& record, 
     const bool pushes = own.ticks[i].inside && std::isfinite(forces[i].x) && std::isfinite(forces[i].y);
     own.ticks[i].force = pushes ? forces[i] : Force(0);
   }
-  return measure(own, options);
+  MeasureOptions at_once = options;
+  at_once.bandwidth = {0, 0};
+  return measure(own, at_once);
 }
 
 }  // namespace wale

@@ -208,7 +208,7 @@ class Assembler {
         }
         continue;
       }
-      const auto known = parameters_of(*base);
+      const auto known = arguments_of(*base);
       report(Code::unknown_argument, argument.name->span,
              fmt::format("`{}` has no parameter `{}`", call.callee.text, argument.name->text),
              did_you_mean(argument.name->span, argument.name->text, known,

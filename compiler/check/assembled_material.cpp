@@ -33,6 +33,12 @@ std::vector<std::string> parameters_of(const AssembledMaterial& material) {
   return all;
 }
 
+std::vector<std::string> arguments_of(const AssembledMaterial& material) {
+  std::vector<std::string> all = parameters_of(material);
+  for (const AskedPercept& each : material.percepts) all.push_back(each.name);
+  return all;
+}
+
 bool set_default(AssembledMaterial& material, std::string_view parameter, const Mixture& value) {
   bool found = false;
   for (auto& assembled : material.statements)

@@ -55,6 +55,8 @@ void measure(AssembledMaterial& material);
 
 /// The names of its parameters and of its weights, with those of its components; a name may stand there twice.
 std::vector<std::string> parameters_of(const AssembledMaterial& material);
+/// Those, and the percepts that it asks for: all that can be given in brackets behind its name.
+std::vector<std::string> arguments_of(const AssembledMaterial& material);
 
 /// Gives a parameter another default; in a blend, in every component that has the parameter. False if none has it.
 bool set_default(AssembledMaterial& material, std::string_view parameter, const Mixture& value);

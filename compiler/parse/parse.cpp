@@ -268,6 +268,15 @@ void Parser::import_module() {
          unquote(true));
   }
   tree_.declarations.push_back(Import{take_word()});
+  // Other languages list names here, or give the module another one.
+  const bool names_parts = at(TokenKind::left_parenthesis) || at(TokenKind::left_brace) || at(TokenKind::colon) ||
+                           (at(TokenKind::name) && is_word(at_, "as"));
+  if (!names_parts && !at(TokenKind::comma) && !at(TokenKind::slash)) return;
+  fail("expected the end of the line" + after_previous(), "",
+       at(TokenKind::slash) ? fmt::format("folders have dots between them: `import {}.{}`", spelling(token(at_ - 1)),
+                                          spelling(token(at_ + 1)))
+       : at(TokenKind::comma) ? "each import is a line of its own"
+                              : "an import names a module and no more: all that it exports is then known by its own name");
 }
 
 /// Reads `dimension length` or `dimension force = mass * length / time^2`, with optional bounds for its states.

@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "compiler/modules/load_modules.hpp"
+#include "compiler/text/readable.hpp"
 #include "library/by_name/told.hpp"
 #include "library/store/kept_index.hpp"
 #include "library/store/seek.hpp"
+#include "library/store/why_nothing.hpp"
 #include "schema/name_text.hpp"
 #include "schema/visible_text.hpp"
 
@@ -40,7 +42,8 @@ Result<std::vector<SoughtLevel>> sought_levels(const std::vector<PerceptRange>& 
                    .place = {.name = "percepts", .text = each.percept}};
     if (!(each.low >= 0) || !(each.high <= 1) || !(each.low <= each.high))
       return Error{.code = Code::level_out_of_range,
-                   .sentence = "expected levels from 0 to 1, the lower one first",
+                   .sentence = readable("expected levels from 0 to 1, the lower one first, found {:.6g} and {:.6g}", each.low,
+                                        each.high),
                    .mend = "write, for example, low 0.4 and high 0.6",
                    .place = {.name = "percepts", .text = each.percept}};
     levels.push_back({each.percept, each.low, each.high});
@@ -140,6 +143,11 @@ Result<SearchResult> Seeker::search(const std::string& text, const SearchOptions
   SearchResult result;
   for (const FoundMaterial& each : found.as_they_stand) result.matches.push_back(match_of(each, by_words));
   for (const FoundEntry& each : found.most_words) result.matches.push_back(match_of(each, by_words));
+  if (result.matches.empty()) {
+    Error why = in_own_words(why_nothing_is_found(*catalogue, sought.texts, options.kind));
+    why.place = {.name = "text", .text = text};
+    result.warnings.push_back(std::move(why));
+  }
   return result;
 }
 

@@ -56,11 +56,12 @@ Error first_error(Diagnostics& diagnostics, const SourceSet& sources) {
 
 Error in_own_words(Error error) {
   // What the compiler says of the command line's options, and what the options of the library are called.
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> words{{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> words{{
       {"name it with `--library DIR` or in", "name it among the library's `folders` or in"},
       {"decode it without by --unsandboxed-pictures", "decode it without by the library's option `unsandboxed_pictures`"},
       {"a file that `--devices FILE` names", "the library's option `devices`"},
       {"which `wale build --workspace` makes", "which `write_workspace` makes"},
+      {"`wale find` alone lists them all", "a blank text lists them all"},
       {"`wale find` lists the materials of the library", "`nearest` has the names that are least far from it"},
       {"`wale find WORD` searches the library", "`search` finds materials by words"},
       {"name that device, `--device ", "name that device, `"},

@@ -143,8 +143,8 @@ Result<> is_to_take(const WaleFuture* future, bool of_search) {
   if (!future->home.is_here())
     return at_wrong_moment("it is the parent process's, and this is a child of its fork", "begin it again in the child");
   if (of_search != (future->state != nullptr))
-    return of_search ? at_wrong_moment("it is of a program", "take it by wale_future_take")
-                     : at_wrong_moment("it is of a search", "take it by wale_future_take_matches");
+    return of_search ? at_wrong_moment("it is of a program", "take its program")
+                     : at_wrong_moment("it is of a search", "take its matches");
   if (future->is_valid()) return {};
   return of_search ? at_wrong_moment("its matches were taken already", "take them once, and keep them")
                    : at_wrong_moment("its program was taken already", "take it once, and keep it");

@@ -19,7 +19,7 @@
 #include "library/command/index_here.hpp"
 #include "library/index/entry_json.hpp"
 #include "library/store/seek.hpp"
-#include "schema/spelling.hpp"
+#include "library/store/why_nothing.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale::command {
@@ -38,65 +38,6 @@ struct FindOptions {
     return !near.empty() || std::ranges::any_of(levels, [](const auto& each) { return !each.second.empty(); });
   }
 };
-
-/// What a word says of a percept, and the materials that ask for that: "`sticky` is a word of the percept `stickiness`;
-/// `amber` and `tape` ask for it". Empty if it is a word of none.
-std::string as_word_of_percept(const LibraryIndex& index, const std::string& text) {
-  std::string told;
-  common_modules()->declarations.percepts.each([&](const std::string& name, const Percept& percept) {
-    const auto has = [&](const std::vector<std::string>& words) {
-      return std::ranges::find(words, text) != words.end();
-    };
-    const bool is_name = text == name || text == percept.antonym;
-    if (!told.empty() || !(is_name || has(percept.words) || has(percept.antonym_words))) return;
-    const std::string& meant = text == percept.antonym || has(percept.antonym_words) ? percept.antonym : name;
-    told = is_name ? fmt::format("`{}` is a percept", text)
-                   : fmt::format("`{}` is a word of the percept `{}`", text, meant.empty() ? name : meant);
-    constexpr std::size_t most_told = 5;
-    std::vector<std::string> asking;
-    std::size_t all = 0;
-    for (const IndexedMaterial& each : index.materials()) {
-      const bool asks = std::ranges::any_of(
-          each.asks, [&](const std::string& asked) { return asked == name || asked == percept.antonym; });
-      if (asks && ++all <= most_told) asking.push_back(fmt::format("`{}`", each.name));
-    }
-    if (all == 0) return void(told += ", which no material here asks for");
-    if (all > most_told) asking.push_back(fmt::format("{} more", all - most_told));
-    const std::string last = asking.back();
-    asking.pop_back();
-    told += asking.empty() ? fmt::format(", which {} asks for", last)
-                           : fmt::format(", which {} and {} ask for", fmt::join(asking, ", "), last);
-  });
-  return told;
-}
-
-/// The reason why nothing was found, with a proposal.
-Error why_nothing_is_found(const LibraryIndex& index, const std::vector<std::string>& texts, const std::string& kind) {
-  const auto because = [](std::string sentence, std::string mend = {}) {
-    return Error{Code::unknown_name, std::move(sentence), std::move(mend)};
-  };
-  if (index.materials().empty()) return because("there is no material here");
-  if (!kind.empty() && find_materials(index, {}, kind).empty()) {
-    const auto kinds = kinds_in(index);
-    const auto near = nearest_spelling(kind, kinds);
-    return Error{Code::unknown_name,
-                 fmt::format("no material is of kind `{}`", kind),
-                 near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", fmt::join(kinds, ", ")),
-                 {.name = "--kind", .text = kind}};
-  }
-  for (const std::string& text : texts) {
-    if (!find_materials(index, {text}, kind).empty()) continue;
-    const std::string among = kind.empty() ? "" : fmt::format(" of kind `{}`", kind);
-    if (std::string percept = as_word_of_percept(index, text); !percept.empty())
-      return because(readable("none of {} materials{} has \"{}\"", find_materials(index, {}, kind).size(), among, text),
-                     std::move(percept));
-    const std::vector<std::string> words = findable_words(index);
-    const auto near = nearest_spelling(text, words, words.size());
-    return because(readable("none of {} materials{} has \"{}\"", find_materials(index, {}, kind).size(), among, text),
-                   near ? fmt::format("did you mean \"{}\"?", *near) : "`wale find` alone lists them all");
-  }
-  return because("no material has all of these texts, although each alone is found");
-}
 
 /// The text by which a material was found, if its line does not show it already.
 std::string found_in(const FoundMaterial& found) {

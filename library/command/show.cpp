@@ -72,7 +72,13 @@ int show(const ShowOptions& options) {
   if (!here) return refuse(here.error());
   const MaterialIndex& index = here->index();
   const auto meant = meant_entry(index, options.name);
-  if (!meant) return refuse(meant.error());
+  if (!meant) {
+    Error error = meant.error();
+    if (options.name.find(".wale") != std::string::npos)
+      error.mend = fmt::format("`wale describe {0}` says what it feels like, and `wale find --near {0}` what feels like that",
+                               visible_text(options.name));
+    return refuse(error);
+  }
   const auto entry = index.entry(*meant);
   if (!entry) return refuse(entry.error());
   FoundEntries near;

@@ -9,23 +9,13 @@
 
 #include "compiler/text/resolver.hpp"
 #include "library/index/content_hash.hpp"
-#include "library/index/find.hpp"
+#include "library/store/seek.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Error: a text can mean no material of the catalogue, and is no file.
-Result<> is_meant_somewhere(const LibraryIndex& catalogue, const std::string& text) {
-  if (text.find(".wale") != std::string::npos || !catalogue.meant_by(text).empty()) return {};
-  std::vector<Entry> entries;
-  for (const IndexedMaterial& each : catalogue.materials())
-    if (each.origin != Origin::hidden) entries.push_back(entry_of(each));
-  const auto meant = meant_entry(*index_of(std::move(entries), default_device), text);
-  return meant || meant.error().code != Code::unknown_name ? Result<>() : Result<>(meant.error());
-}
 
 /// Brings the kept index up to date. Error: none can be kept.
 Result<> refresh(IndexHere& here, const FileRequest& request, const std::vector<LibraryFile>& files,
@@ -95,7 +85,7 @@ Result<> open_index(IndexHere& here, const std::string& place, const FileRequest
   const auto resolver = file_resolver(request.roots);
   auto catalogue = library_index(*resolver, "here");
   for (const std::string& text : meant)
-    if (auto known = is_meant_somewhere(*catalogue, text); !known) return known;
+    if (auto known = can_be_felt(*catalogue, request, text); !known) return known;
   const bool is_same = here.catalogue == catalogue && here.device == request.device;
   if (is_same && here.in_memory) return {};
   if (!is_same) here = IndexHere{.catalogue = catalogue, .device = request.device};

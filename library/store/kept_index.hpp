@@ -36,9 +36,9 @@ struct IndexHere {
 
 /// Opens the index at `place` as it stands, a file or the address of a shared one; or, if `place` is empty, brings the one
 /// that is kept for the library of the current folder up to date. What `here` has open of the same library is used again.
-/// Where no index can be kept, reads the library, once for each `here`. Names in `meant` that mean no material are told
-/// before anything is read. Errors: those of `LibraryStore::open` for a place that was named; those of `meant_entry` for
-/// `meant`; W0706.
+/// Where no index can be kept, reads the library, once for each `here`. What `can_be_felt` refuses of
+/// `meant` is told before anything is read. Errors: those of `LibraryStore::open` for a place that was named; those of
+/// `can_be_felt`; W0706.
 Result<> open_index(IndexHere& here, const std::string& place, const FileRequest& request,
                     const std::vector<std::string>& meant = {}, const IndexTold& told = {});
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "compiler/diagnostics/told.hpp"
@@ -58,20 +59,50 @@ std::vector<std::uint32_t> of_file(const MaterialIndex& index, const Entry& own,
   return is;
 }
 
+Error unknown_feel(const std::string& text, const std::string& name, const std::string& why) {
+  return {.code = Code::unknown_material,
+          .sentence = fmt::format("it is not known what `{}` feels like: {}", visible_text(name), visible_text(why)),
+          .mend = "take one that pushes",
+          .place = {.name = text}};
+}
+
+constexpr std::string_view ending = ".wale";
+
+bool names_file(const std::string& text) { return text.find(ending) != std::string::npos; }
+
+/// The materials of a file of one's own, at least one. Errors: those of `read_entries`; the first one of its text; that it
+/// declares no material.
+Result<FileEntries> own_entries(FileRequest request, const std::string& text, const Feel& feel) {
+  request.file = text;
+  const std::string path = text.substr(0, text.find(ending) + ending.size());
+  auto read = read_entries(request, std::filesystem::path(path).stem().string(), feel);
+  if (!read) return read.error();
+  if (read->entries.empty() || !read->entries.front().trouble.empty())
+    if (auto error = error_in(read->opened)) return *std::move(error);
+  if (read->entries.empty()) return unknown_feel(text, text, "the file declares no material");
+  return read;
+}
+
 }  // namespace
 
+Result<> can_be_felt(const LibraryIndex& catalogue, const FileRequest& request, const std::string& text) {
+  if (!catalogue.meant_by(text).empty()) return {};
+  std::vector<Entry> entries;
+  for (const IndexedMaterial& each : catalogue.materials())
+    if (each.origin != Origin::hidden) entries.push_back(entry_of(each));
+  const auto meant = meant_entry(*index_of(std::move(entries), default_device), text);
+  if (meant || meant.error().code != Code::unknown_name) return {};
+  if (!names_file(text)) return meant.error();
+  const auto read = own_entries(request, text, [](const Program&, const Declarations&) { return EntryFeel(); });
+  return read ? Result<>() : Result<>(read.error());
+}
+
 Result<FeltMaterial> felt_material(const MaterialIndex& index, const FileRequest& request, const std::string& text) {
-  const auto unknown_feel = [&](const std::string& name, const std::string& why) {
-    return Error{.code = Code::unknown_material,
-                 .sentence = fmt::format("it is not known what `{}` feels like: {}", visible_text(name), visible_text(why)),
-                 .mend = "take one that pushes",
-                 .place = {.name = text}};
-  };
   FileRequest own = request;
   own.device = index.device();
   const auto felt = [&](Entry entry, std::vector<std::uint32_t> is) -> Result<FeltMaterial> {
     if (!entry.felt.cues)
-      return unknown_feel(entry.name, entry.trouble.empty() ? "it only vibrates" : entry.trouble);
+      return unknown_feel(text, entry.name, entry.trouble.empty() ? "it only vibrates" : entry.trouble);
     return FeltMaterial{entry.name, *std::move(entry.felt.cues), std::move(is)};
   };
   const auto meant = meant_entry(index, text);
@@ -85,14 +116,9 @@ Result<FeltMaterial> felt_material(const MaterialIndex& index, const FileRequest
     }
     return felt(*std::move(entry), {*meant});
   }
-  const std::string path = text.substr(0, text.find(".wale") == std::string::npos ? 0 : text.find(".wale") + 5);
-  if (path.empty()) return meant.error();
-  own.file = text;
-  auto read = read_entries(own, std::filesystem::path(path).stem().string());
+  if (!names_file(text)) return meant.error();
+  auto read = own_entries(own, text, felt_of);
   if (!read) return read.error();
-  if (read->entries.empty() || !read->entries.front().trouble.empty())
-    if (auto error = error_in(read->opened)) return *std::move(error);
-  if (read->entries.empty()) return unknown_feel(text, "the file declares no material");
   Entry& first = read->entries.front();
   std::vector<std::uint32_t> is = of_file(index, first, read->opened.name);
   return felt(std::move(first), std::move(is));

@@ -35,6 +35,10 @@ struct FeltMaterial {
 /// of its text, and W0602 for a material whose cues are not known, as of one that only vibrates.
 Result<FeltMaterial> felt_material(const MaterialIndex& index, const FileRequest& request, const std::string& text);
 
+/// What `felt_material` would refuse, as far as it is known before the library is read: a text that means no material of
+/// the catalogue, and a file that does not compile. Takes about as long as compiling that file.
+Result<> can_be_felt(const LibraryIndex& catalogue, const FileRequest& request, const std::string& text);
+
 /// By feel, by words, or both, in an index. Errors: those of `felt_material`, `LevelProbe::make` and `find_entries`.
 Result<FoundEntries> seek_by_feel(const MaterialIndex& index, const FileRequest& request, const Seeking& sought);
 

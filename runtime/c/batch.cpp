@@ -6,6 +6,7 @@
 #include "runtime/c/program.hpp"
 #include "runtime/c/run.hpp"
 #include "runtime/c/sized.hpp"
+#include "runtime/stage/front_most.hpp"
 #include "schema/closest_names.hpp"
 #include "schema/visible_text.hpp"
 #include "wale/batch.hpp"
@@ -81,12 +82,8 @@ Result<std::vector<float>> parameters_of(const Program& program, const WaleBatch
 Result<PatchSize> size_of(const Program& program, const WaleBatchOptions& given) {
   if (given.width == 0 && given.height == 0) return program.default_size();
   constexpr const char* sides = "give m, as in 0.05; both sides 0 are the program's own size";
-  const float widest = static_cast<float>(program.description().device.widest_patch());
-  for (const float side : {given.width, given.height})
-    if (!(side > 0 && side <= widest))
-      return about_argument("width", "expected positive sides within the workspace", sides);
-  if (!(given.rim >= 0 && given.rim <= widest))
-    return about_argument("rim", "expected a rim that is not negative", sides);
+  for (const auto& [name, side] : {std::pair{"width", given.width}, std::pair{"height", given.height}})
+    if (!(side > 0 && std::isfinite(side))) return about_argument(name, "expected a positive, finite side", sides);
   return PatchSize{given.width, given.height, given.rim};
 }
 
@@ -154,11 +151,16 @@ WaleCode wale_batch(const WaleProgram* program, const WaleBatchOptions* options,
     const wale::Bank bank(program->program, *parameters, *size);
     const GivenMotions motions(*given, program->program.description().device.rate);
     const std::size_t ticks = given->ticks;
+    const bool has_edge = program->program.description().device.has_position();
     wale::run_batch(bank, given->hands, static_cast<long>(ticks),
                     [&](std::size_t first, long tick, std::span<const wale::Force> last, std::span<wale::Hand> hands) {
                       const auto now = static_cast<std::size_t>(tick);
-                      for (std::size_t i = 0; now > 0 && i < last.size(); ++i)
-                        forces[(first + i) * ticks + now - 1] = vector_of(last[i]);
+                      for (std::size_t i = 0; now > 0 && i < last.size(); ++i) {
+                        const std::size_t at = (first + i) * ticks + now - 1;
+                        const glm::vec2 hand(given->position[at].x, given->position[at].y);
+                        const bool touches = !has_edge || wale::PatchOutline::holds(bank.size().width, bank.size().height, hand);
+                        forces[at] = touches ? vector_of(last[i]) : WaleVector{};
+                      }
                       for (std::size_t i = 0; now < ticks && i < hands.size(); ++i)
                         hands[i] = motions.hand(first + i, now);
                     });

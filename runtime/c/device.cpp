@@ -81,9 +81,12 @@ Result<OpenOptions> read_options(const WaleDeviceOptions* options) {
   const auto disregard = read_flag("disregard_owner", given->disregard_owner);
   if (!disregard) return disregard.error();
   if (*disregard) read.trusted = TrustedDevices{};
-  for (const double each : {given->amplitude, given->frequency, given->centre_x, given->centre_y, given->direction_x,
-                            given->direction_y})  // also of a motion that does not use them
-    if (!std::isfinite(each)) return about_argument("options", "expected finite numbers", "0 is the default of each");
+  // Also of a motion that does not use them.
+  for (const auto& [name, value] :
+       {std::pair{"amplitude", given->amplitude}, std::pair{"frequency", given->frequency},
+        std::pair{"centre_x", given->centre_x}, std::pair{"centre_y", given->centre_y},
+        std::pair{"direction_x", given->direction_x}, std::pair{"direction_y", given->direction_y}})
+    if (!std::isfinite(value)) return about_argument(name, "expected a finite number", "0 is the default");
   read.hand = {given->hand_mass, given->hand_damping, given->hand_stiffness};
   auto motion = motion_of(*given);
   if (!motion) return std::move(motion).error();

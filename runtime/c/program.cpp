@@ -52,7 +52,8 @@ WaleCode wale_program_details(const WaleProgram* program, WaleProgramDetails* de
                           .percepts = known.percepts.size(),
                           .states = known.states.size(),
                           .grids = known.grids.size(),
-                          .warnings = program->warnings.size()});
+                          .warnings = program->warnings.size(),
+                          .fates = known.fates.size()});
     return {};
   });
 }
@@ -97,6 +98,23 @@ WaleCode wale_program_percept(const WaleProgram* program, size_t index, WalePerc
                           .level = wale::predict(bank, index, amplitude).level,
                           .valid_low = known.valid_low,
                           .valid_high = known.valid_high});
+    return {};
+  });
+}
+
+WaleCode wale_program_fate(const WaleProgram* program, size_t index, WaleFate* fate, WaleError** error) {
+  return call(error, [&]() -> wale::Result<> {
+    if (auto given = is_given("program", program); !given) return given;
+    if (auto sized = is_sized("fate", fate); !sized) return sized;
+    const auto& all = program->program.description().fates;
+    if (auto there = is_there(index, all.size()); !there) return there;
+    const wale::FateRecord& known = all[index];
+    write_sized(fate, {.name = text_of(known.name),
+                       .is_percept = known.percept,
+                       .fate = static_cast<std::int32_t>(known.fate),
+                       .asked = known.asked,
+                       .given = known.given,
+                       .reason = text_of(known.reason)});
     return {};
   });
 }

@@ -102,13 +102,6 @@ WaleCode wale_felt_measure(const WaleRun* run, const WalePatch* patch, const Wal
     if (auto given = is_given("patch", patch); !given) return given;
     const auto given = read_sized("options", options);
     if (!given) return given.error();
-    for (const double each : {given->settling, given->stuck_seconds, given->stuck_counts})
-      if (!(each >= 0 && each < HUGE_VAL))
-        return about_argument("options", "expected finite numbers that are not negative", "0 is the default of each");
-    if (given->least_crossings < 0)
-      return about_argument("least_crossings", "expected a number that is not negative, found " +
-                                                   std::to_string(given->least_crossings),
-                            "0 is the default, 50");
     wale::MeasureOptions measured{.settling = given->settling};
     if (given->stuck_seconds != 0) measured.stuck_seconds = given->stuck_seconds;
     if (given->stuck_counts != 0) measured.stuck_counts = given->stuck_counts;

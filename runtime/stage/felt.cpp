@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
+#include <numbers>
 #include <span>
 
 #include "runtime/stage/felt_response.hpp"
@@ -70,6 +72,22 @@ void count_swings(std::span<const TickRecord> record, float amplitude, Felt& fel
     }
     side = sign_of(off);
     direction = tick.velocity;
+  }
+}
+
+/// Makes the forces that actuators were told those that they exert: of each tick the mean until the next,
+/// behind a low-pass of the first order whose input is held: the solution of dy/dt = (u - y) / T for a constant u.
+void let_through(std::vector<TickRecord>& ticks, double seconds_per_tick, glm::dvec2 bandwidth) {
+  for (const int axis : {0, 1}) {
+    const double turn = 2 * std::numbers::pi * bandwidth[axis] * seconds_per_tick;
+    if (!(turn > 0)) continue;
+    double exerted = 0;  // N, when the tick begins
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+      const double periods = i + 1 < ticks.size() ? 1.0 + ticks[i + 1].skipped : 1;
+      const double wanted = ticks[i].force[axis], off = exerted - wanted;
+      ticks[i].force[axis] = static_cast<float>(wanted - off * std::expm1(-turn * periods) / (turn * periods));
+      exerted = wanted + off * std::exp(-turn * periods);
+    }
   }
 }
 
@@ -166,9 +184,13 @@ Result<float> size_from_run(const PerceptRecord& percept, const Felt& felt, long
 }  // namespace
 
 Felt measure(const Record& record, const MeasureOptions& options) {
-  const auto first = std::find_if(record.ticks.begin(), record.ticks.end(),
-                                  [&](const TickRecord& tick) { return tick.time >= options.settling; });
-  const std::span<const TickRecord> all(first, record.ticks.end());
+  const auto settled = std::find_if(record.ticks.begin(), record.ticks.end(),
+                                    [&](const TickRecord& tick) { return tick.time >= options.settling; });
+  const std::span<const TickRecord> told(settled, record.ticks.end());
+  std::vector<TickRecord> exerted;
+  const bool follows = options.bandwidth == glm::dvec2(0) || options.vibrates;
+  if (!follows) exerted = record.ticks, let_through(exerted, record.seconds_per_tick, options.bandwidth);
+  const std::span<const TickRecord> all = follows ? told : std::span<const TickRecord>(exerted).last(told.size());
   const auto window = static_cast<std::ptrdiff_t>(std::round(options.stuck_seconds / record.seconds_per_tick));
   // Half a count more allows for positions rounded to float.
   const double distance = (options.stuck_counts + 0.5) * options.position_step;
@@ -220,7 +242,13 @@ Felt measure(const Record& record, const MeasureOptions& options) {
 
   const float amplitude = options.predicted_amplitude > 0 ? options.predicted_amplitude : felt.force.p99;
   felt.response = response_of(options.change ? std::span<const TickRecord>(marked) : all, record.seconds_per_tick);
-  count_swings(ticks, amplitude, felt);
+  // A texture that the actuators hardly follow is crossed all the same.
+  std::vector<TickRecord> of_counted;
+  if (!follows && options.change)
+    std::ranges::copy_if(told, std::back_inserter(of_counted), [&](const TickRecord& tick) {
+      return tick.inside && tick.change == *options.change;
+    });
+  count_swings(follows ? ticks : options.change ? std::span<const TickRecord>(of_counted) : told, amplitude, felt);
   measure_movement(ticks, felt);
   return felt;
 }

@@ -76,6 +76,7 @@ Result<FeltPatch> measure(const RunResult& run, const Patch& patch, const Measur
   all.position_step = state->profile.position_step();
   all.predicted_amplitude = std::min(predicted_amplitude(*bank), static_cast<float>(most));
   all.vibrates = run.record.vibrates;
+  all.bandwidth = {state->profile.bandwidth_x, state->profile.bandwidth_y};
   all.change = *change;
   FeltPatch felt{measure(run.record, all), {}};
   if (felt.felt.ticks == 0)

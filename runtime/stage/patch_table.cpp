@@ -80,6 +80,7 @@ bool PatchTable::is_reserved(PatchName name) const {
 void PatchTable::free_slot(std::uint32_t number) {
   Slot& slot = slots_[number];
   slot.felt.reset();
+  slot.felt_before.reset();
   slot.bank.reset();
   slot.ready.reset();
   slot.older.reset();
@@ -282,6 +283,7 @@ void PatchTable::begin(Manner manner, bool lock_memory) {
   for (std::uint32_t number = 0; number < slots_.size(); ++number) {
     Slot& slot = slots_[number];
     if (!slot.wanted) continue;
+    if (slot.felt) slot.felt_before = std::move(slot.felt);
     slot.felt.reset();
     slot.bank.reset();
     slot.memory.reset();
@@ -475,7 +477,8 @@ PatchTable::Felt PatchTable::felt(PatchName name) const {
   const Slot* const slot = find(name);
   if (slot == nullptr || !slot->wanted) return {};
   const bool placed = running_ && slot->felt && slot->felt->enabled;
-  return {slot->memory, slot->bank, placed, slot->withdrawn, slot->felt ? &*slot->felt : nullptr};
+  return {slot->memory, slot->bank, placed, slot->withdrawn, slot->felt ? &*slot->felt : nullptr,
+          slot->felt_before ? &*slot->felt_before : nullptr};
 }
 
 std::vector<PatchTable::Published> PatchTable::published(const std::unordered_set<std::uint32_t>& changes) const {

@@ -100,7 +100,8 @@ class PatchTable {
     std::shared_ptr<const PreparedBank> bank;
     bool is_placed = false;       ///< the loop may use the memory
     std::uint32_t withdrawn = 0;  ///< otherwise: since this revision it does not
-    const WantedPatch* as = nullptr;  ///< as it was published; null where no run has had it; the table's
+    const WantedPatch* as = nullptr;  ///< as it was published in that run; null where it was not; the table's
+    const WantedPatch* before = nullptr;  ///< as the run before had it last; null where none had it; the table's
   };
   Felt felt(PatchName name) const;
   /// A patch as it was published last.
@@ -156,6 +157,7 @@ class PatchTable {
     bool is_unsampled = false;      // in `unsampled_`
     bool is_replaced = false;       // in `replaced_`
     std::optional<WantedPatch> felt;  // as published; its program, parameters and size may be older
+    std::optional<WantedPatch> felt_before;  // at the end of an earlier run
     std::shared_ptr<const PreparedBank> bank;  // as published
     std::shared_ptr<Memory> memory;
     bool sampled = false;    // the published bound is the sampled one

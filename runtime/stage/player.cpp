@@ -13,6 +13,9 @@ namespace {
 /// s; a force that has been held for longer no longer fits the hand's position.
 constexpr double longest_hold = 0.02;
 
+constexpr std::size_t more_room = 20'000;  ///< beats: 1.3 MB, the work of a millisecond at most
+constexpr std::size_t no_more_room = std::numeric_limits<std::size_t>::max();
+
 /// The guards that acted between the two counts.
 std::uint32_t guard_bits(const GuardCounts& before, const GuardCounts& after) noexcept {
   const auto bit = [](long then, long now, GuardBit guard) {
@@ -46,7 +49,7 @@ Reading Player::sound(Reading reading) noexcept {
 void Player::exerted(Force force) noexcept {
   if (!all_finite(force) || served_ == 0) return;
   guards_.commanded(force);
-  record_.ticks[(served_ - 1) % record_.ticks.size()].force = force;
+  newest().force = force;
   if (sink_ != nullptr) sink_->exerted(force);
   if (outlets_ == nullptr) return;
   state_.force = force;
@@ -58,6 +61,8 @@ Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record,
     : device_(device),
       patches_(patches),
       record_(record),
+      beats_(beats),
+      ring_(beats),
       sink_(sink),
       position_step_(device.profile().position_step()),
       filters_x_(device.profile()),
@@ -67,7 +72,17 @@ Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record,
       outlets_(outlets) {
   record_.seconds_per_tick = 1 / device.profile().rate;
   record_.vibrates = device.profile().shaker.has_value();
-  record_.ticks.resize(beats);
+  record_.ticks.reserve(beats);
+  ticks_ = record_.ticks.data();
+  make_room();
+}
+
+bool Player::make_room() {
+  std::size_t room = room_.load(std::memory_order_relaxed);
+  if (room >= beats_) return false;  // or none is wanted any more
+  const std::size_t more = std::min(beats_, room + more_room);
+  record_.ticks.resize(more);  // allocates nothing
+  return room_.compare_exchange_strong(room, more, std::memory_order_release) && more < beats_;
 }
 
 Hand Player::hand(const Reading& reading, const Beat& beat) noexcept {
@@ -150,7 +165,12 @@ void Player::note(const Beat& beat, const Reading& reading, const Hand& hand, co
                   const GuardCounts& before) noexcept {
   lateness_.add(beat.lateness);
   missed_ += beat.skipped;
-  record_.ticks[served_++ % record_.ticks.size()] = {
+  if (served_ < beats_ && ring_ == beats_) {
+    std::size_t room = room_.load(std::memory_order_acquire);
+    if (served_ >= room && room_.compare_exchange_strong(room, no_more_room)) ring_ = room;
+  }
+  ++served_;
+  newest() = {
       .time = hand.time,
       .position = hand.workspace,
       .velocity = hand.velocity,
@@ -219,10 +239,9 @@ GuardCounts Player::guards() const noexcept {
 
 void Player::finish() {
   std::vector<TickRecord>& ticks = record_.ticks;
-  if (served_ > ticks.size())
-    std::rotate(ticks.begin(), ticks.begin() + static_cast<std::ptrdiff_t>(served_ % ticks.size()), ticks.end());
-  else
-    ticks.resize(served_);
+  ticks.resize(std::min(served_, ring_));
+  if (served_ > ring_)
+    std::rotate(ticks.begin(), ticks.begin() + static_cast<std::ptrdiff_t>(served_ % ring_), ticks.end());
 }
 
 }  // namespace wale

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -44,7 +45,8 @@ class AxisFilters {
 /// The real-time half of a stage: the work of one thread at each beat. Its end commands zero force.
 class Player {
  public:
-  /// `record` keeps the last `beats` beats, at least one, and `sink` receives each; `outlets` get its state, contacts
+  /// `record` keeps the last `beats` beats, at least one, and `sink` receives each; a long one gets its room bit by bit, by
+  /// `make_room`. `outlets` get its state, contacts
   /// and copies of memories. All outlive the player. `most_newton` is the largest force that the user allows; with
   /// `real_time`, the cost of each step is measured by the clock. Allocates.
   Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats,
@@ -62,6 +64,10 @@ class Player {
   /// Real-time: allocates nothing, takes no lock, makes no system call besides the device's own, does not throw.
   void serve(const Beat& beat) noexcept;
 
+  /// Makes room for 20 000 more beats in the record, within a millisecond or so; false if it has all. From one thread
+  /// besides that of the beats. If beats use up the room before, the record keeps the last ones that it has room for.
+  bool make_room();
+
   /// The force that the actuator exerts since the last beat, where it is known only now. Real-time as `serve`.
   void exerted(Force force) noexcept;
 
@@ -70,7 +76,7 @@ class Player {
   std::optional<TickCosts> costs() const { return costs_.summary(); }
   GuardCounts guards() const noexcept;
   long served() const { return static_cast<long>(served_); }
-  /// Sorts the record by time, and cuts it to the beats served.
+  /// Sorts the record by time, and cuts it to the beats served. Not while another thread makes room.
   void finish();
 
  private:
@@ -96,7 +102,13 @@ class Player {
 
   Device& device_;
   Exchange<PlacedPatches>& patches_;
+  /// The place of the newest beat in the record. Real-time as `serve`.
+  TickRecord& newest() noexcept { return ticks_[(served_ - 1) % ring_]; }
+
   Record& record_;
+  TickRecord* ticks_ = nullptr;          // of the record
+  std::size_t beats_, ring_;             // as many as it is to keep, and as it comes to keep
+  std::atomic<std::size_t> room_ = 0;    // so many can be written
   TickSink* sink_;
   std::size_t served_ = 0;
   long missed_ = 0;

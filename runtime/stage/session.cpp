@@ -254,6 +254,7 @@ void Session::serve_in_virtual_time() {
           const std::lock_guard lock(stage_->mutex);
           stage_->table.publish(patches_, stage_->recorder.get());
         }
+        if (beat.period % 1000 == 0) player_->make_room();  // for more beats than that
         player_->serve(beat);
         if (options_.progress && (beat.period + 1) % every == 0) options_.progress(stage_->now());
       });
@@ -306,9 +307,10 @@ void Session::attend() {
   using Ticking = std::chrono::steady_clock;
   const auto interval = std::chrono::duration_cast<Ticking::duration>(std::chrono::duration<double>(progress_seconds));
   for (auto next_progress = Ticking::now() + interval;;) {
+    const bool more_room = player_->make_room();
     {
       std::unique_lock lock(stage_->mutex);
-      stage_->news.wait_until(lock, next_progress, [&] { return finished_ || stage_->table.has_news(); });
+      stage_->news.wait_until(lock, more_room ? Ticking::now() : next_progress, [&] { return finished_ || stage_->table.has_news(); });
       if (finished_) return;
       if (stage_->table.has_news()) publish();
     }

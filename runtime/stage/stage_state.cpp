@@ -129,7 +129,14 @@ Result<> StageState::has(PatchName name) const {
 
 Result<> StageState::fits(const PatchProgram& program) const {
   const bool same_kind = program.vibrates() == profile.shaker.has_value();
-  if (same_kind && program.device.name == profile.name) return is_built_for(program, profile);
+  if (same_kind && program.device.name == profile.name) {
+    auto built = is_built_for(program, profile);
+    if (built) return built;
+    Error error = std::move(built).error();
+    error.place = {.name = "program", .text = program.material};
+    error.mend = "compile it again for the device as it is declared now, or give the stage the figures it was built for";
+    return error;
+  }
   std::string sentence = program.material + " was built for " + program.device.name;
   const bool is_nameless = profile.name.empty() && (device != nullptr || has_profile);
   if (is_nameless)
@@ -197,7 +204,9 @@ Result<Placement> StageState::placement(PatchName name) const {
 Result<Placement> StageState::published(PatchName name) const {
   const std::lock_guard lock(mutex);
   if (auto there = has(name); !there) return std::move(there).error();
-  if (const WantedPatch* const as = table.felt(name).as) return as->told();
+  const PatchTable::Felt felt = table.felt(name);
+  // A run that has just begun has not had it yet.
+  if (const WantedPatch* const as = felt.as != nullptr ? felt.as : felt.before) return as->told();
   return wrong_moment("patch", "no run has had the patch yet", "ask `placement` how it is wanted, or ask during a run");
 }
 

@@ -134,7 +134,7 @@ DRAW_ARRAY(WaleVector) DRAW_ARRAY(const WaleVector) DRAW_ARRAY(float) DRAW_ARRAY
 DRAW_RESULT(WaleDeviceInfo)
 DRAW_RESULT(WaleProfile)
 DRAW_RESULT(WaleProgramDetails) DRAW_RESULT(WaleParameter) DRAW_RESULT(WalePercept) DRAW_RESULT(WaleRecordingDetails)
-    DRAW_RESULT(WaleReplay) DRAW_RESULT(WaleRunFigures) DRAW_RESULT(WaleFeltFigures) DRAW_RESULT(WaleFeltLevel)
+    DRAW_RESULT(WaleFate) DRAW_RESULT(WaleReplay) DRAW_RESULT(WaleRunFigures) DRAW_RESULT(WaleFeltFigures) DRAW_RESULT(WaleFeltLevel)
         DRAW_RESULT(WaleGrid) DRAW_RESULT(WaleWorkspaceDetails) DRAW_RESULT(WaleWorkspacePatch)
             DRAW_RESULT(WaleWorkspaceMark) DRAW_RESULT(WaleMatch) DRAW_RESULT(WalePlacementDetails)
 

@@ -141,6 +141,11 @@ static void programs(void) {
   CHECK(fabs(percept.level - 0.6) < 0.01);
   CHECK(fabs(percept.amplitude - 1.934) < 0.002); /* N, schema/LANGUAGE.md */
   CHECK_MALFORMED(wale_program_percept(corduroy, details.percepts, &percept, &error));
+  WaleFate fate = {.size = sizeof fate};
+  CHECK_GOOD(wale_program_fate(corduroy, 0, &fate, &error));
+  CHECK(is_text(fate.name, "roughness") && fate.is_percept == 1 && fate.fate == WALE_FATE_kept);
+  CHECK(fabs(fate.asked - 0.6) < 1e-6 && fabs(fate.given - 0.6) < 0.01);
+  CHECK_MALFORMED(wale_program_fate(corduroy, details.fates, &fate, &error));
 
   /* There and back through the bytes of a file. */
   size_t length = 0, again = 0;

@@ -111,6 +111,9 @@ static void programs(void) {
   CHECK_NO_STRUCT("parameter", wale_program_parameter(corduroy, 0, NULL, &error));
   CHECK_NULL("program", wale_program_percept(NULL, 0, &percept, &error));
   CHECK_NO_STRUCT("percept", wale_program_percept(corduroy, 0, NULL, &error));
+  WaleFate fate = {.size = sizeof fate};
+  CHECK_NULL("program", wale_program_fate(NULL, 0, &fate, &error));
+  CHECK_NO_STRUCT("fate", wale_program_fate(corduroy, 0, NULL, &error));
 
   WaleBatchOptions options = {.size = sizeof options, .hands = 1, .ticks = 1, .position = &place};
   CHECK_NULL("program", wale_batch(NULL, &options, &force, &error));

@@ -248,5 +248,34 @@ TEST_F(ForPrograms, ReadsALibraryThatCanBeStopped) {
   EXPECT_TRUE(ended.error().code == Code::stopped || ended.error().code == Code::wrong_moment) << in_words(ended.error());
 }
 
+TEST(BeforeALibraryIsRead, WhatIsWrongWithAFileIsTold) {
+  const TemporaryFolder folder;
+  const Variable cache("XDG_CACHE_HOME", folder / "cache");  // there is no index yet
+  folder.write("empty.wale", "");
+  folder.write("broken.wale", "wale 1\nmaterial m { physical { force = 3 mm } }\n");
+  folder.write("none.wale", "wale 1\nlet a = 1\n");
+  const Library library;
+  int told = 0;
+  const SearchOptions options{.progress = [&](std::size_t, std::size_t) { return ++told, false; }};
+  const std::pair<const char*, Code> files[] = {{"missing.wale", Code::unreadable_file},
+                                                {"empty.wale", Code::missing_version},
+                                                {"broken.wale", Code::wrong_dimension},
+                                                {"none.wale", Code::unknown_material}};
+  for (const auto& [name, code] : files) {
+    const std::string path = folder / name;
+    for (const auto& result : {library.nearest(path, options), library.between("denim", path, options),
+                               library.between(path, "denim", options)}) {
+      ASSERT_FALSE(result) << name;
+      EXPECT_EQ(result.error().code, code) << in_words(result.error());
+    }
+  }
+  EXPECT_EQ(told, 0);
+  folder.write("good.wale", "wale 1\nmaterial m { physical { force = lateral(sin(2 pi * x / 3 mm), amplitude: 1 N) } }\n");
+  const auto stopped = library.nearest(folder / "good.wale", options);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, Code::stopped);
+  EXPECT_GT(told, 0);
+}
+
 }  // namespace
 }  // namespace wale::for_programs_test

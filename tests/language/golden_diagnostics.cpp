@@ -304,5 +304,26 @@ TEST(Choices, AFileWithoutMaterialsSaysSo) {
   EXPECT_EQ(diagnostics.all()[0].message, "`test.wale` has no material");
 }
 
+TEST(Helps, SayHowAModuleIsImportedAndWhatAMaterialTakes) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"import fabric.corduroy (corduroy)\n", "all that it exports is then known by its own name"},
+      {"import fabric.corduroy {corduroy}\n", "all that it exports is then known by its own name"},
+      {"import fabric.corduroy: corduroy\n", "all that it exports is then known by its own name"},
+      {"import fabric.corduroy as cord\n", "all that it exports is then known by its own name"},
+      {"import fabric.corduroy, fabric.denim\n", "each import is a line of its own"},
+      {"import fabric/corduroy\n", "`import fabric.corduroy`"},
+      {"material x = corduroy(roughnes: 0.3)\n", "did you mean `roughness`?"},
+      {"material x = denim(yarm: 1 mm)\n", "did you mean `yarn`?"},
+      {"material x = denim(colour: 1 mm)\n", "it has: yarn, roughness"},
+  };
+  for (const auto& [text, help] : cases) {
+    SourceSet sources;
+    const SourceId source = sources.add("test.wale", std::string("wale 1\n") + text);
+    const auto diagnostics = checked(sources, source);
+    ASSERT_FALSE(diagnostics.empty()) << text;
+    EXPECT_NE(diagnostics[0].help.find(help), std::string::npos) << text << diagnostics[0].help;
+  }
+}
+
 }  // namespace
 }  // namespace wale::golden_diagnostics_test

@@ -21,6 +21,15 @@ def test_a_spring_against_its_formula(library: wale.Library) -> None:
     assert np.abs(still + 10 * position).max() < 1e-4
 
 
+def test_no_force_beyond_the_edge(library: wale.Library) -> None:
+    spring = library.compile("wale 1\nmaterial m { physical { force = -100 N/m * hand } }\n")
+    position = np.array([[9.9e-3, 0], [10.1e-3, 0], [0, -19e-3], [0, 21e-3], [3e-3, -4e-3]])
+    inside = (np.abs(position) <= [0.01, 0.02]).all(axis=1)
+    forces = wale.batch(spring, position, size=(0.02, 0.04))
+    assert forces == pytest.approx(np.where(inside[:, None], -100 * position, 0), abs=1e-6)
+    assert not wale.batch(spring, [[0.2, 0.2]], size=(1000, 1000)).any()  # the workspace is 229 mm wide
+
+
 def test_hands_are_independent(corduroy: wale.Program) -> None:
     random = np.random.default_rng(7)
     position = random.uniform(-0.01, 0.01, (1000, 12, 2))
@@ -55,7 +64,13 @@ def test_wrong_arrays(corduroy: wale.Program) -> None:
     for size in [(0, 0), (-1, 1)]:
         with pytest.raises(wale.Error, match="positive"):
             wale.batch(corduroy, np.zeros((2, 3, 2)), size=size)
+    for size, name in [((0.02, -1), "height"), ((math.nan, 0.02), "width")]:
+        with pytest.raises(wale.Error, match=name):
+            wale.batch(corduroy, np.zeros((2, 3, 2)), size=size)
     position = np.zeros((2, 3, 2))
+    with pytest.raises(ValueError, match="position: expected numbers, found masked"):
+        wale.batch(corduroy, np.ma.masked_array(position, mask=position == 0))
+    assert (wale.batch(corduroy, np.ma.masked_array(position)) == wale.batch(corduroy, position)).all()
     for wrong in [{"velocity": np.zeros((2, 2, 2))}, {"time": [1, 2]}, {"button": np.zeros((2, 2))}]:
         with pytest.raises(ValueError):
             wale.batch(corduroy, position, **wrong)

@@ -80,7 +80,7 @@ class Maker:
             wale.Future: (lambda: self.library.find_later("corduroy"), {
                 "poll": (), "wait": (), "take": (), "take_matches": (), "progress": (), "cancel": ()}),
             wale.Program: (lambda: wale.Program.load(bytes(self.nap)), {
-                "load": None, "parameters": None, "percepts": None, "warnings": None, "__bytes__": (), "profile": None}),
+                "load": None, "parameters": None, "percepts": None, "fates": None, "warnings": None, "__bytes__": (), "profile": None}),
             wale.Device: (self.stick, {"profile": None}),
             wale.Shape: (lambda: wale.Shape.ellipse(0.01, 0.01), {
                 "ellipse": None, "polygon": None, "mask": None, "size": None, "edge": ((0, 0),)}),

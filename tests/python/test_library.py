@@ -16,6 +16,7 @@ def test_a_material_is_the_same_by_every_way(library: wale.Library, corduroy: wa
     assert data == bytes(library.find("fabric.corduroy"))
     assert data == bytes(library.find_later("corduroy").take())
     assert data == bytes(wale.Program.load(data)) == bytes(library.open_bytes(data))
+    assert data == bytes(library.open_bytes(memoryview(bytes(each for byte in data for each in (byte, 0)))[::2]))
     file = tmp_path / "corduroy.wpp"
     file.write_bytes(data)
     assert data == bytes(library.open(file)) == bytes(library.open_later(file).take())
@@ -220,3 +221,13 @@ def test_what_a_person_reads_is_one_line_that_a_terminal_shows(library: wale.Lib
             call(odd)
         words = str(raised.value)
         assert not any(code < " " or "\x7f" <= code < "\xa0" or code in "\u2028\u2029\u202e" for code in words), repr(words)
+
+
+def test_what_the_device_cannot_give_is_told(library: wale.Library, corduroy: wale.Program) -> None:
+    strong = library.compile("wale 1\nmaterial m { physical { force = lateral(sin(2 pi * x / 4 mm), amplitude: 40 N) } }\n")
+    saturated = [each for each in strong.fates if each.fate == wale.FateKind.saturated]
+    assert len(saturated) == 1 and not saturated[0].is_percept and "40 N" in saturated[0].reason
+    roughness = corduroy.fates[0]
+    assert (roughness.name, roughness.is_percept, roughness.fate) == ("roughness", True, wale.FateKind.kept)
+    assert roughness.asked == pytest.approx(0.6)
+    assert roughness.given == pytest.approx(0.6, abs=0.01)

@@ -63,7 +63,7 @@ def test_python_has_the_names_of_c() -> None:
     kinds = {name.lower(): kind for name, kind in vars(wale).items() if isinstance(kind, type) and name != "Code"}
     otherwise = {"create", "free", "details", "figures", "bytes", "create_for", "interrupt", "ticks", "size", "begin",
                  "parameter", "percept", "warning", "patch", "program", "shape", "mark", "open_part", "open", "code", "nearest",
-                 "other", "state_name", "grid", "level", "measure", "values"}
+                 "fate", "other", "state_name", "grid", "level", "measure", "values"}
     for function in functions:
         kind, _, member = function.removeprefix("wale_").partition("_")
         if kind in kinds and member and member not in otherwise:

@@ -40,6 +40,13 @@ def test_words(library: wale.Library) -> None:
     assert first.score > 0 and first.distance is None and first.from_other is None
     assert library.search_later("ribbed", kind="fabric", most=1).take_matches().matches[0].kind.startswith("fabric")
     assert library.search("zzzz").matches == ()
+    why = library.search("corduroi").warnings[0]
+    assert (why.code, why.argument, why.text) == (wale.Code.unknown_name, "text", "corduroi")
+    assert why.mend == 'did you mean "corduroy"?' and why.nearest == ("corduroy",)
+    assert '"ribed"' in library.search("ribed fbric").warnings[0].sentence
+    assert library.search("slate", kind="fabric").warnings[0].mend.endswith("of other kinds have it")
+    assert "a blank text" in library.search("qqqqqqqqqqqq").warnings[0].mend
+    assert library.search("slate").warnings == ()
 
 
 def test_feel(shelf: wale.Library) -> None:

@@ -56,6 +56,52 @@ TEST(Felt, FiguresAreThoseOfASine) {
   EXPECT_FLOAT_EQ(felt.interaction->rms, 3);
 }
 
+/// Ticks of 1/900 s divided into steps of a microsecond, in each of which the force goes towards what was told.
+std::vector<double> slowly_exerted(const Record& record, double bandwidth) {
+  constexpr int steps = 1111;
+  const double share = 2 * pi * bandwidth * record.seconds_per_tick / steps;
+  std::vector<double> means;
+  double force = 0;
+  for (const TickRecord& tick : record.ticks) {
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) force += share * (tick.force.x - force), sum += force;
+    means.push_back(sum / steps);
+  }
+  return means;
+}
+
+TEST(Felt, AnActuatorExertsWhatItsBandwidthLetsThrough) {
+  for (const double bandwidth : {4.0, 40.0, 400.0}) {
+    MeasureOptions slow = options();
+    slow.settling = 0.5, slow.bandwidth = {bandwidth, 0};
+    const Record told = one_second(rubbing);
+    const Felt felt = measure(told, slow);
+    const std::vector<double> exerted = slowly_exerted(told, bandwidth);
+    double squares = 0, largest = 0;
+    for (std::size_t i = 450; i < 900; ++i)
+      squares += exerted[i] * exerted[i] / 450, largest = std::max(largest, std::abs(exerted[i]));
+    EXPECT_NEAR(felt.force_rubbing.rms, std::sqrt(squares), 0.003 * felt.force_rubbing.rms) << bandwidth;
+    EXPECT_NEAR(felt.force_rubbing.maximum, largest, 0.003 * largest) << bandwidth;
+    // 40 Hz through a low-pass; a force that is held for a tick has a little less of it.
+    const double through = 1 / std::hypot(1, 40 / bandwidth);
+    EXPECT_NEAR(felt.force_rubbing.rms, through * std::sqrt(2.0), 0.02 * through) << bandwidth;
+    EXPECT_EQ(felt.crossings, measure(told, [&] { MeasureOptions at_once = slow; at_once.bandwidth = {0, 0}; return at_once; }()).crossings);
+  }
+}
+
+TEST(Felt, TicksThatWereSkippedGiveAnActuatorTime) {
+  Record record{.seconds_per_tick = 0.01, .ticks = {}};
+  for (int i = 0; i < 3; ++i)
+    record.ticks.push_back({.time = 0.01 * i + (i == 2 ? 1 : 0), .force = {0, 1}, .skipped = i == 2 ? 100u : 0u, .inside = true});
+  MeasureOptions slow = options();
+  slow.bandwidth = {0, 1 / (2 * pi * 0.01)};  // a tick is one time constant
+  const Felt felt = measure(record, slow);
+  EXPECT_NEAR(felt.force.maximum, 1, 1e-6) << "more than a second after the step";
+  // The first tick's mean of 1 - exp(-t), 1/e; the second lasts for 101.
+  const double first = std::exp(-1.0), second = 1 - (std::exp(-1.0) - std::exp(-102.0)) / 101;
+  EXPECT_NEAR(felt.force.rms, std::sqrt((first * first + second * second + 1) / 3), 1e-6);
+}
+
 TEST(Felt, P99LeavesOnePercentAbove) {
   int i = 0;
   const Record record = one_second([&](double) { return TickRecord{.force = {0, static_cast<float>(++i)}}; });

@@ -80,6 +80,32 @@ class Prepared : public testing::Test {
   Exchange<PlacedPatches> patches;
 };
 
+TEST_F(Prepared, UntilARunHasAPatchItIsAsTheRunBeforeHadItLast) {
+  const PatchName patch = add(push(1), 0.01f), other = add(push(2));
+  finish_all();
+  EXPECT_EQ(table.felt(patch).as, nullptr);
+  EXPECT_EQ(table.felt(patch).before, nullptr);
+  publish();
+  EXPECT_EQ(table.felt(patch).as->position.x, 0.01f);
+  table.end();
+  want(patch, move(0.02f));
+  for (int run = 0; run < 3; ++run) {  // runs that end before they have it
+    table.begin(PatchTable::Manner::piecewise);
+    EXPECT_EQ(table.felt(patch).as, nullptr);
+    ASSERT_NE(table.felt(patch).before, nullptr);
+    EXPECT_EQ(table.felt(patch).before->position.x, 0.01f);
+    if (run < 2) table.end();
+  }
+  finish_all();
+  publish();
+  EXPECT_EQ(table.felt(patch).as->position.x, 0.02f);
+  table.end();
+  remove(other);
+  const PatchName next = add(push(3));  // in the place of the one that was removed
+  EXPECT_EQ(next.number, other.number);
+  EXPECT_EQ(table.felt(next).before, nullptr);
+}
+
 TEST_F(Prepared, ABankThatIsBegunIsFeltAlthoughANewerOneIsWanted) {
   const PatchName patch = add(push(1));
   finish_all();

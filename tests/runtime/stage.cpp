@@ -167,6 +167,34 @@ TEST(Stage, NoForceAfterALongPauseOfTheLoop) {
   EXPECT_GT(device.commanded.x, full);
 }
 
+TEST(Stage, ARecordKeepsTheLastBeatsThatItHasRoomFor) {
+  for (const bool gets_room : {true, false}) {
+    Notebook device;
+    Exchange<PlacedPatches> patches;
+    Record record;
+    Player player(device, patches, record, 70'000);
+    const auto serve = [&](long from, long to) {
+      for (long period = from; period < to; ++period) {
+        device.counts = {static_cast<int>(period % 2000), 0};
+        player.serve({period, 1, 0, 0});
+      }
+    };
+    serve(0, 15'000);
+    while (gets_room && player.make_room()) continue;
+    serve(15'000, 65'000);
+    player.finish();
+    const std::size_t kept = record.ticks.size();
+    EXPECT_EQ(kept == 65'000, gets_room);
+    EXPECT_GE(kept, 15'000u);
+    const double rate = device.profile().rate;
+    for (std::size_t i = 0; i < kept; ++i) {
+      const auto period = static_cast<double>(65'000 - kept + i);
+      ASSERT_DOUBLE_EQ(record.ticks[i].time, period / rate) << i << " of " << kept;
+    }
+    EXPECT_FALSE(player.make_room());
+  }
+}
+
 /// At both ends of the range of tick rates, the run has the declared number of ticks and the handle exerts the level.
 TEST(Stage, RunsAtAHundredTicksASecondAndAtTenThousand) {
   for (const double rate : {DeviceProfile::least_rate, DeviceProfile::most_rate}) {

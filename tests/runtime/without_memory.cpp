@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "schema/home_process.hpp"
 #include "tests/runtime/failing_memory.hpp"
 #include "tests/runtime/figures.hpp"
 #include "tests/runtime/forked.hpp"
@@ -182,6 +183,21 @@ TEST(WithoutMemory, NoThreadOfARunEndsTheProcess) {
     }
     EXPECT_EQ(outcome(1'000'000), 0) << what << " has enough at last";
   }
+}
+
+TEST(WithoutMemory, WhatEachProcessHasOfItsOwnIsLeftAndDestroyed) {
+  if (!failing_memory::is_wired()) GTEST_SKIP() << "a sanitizer allocates";
+  const auto destroyed = [](std::unique_ptr<PerProcess<std::vector<int>>>& all) {
+    failing_memory::left = 0;
+    all.reset();
+    failing_memory::left = -1;
+    return 0;
+  };
+  auto unused = std::make_unique<PerProcess<std::vector<int>>>(), used = std::make_unique<PerProcess<std::vector<int>>>();
+  (**used).assign(100, 1);
+  EXPECT_EQ(in_a_child([&] { return destroyed(used) + destroyed(unused); }), 0);
+  EXPECT_EQ((**used).size(), 100u);
+  destroyed(used), destroyed(unused);
 }
 
 #if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)

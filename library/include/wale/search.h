@@ -7,7 +7,8 @@
 extern "C" {
 #endif
 
-/* The materials that a search found, the best first. It does not change; any number of threads may use it at once. Texts of it
+/* The materials that a search found, the best first: by feel in the order of the least that they can differ by, where each cue that
+   is unknown counts as one difference more. It does not change; any number of threads may use it at once. Texts of it
    belong to it. */
 typedef struct WaleMatches WaleMatches;
 
@@ -89,7 +90,7 @@ WALE_API WaleCode wale_matches_match(const WaleMatches* matches, size_t index, W
 WALE_API WaleText wale_matches_unknown(const WaleMatches* matches, size_t index, size_t which);
 WALE_API WaleText wale_matches_other_unknown(const WaleMatches* matches, size_t index, size_t which);
 /* What the owner should know: newer_file if the named index is of another build of Wale, unwritable_file if no index can be
-   kept. NULL behind the last. It belongs to `matches`. */
+   kept; by words, unknown_name if nothing was found: why, and a word that was perhaps meant. NULL behind the last. It belongs to `matches`. */
 WALE_API const WaleError* wale_matches_warning(const WaleMatches* matches, size_t index);
 
 #ifdef __cplusplus

@@ -57,9 +57,12 @@ struct Match {
 
 /// What a search found.
 struct SearchResult {
-  std::vector<Match> matches;  ///< the best first; empty if there is none
+  /// The best first; empty if there is none. By feel, the least that they can differ by orders them (`low`, of `between`
+  /// to both), where each cue that is unknown counts as one difference more.
+  std::vector<Match> matches;
   /// What the owner should know: `newer_file` if the named index is of another build of Wale, whose maps may give other
-  /// levels; `unwritable_file` if no index can be kept, so that the library is read again by each process.
+  /// levels; `unwritable_file` if no index can be kept, so that the library is read again by each process; by words,
+  /// `unknown_name` if nothing was found: why, and a word that was perhaps meant.
   std::vector<Error> warnings = {};
 };
 

@@ -7,13 +7,13 @@ something of the library is closed at the end of a `with`, by `close()`, or when
 from wale._abi import lib as _lib
 from wale._abi import read as _read
 from wale.batch import batch
-from wale.codes import Code, ContactKind, DeviceKind, MarkKind, ReadingContact
+from wale.codes import Code, ContactKind, DeviceKind, FateKind, MarkKind, ReadingContact
 from wale.device import Device, DeviceInfo, Hand, Motion, Profile, devices, open_device, profile
 from wale.errors import Error, Span
 from wale.library import FeltDistance, Future, Library, Match, SearchResult
 from wale.loop import Loop
 from wale.placement import Placement
-from wale.program import Parameter, Percept, Program
+from wale.program import Fate, Parameter, Percept, Program
 from wale.recording import Recording, Replay
 from wale.run import Felt, ForceSize, Guards, Level, Now, Run, Times
 from wale.shape import Shape
@@ -24,9 +24,9 @@ from wale.workspace import SliderMark, Workspace, WorkspacePatch, load_workspace
 __version__: str = _read(_lib.wale_version())
 
 __all__ = [
-    "Code", "Contact", "ContactKind", "Device", "DeviceInfo", "DeviceKind", "Edit", "Error", "Felt", "FeltDistance", "ForceSize",
-    "Future", "Guards", "Hand", "Level", "Library", "Loop", "Mark", "MarkKind", "Match", "Motion", "Now", "Parameter", "Patch",
-    "Percept", "Placement", "Profile", "Program", "ReadingContact", "Recording", "Replay", "Run", "SearchResult", "Shape",
-    "SliderMark", "Snapshot", "Span", "Stage",
-    "Times", "Workspace", "WorkspacePatch", "batch", "devices", "load_workspace", "open_device", "profile",
+    "Code", "Contact", "ContactKind", "Device", "DeviceInfo", "DeviceKind", "Edit", "Error", "Fate", "FateKind",
+    "Felt", "FeltDistance", "ForceSize", "Future", "Guards", "Hand", "Level", "Library", "Loop", "Mark", "MarkKind",
+    "Match", "Motion", "Now", "Parameter", "Patch", "Percept", "Placement", "Profile", "Program", "ReadingContact",
+    "Recording", "Replay", "Run", "SearchResult", "Shape", "SliderMark", "Snapshot", "Span", "Stage", "Times",
+    "Workspace", "WorkspacePatch", "batch", "devices", "load_workspace", "open_device", "profile",
 ]

@@ -155,9 +155,10 @@ def pair(values: Sequence[float], name: str) -> tuple[float, float]:
 
 
 def bytes_of(data: Any, name: str) -> tuple[Any, int]:
-    """The memory of bytes that are an argument, and how many they are. TypeError for anything else."""
+    """The memory of bytes that are an argument, and how many they are. TypeError for what holds none."""
     try:
-        return ffi.from_buffer(data), memoryview(data).nbytes
+        view = memoryview(data)
+        return ffi.from_buffer(data if view.c_contiguous else view.tobytes()), view.nbytes
     except TypeError as why:
         raise TypeError(f"{name}: expected bytes, found {type(data).__name__}") from why
 

@@ -31,6 +31,8 @@ def numbers(values: ArrayLike, dtype: Any, name: str) -> NDArray[Any]:
         array = np.asarray(values)
     except ValueError as why:
         raise ValueError(f"{name}: expected an array, found rows of different lengths") from why
+    if np.ma.is_masked(values):  # type: ignore[no-untyped-call]
+        raise ValueError(f"{name}: expected numbers, found masked ones")
     if array.dtype.kind not in "biuf":
         raise TypeError(f"{name}: expected numbers, found an array of {array.dtype}")
     with np.errstate(over="ignore"):  # what is too large for a float is infinite, and the call says so
@@ -64,7 +66,7 @@ def size_in_full(size: Sequence[float]) -> tuple[float, float, float]:
     size = [number(each, "size") for each in size]
     if size[0] == 0 and size[1] == 0:  # in the C interface two zeros mean the program's own size
         raise Error.of_argument("size", "the width and height of a patch must be positive and finite",
-                                "give lengths in m, as in 0.05, or leave `size` out",
+                                "give lengths in m, as in 0.05",
                                 expected="a positive width and height", found="0, 0")
     return (size[0], size[1], size[2] if len(size) == 3 else 0.0)
 

@@ -124,6 +124,7 @@ typedef struct WaleProgramDetails {
   int32_t vibrates;
   int32_t has_colour;
   size_t parameters, percepts, states, grids, warnings;
+  size_t fates;
 } WaleProgramDetails;
 typedef struct WaleParameter {
   size_t size;
@@ -148,12 +149,22 @@ typedef struct WalePercept {
   double level;
   double valid_low, valid_high;
 } WalePercept;
+enum { WALE_FATE_kept = 1, WALE_FATE_approximated = 2, WALE_FATE_saturated = 3, WALE_FATE_lost = 4 };
+typedef struct WaleFate {
+  size_t size;
+  WaleText name;
+  int32_t is_percept;
+  int32_t fate;
+  double asked, given;
+  WaleText reason;
+} WaleFate;
 WaleCode wale_program_load(const void* bytes, size_t length, WaleProgram** program, WaleError** error);
 void wale_program_free(WaleProgram* program);
 WaleCode wale_program_bytes(const WaleProgram* program, void* to, size_t capacity, size_t* length, WaleError** error);
 WaleCode wale_program_details(const WaleProgram* program, WaleProgramDetails* details, WaleError** error);
 WaleCode wale_program_parameter(const WaleProgram* program, size_t index, WaleParameter* parameter, WaleError** error);
 WaleCode wale_program_percept(const WaleProgram* program, size_t index, WalePercept* percept, WaleError** error);
+WaleCode wale_program_fate(const WaleProgram* program, size_t index, WaleFate* fate, WaleError** error);
 WaleCode wale_program_profile(const WaleProgram* program, WaleProfile* profile, WaleError** error);
 const WaleError* wale_program_warning(const WaleProgram* program, size_t index);
 typedef struct WaleRun WaleRun;

@@ -20,7 +20,7 @@ def batch(program: Program, position: ArrayLike, *, velocity: ArrayLike | None =
     `position`: hands x ticks x 2, m from the patch's centre; or hands x 2, for one tick. The result has its shape. The
     other motions have it too; what is not given is computed from the positions: differences, times the device's rate, 0
     at the first tick. `time`: s, one for each tick. `button`: hands x ticks. `settings`: parameters by name, SI. `size`:
-    m, width, height and rim of the patch.
+    m, width, height and rim of the patch, cut to the workspace; beyond its edge there is no force, and states go on.
     """
     at = vectors(position, "position")
     if at.ndim not in (2, 3):

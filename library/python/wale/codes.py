@@ -294,6 +294,15 @@ class ReadingContact(enum.IntEnum):
     lost = 2
 
 
+class FateKind(enum.IntEnum):
+    """How well a device renders what a text asks for."""
+
+    kept = 1
+    approximated = 2
+    saturated = 3
+    lost = 4
+
+
 class MarkKind(enum.IntEnum):
     """Shapes that a picture shows."""
 

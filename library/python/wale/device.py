@@ -154,7 +154,7 @@ class Motion:
 
     @staticmethod
     def trace(points: ArrayLike) -> "Motion":
-        """Rows of time (s), x and y (m); times rise."""
+        """Rows of time (s), x and y (m); times rise, and between them the hand goes along a cubic."""
         return Motion("trace", points=points)
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wale._abi import Handle, bytes_of, call, described, ffi, lib, made, read, sized
+from wale.codes import FateKind
 from wale.device import Profile, profile_of
 from wale.errors import Error
 
@@ -44,6 +45,20 @@ class Percept:
     """The sizes for which the map was measured."""
 
 
+@dataclass(frozen=True)
+class Fate:
+    """What becomes, on the device, of a percept that the text asks for, or of a part of its physics."""
+
+    name: str
+    is_percept: bool
+    fate: FateKind
+    """Of what is saturated the program itself cuts the force, so that no guard of a run counts it."""
+    asked: float
+    given: float
+    """Levels of a percept; `given` is 0 if it is lost; both are 0 for physics."""
+    reason: str
+
+
 class Program(Handle):
     """A verified patch program, ready to run, with the warnings about its text. It never changes."""
 
@@ -62,7 +77,7 @@ class Program(Handle):
         """Hz, ticks per second of its device."""
         self.vibrates: bool = bool(details.vibrates)
         self.has_colour: bool = bool(details.has_colour)
-        self._counts = (details.parameters, details.percepts, details.warnings)
+        self._counts = (details.parameters, details.percepts, details.warnings, details.fates)
 
     @staticmethod
     def load(data: bytes) -> "Program":
@@ -101,6 +116,18 @@ class Program(Handle):
 
         held = self._pointer
         return [one(i) for i in range(self._counts[1])]
+
+    @property
+    def fates(self) -> Sequence[Fate]:
+        """Of the percepts in the order asked for, then of the physics."""
+
+        def one(index: int) -> Fate:
+            of = sized("WaleFate")
+            call(lib.wale_program_fate, held, index, of)
+            return Fate(read(of.name), bool(of.is_percept), FateKind(of.fate), of.asked, of.given, read(of.reason))
+
+        held = self._pointer
+        return [one(i) for i in range(self._counts[3])]
 
     @property
     def profile(self) -> Profile:

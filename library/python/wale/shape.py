@@ -30,7 +30,7 @@ class Shape(Handle):
         """3 to 256 corners, in either sense of rotation."""
         points = numbers(corners, np.float32, "corners")
         if points.ndim != 2 or points.shape[1] != 2:
-            raise ValueError(f"expected corners x 2, found {points.shape}")
+            raise ValueError(f"corners: expected corners x 2, found the shape {points.shape}")
         return Shape(made(lib.wale_shape_polygon, "WaleShape", ffi.from_buffer("WaleVector[]", points), len(points)))
 
     @staticmethod
@@ -38,7 +38,7 @@ class Shape(Handle):
         """Cells that are true, rows x columns from the top left, each a square with this side, m."""
         bits = yes_or_no(cells, np.uint8, "cells")
         if bits.ndim != 2:
-            raise ValueError(f"expected rows x columns, found {bits.shape}")
+            raise ValueError(f"cells: expected rows x columns, found the shape {bits.shape}")
         rows, columns = bits.shape
         return Shape(made(lib.wale_shape_mask, "WaleShape", ffi.from_buffer("uint8_t[]", bits), columns, rows, number(side, "side")))
 

@@ -28,13 +28,14 @@ typedef struct WaleBatchOptions {
   const uint8_t* button;              /* 1: pressed; NULL: never */
   const WaleSetting* settings;        /* of parameters, clamped to their ranges; others have their defaults */
   size_t setting_count;
-  float width, height, rim;           /* m, of the patch; both 0: the program's own */
+  float width, height, rim;           /* m, of the patch, cut to the workspace; both sides 0: the program's own */
   float reserved;                     /* 0 */
 } WaleBatchOptions;
 
 /* Runs the program on all hands, on all cores, and writes a force (N; of a pad amplitude and frequency) for each hand and tick.
    Each hand has its own states, which it keeps from tick to tick, and enters where it is at its first tick; nothing writes
-   grids. The forces are those of a patch before the guards, to the bit, and do not depend on the number of cores.
+   grids. The forces are those of a patch before the guards, to the bit, and do not depend on the number of cores. Beyond the
+   patch's edge they are 0, and the states go on: a hand that comes back does not enter anew.
    Errors: unknown_name for a setting; malformed_value for NULL, a size that makes no sense, or a setting, a place, a
    motion or a time that is not finite. */
 WALE_API WaleCode wale_batch(const WaleProgram* program, const WaleBatchOptions* options, WaleVector* forces,

@@ -63,7 +63,7 @@ enum {
   WALE_MOTION_lateral = 1,  /* a sine of `amplitude` along `direction` about `centre` */
   WALE_MOTION_circular = 2, /* a circle of radius `amplitude` */
   WALE_MOTION_press = 3,    /* pushes of depth `amplitude` along `direction` that begin at `centre` */
-  WALE_MOTION_trace = 4,    /* through `points`: `count` rows of time (s), x and y (m), times rising */
+  WALE_MOTION_trace = 4,    /* through `points`: `count` rows of time (s), x and y (m), times rising; between them a cubic */
   WALE_MOTION_hold = 5      /* aims at `centre`, also at 0, 0 */
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct MeasureOptions {
   double stuck_seconds = 0.05;    ///< the hand counts as stuck if within this time it moves by no more than
   double stuck_counts = 2;        ///< this many encoder counts on each axis
   bool vibrates = false;          ///< the record is of a pad
+  /// Hz, of the actuators on each axis: their forces are what one low-pass leaves of those that they were told. 0: they
+  /// follow at once. Their delay takes nothing off.
+  glm::dvec2 bandwidth{0};
   std::optional<std::uint32_t> change = {};  ///< only the ticks with this `TickRecord::change` count; empty: all do
 };
 
@@ -48,7 +52,8 @@ struct FeltResponse {
   std::optional<float> shaking;         ///< N: the amplitude of a sine with the force's variance
 };
 
-/// The figures of a run. A run on a pad has the vibration, and its forces are 0.
+/// The figures of a run. A run on a pad has the vibration, and its forces are 0. The actuator's forces are those that
+/// come to the handle, as its bandwidth lets them through.
 struct Felt {
   long ticks = 0;                                ///< measured: after settling
   long ticks_rubbing = 0;                        ///< of them, those within the patch with the hand not stuck
@@ -56,7 +61,7 @@ struct Felt {
   ForceSize force_rubbing;                       ///< the actuator's, while rubbing
   std::optional<ForceSize> interaction;          ///< between hand and handle; empty if the device does not measure it
   std::optional<ForceSize> interaction_rubbing;  ///< the same while rubbing
-  /// All swings of the force along the axis with more force, from the upper quarter of its range to the lower one or
+  /// All swings of the force that the device was told along the axis with more force, from the upper quarter of its range to the lower one or
   /// back. The range goes as far as the amplitude to either side, and a force below half of that has no swings.
   long alternations = 0;
   /// The alternations during which the hand keeps its direction: the flanks of a texture. A limit cycle at one place, a

@@ -24,6 +24,7 @@ typedef struct WaleProgramDetails {
   int32_t vibrates;          /* 1: it shakes a pad instead of pushing */
   int32_t has_colour;        /* 1: its author declares colours of the surface */
   size_t parameters, percepts, states, grids, warnings; /* how many it has */
+  size_t fates;              /* and of these */
 } WaleProgramDetails;
 
 /* A quantity that can be changed while the program runs. Values are in SI units; shown = value / unit_in_si. */
@@ -53,6 +54,20 @@ typedef struct WalePercept {
   double valid_low, valid_high; /* the sizes for which the map was measured */
 } WalePercept;
 
+/* How well the device renders what the text asks for: as it was meant; by a substitute, or with a figure from another handle;
+   weaker than asked for, because the device gives no more, so that the program itself cuts its force; not at all. */
+enum { WALE_FATE_kept = 1, WALE_FATE_approximated = 2, WALE_FATE_saturated = 3, WALE_FATE_lost = 4 };
+
+/* What becomes of a percept that the text asks for, or of a part of its physics. */
+typedef struct WaleFate {
+  size_t size;
+  WaleText name;        /* "roughness"; of physics "lateral amplitude" */
+  int32_t is_percept;   /* 0: physics */
+  int32_t fate;         /* one of WALE_FATE_… */
+  double asked, given;  /* levels of a percept; `given` is 0 if it is lost; both are 0 for physics */
+  WaleText reason;      /* how it is rendered, or why not; may be empty */
+} WaleFate;
+
 /* Reads and verifies the bytes of a .wpp file; they are read during the call only.
    Errors: damaged_file, newer_file, refused_program; malformed_value for NULL. */
 WALE_API WaleCode wale_program_load(const void* bytes, size_t length, WaleProgram** program, WaleError** error);
@@ -69,6 +84,8 @@ WALE_API WaleCode wale_program_details(const WaleProgram* program, WaleProgramDe
 WALE_API WaleCode wale_program_parameter(const WaleProgram* program, size_t index, WaleParameter* parameter,
                                          WaleError** error);
 WALE_API WaleCode wale_program_percept(const WaleProgram* program, size_t index, WalePercept* percept, WaleError** error);
+/* Of the percepts in the order asked for, then of the physics. */
+WALE_API WaleCode wale_program_fate(const WaleProgram* program, size_t index, WaleFate* fate, WaleError** error);
 
 /* The figures of the device that it is built for, also of one that only its text declares: for wale_stage_create_for. The text
    belongs to the program. Errors: malformed_value for NULL or a wrong size. */

@@ -10,11 +10,13 @@ extern "C" {
 /* The figures of a run that is over, and its record. It never changes. */
 typedef struct WaleRun WaleRun;
 
-/* What the device was told to exert, and the levels as which that is felt. What an actuator's delay and bandwidth take away shows
-   in the interaction alone. It never changes. */
+/* What came to the handle of a patch, as the bandwidth of the device's actuators lets it through, and the levels as which that is
+   felt. It never changes. */
 typedef struct WaleFelt WaleFelt;
 
-/* On how many ticks each guard changed the force. Its layout never changes. */
+/* On how many ticks each guard changed the force. What Wale compiles keeps to its device by itself: it cuts its force to the
+   peak, which wale_program_fate tells, and gives none where that is not a number. So the first two count for other programs.
+   Its layout never changes. */
 typedef struct WaleGuards {
   int64_t not_a_number; /* zero, because the program's force was not a number */
   int64_t device_limit; /* clamped to the device's peak force on an axis */

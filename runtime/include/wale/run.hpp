@@ -18,7 +18,9 @@
 
 namespace wale {
 
-/// On how many ticks each guard changed the force, and how often the program's memory was restored.
+/// On how many ticks each guard changed the force, and how often the program's memory was restored. What Wale compiles
+/// keeps to its device by itself: it cuts its force to the peak, which `fates` of its description tell, and gives none
+/// where that is not a number. So the first two count for other programs.
 struct GuardCounts {
   long not_a_number = 0;  ///< zero, because the program's force was not a number
   long device_limit = 0;  ///< clamped to the device's peak force on an axis

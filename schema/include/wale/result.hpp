@@ -1,5 +1,9 @@
 #pragma once
 
+#if __cplusplus < 202002L
+#error "the C++ headers of Wale need C++20: compile with -std=c++20, or use the C headers"
+#endif
+
 #include <optional>
 #include <string>
 #include <type_traits>

@@ -37,6 +37,10 @@ int main(void) {
   folders.reserved = 0;
   TRY(wale_library_create(&folders, &library, &error));
   TRY(wale_library_level(library, WALE_TEXT("roughness"), WALE_TEXT("0.6"), NULL, &program, &error));
+  WaleProgramDetails details = {.size = sizeof details};
+  details.warnings = 77;
+  TRY(wale_program_details(program, &details, &error));
+  EXPECT(details.percepts == 1 && details.warnings == 0);
   EXPECT(wale_library_find(library, WALE_TEXT("corduory"), NULL, &none, NULL) == WALE_CODE_unknown_name);
   TRY(wale_library_open_device(library, WALE_TEXT("simulated"), NULL, &device, &error));
   WaleProfile profile = {.size = sizeof profile};
