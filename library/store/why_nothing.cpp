@@ -78,7 +78,7 @@ Error why_nothing_is_found(const LibraryIndex& index, const std::vector<std::str
   const std::string sentence = readable("none of {} materials{} has \"{}\"", find_materials(index, {}, kind).size(),
                                         kind.empty() ? "" : fmt::format(" of kind `{}`", kind), word);
   if (const std::size_t elsewhere = kind.empty() ? 0 : find_materials(index, {word}, {}).size(); elsewhere > 0)
-    return because(sentence, readable("{} of other kinds {}", elsewhere, elsewhere == 1 ? "has it" : "have it"));
+    return because(sentence, elsewhere == 1 ? "one of another kind has it" : readable("{} of other kinds have it", elsewhere));
   if (std::string percept = as_word_of_percept(index, word); !percept.empty()) return because(sentence, std::move(percept));
   const std::vector<std::string> words = findable_words(index);
   const auto near = nearest_spelling(word, words, words.size());
