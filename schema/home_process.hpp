@@ -20,7 +20,6 @@ class HomeProcess {
 
 /// What one process may leave to another.
 struct LeftBehind {
-  virtual ~LeftBehind() = default;
   LeftBehind* next = nullptr;  ///< of `abandon`
 };
 

@@ -101,11 +101,7 @@ Result<> is_sound(const OpenOptions& options) {
                    {.name = "hand"}};
   const char* const wrong = options.motion ? wrong_in(*options.motion) : nullptr;
   if (wrong != nullptr)
-    return Error{Code::malformed_value,
-                 wrong,
-                 std::holds_alternative<Trace>(*options.motion) ? "give s and m; each point is later than the one before"
-                                                                : "give m and Hz; a direction has length 1",
-                 {.name = "motion"}};
+    return Error{Code::malformed_value, wrong, "give m, Hz and s; a direction has length 1, and times rise", {.name = "motion"}};
   return {};
 }
 

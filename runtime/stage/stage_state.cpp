@@ -133,8 +133,7 @@ Result<> StageState::fits(const PatchProgram& program) const {
     auto built = is_built_for(program, profile);
     if (built) return built;
     Error error = std::move(built).error();
-    error.place = {.name = "program", .text = program.material};
-    error.mend = "compile it again for the device as it is declared now, or give the stage the figures it was built for";
+    error.place.name = "program";
     return error;
   }
   std::string sentence = program.material + " was built for " + program.device.name;
