@@ -158,14 +158,15 @@ std::string delivered_text(const FeltReport& report, std::size_t index) {
   return readable("{:.4g} of {:.4g} {}{}{}", size, aimed, unit, share, cut ? ", with forces that --max-force cut" : "");
 }
 
-/// "; its actuators follow to 20 Hz" behind a size that they take something off: "to 20 Hz along x and 40 Hz along y".
+/// "; its actuators follow to 20 Hz", or "to 20 Hz along x and 40 Hz along y", behind a size off which they take some.
 std::string following_text(const FeltReport& report, std::size_t index) {
   constexpr float plainly_less = 0.97F;
   const double x = report.device.bandwidth_x, y = report.device.bandwidth_y;
   const float expected = std::min(report.aimed[index], report.let_through[index]);
   if (!(x > 0 || y > 0) || report.felt.vibration || report.levels[index].size > plainly_less * expected) return {};
   if (x == y) return readable("; its actuators follow to {:.4g} Hz", x);
-  const std::string along_x = x > 0 ? readable("{:.4g} Hz along x", x) : "", along_y = y > 0 ? readable("{:.4g} Hz along y", y) : "";
+  const std::string along_x = x > 0 ? readable("{:.4g} Hz along x", x) : "";
+  const std::string along_y = y > 0 ? readable("{:.4g} Hz along y", y) : "";
   return "; its actuators follow to " + along_x + (x > 0 && y > 0 ? " and " : "") + along_y;
 }
 
@@ -176,7 +177,8 @@ std::string largest_text(const FeltReport& report) {
   const double told = rubbed ? report.felt.force_rubbing.maximum : report.felt.force.maximum;
   if (report.felt.vibration || report.largest <= hardly_more * told) return {};
   if (report.device.bandwidth_x > 0 || report.device.bandwidth_y > 0)
-    return readable("  largest      {:.3f} N that the actuator was told, at {:.3g} s\n", report.largest, report.largest_at);
+    return readable("  largest      {:.3f} N that the actuator was told, at {:.3g} s\n", report.largest,
+                    report.largest_at);
   return readable("  largest      {:.3f} N, at {:.3g} s: {}\n", report.largest, report.largest_at,
                   report.largest_at < report.settling
                       ? readable("in the first {:.2g} s, which the figures leave out", report.settling)

@@ -68,6 +68,11 @@ Error about_argument(std::string argument, std::string sentence, std::string men
       {.code = code, .sentence = std::move(sentence), .mend = std::move(mend), .place = {.name = std::move(argument)}});
 }
 
+Error about_bytes(Error error) {
+  if (error.place.name.empty()) error.place.name = "bytes";
+  return error;
+}
+
 Result<> is_given(const char* argument, const void* value) {
   if (value == nullptr)
     return about_argument(argument, "expected a value, found NULL",

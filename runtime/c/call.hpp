@@ -39,6 +39,8 @@ WaleCode call(WaleError** error, const Body& body) noexcept {
 
 /// The error about an argument.
 Error about_argument(std::string argument, std::string sentence, std::string mend, Code code = Code::malformed_value);
+/// The error about the bytes of a file that are an argument, where it names no part of them.
+Error about_bytes(Error error);
 /// Error: an argument is NULL.
 Result<> is_given(const char* argument, const void* value);
 /// Error: there is no place for the result that this argument is for.

@@ -14,7 +14,7 @@ WaleCode wale_program_load(const void* bytes, size_t length, WaleProgram** progr
     if (auto clear = clear_result("program", program); !clear) return clear;
     if (auto given = is_given("bytes", bytes); !given) return given;
     auto loaded = wale::Program::load(std::span(static_cast<const std::byte*>(bytes), length));
-    if (!loaded) return std::move(loaded).error();
+    if (!loaded) return about_bytes(std::move(loaded).error());
     hand_out(std::make_unique<WaleProgram>(WaleProgram{*std::move(loaded)}), program);
     return {};
   });

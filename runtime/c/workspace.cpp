@@ -31,7 +31,7 @@ WaleCode wale_workspace_load(const void* bytes, size_t length, WaleWorkspace** w
     if (auto clear = clear_result("workspace", workspace); !clear) return clear;
     if (auto given = is_given("bytes", bytes); !given) return given;
     auto loaded = wale::Workspace::load(std::span(static_cast<const std::byte*>(bytes), length));
-    if (!loaded) return std::move(loaded).error();
+    if (!loaded) return about_bytes(std::move(loaded).error());
     hand_out(std::unique_ptr<WaleWorkspace>(new WaleWorkspace{*std::move(loaded)}), workspace);
     return {};
   });

@@ -243,12 +243,12 @@ Felt measure(const Record& record, const MeasureOptions& options) {
   const float amplitude = options.predicted_amplitude > 0 ? options.predicted_amplitude : felt.force.p99;
   felt.response = response_of(options.change ? std::span<const TickRecord>(marked) : all, record.seconds_per_tick);
   // A texture that the actuators hardly follow is crossed all the same.
-  std::vector<TickRecord> of_counted;
-  if (!follows && options.change)
-    std::ranges::copy_if(told, std::back_inserter(of_counted), [&](const TickRecord& tick) {
-      return tick.inside && tick.change == *options.change;
+  std::vector<TickRecord> wanted;
+  if (!follows)
+    std::ranges::copy_if(told, std::back_inserter(wanted), [&](const TickRecord& tick) {
+      return !options.change || (tick.inside && tick.change == *options.change);
     });
-  count_swings(follows ? ticks : options.change ? std::span<const TickRecord>(of_counted) : told, amplitude, felt);
+  count_swings(follows ? ticks : std::span<const TickRecord>(wanted), amplitude, felt);
   measure_movement(ticks, felt);
   return felt;
 }

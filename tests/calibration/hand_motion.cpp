@@ -88,6 +88,35 @@ TEST(HandMotion, AHandAlongYCrossesWhatLiesAcrossY) {
   EXPECT_EQ(felt_text(report).find("read back"), std::string::npos);
 }
 
+TEST(FeltReports, SayWhatTheActuatorsDoNotFollow) {
+  const Program program =
+      Declared("material m { perceptual { roughness 0.6 } physical { force = lateral(grating(y, period: 2.5 mm)) } }\n")
+          .program();
+  SimulatedJoystick joystick(program.description().device, {person().mass, person().damping, person().stiffness},
+                             motion("lateral along y"));
+  Stage stage(joystick);
+  Patch patch = *stage.add(program);
+  const auto run = stage.run({.seconds = 5, .virtual_time = true});
+  const auto report = [&](double x, double y) {
+    DeviceProfile device = program.description().device;
+    device.bandwidth_x = x, device.bandwidth_y = y;
+    return felt_report(*patch.bank(), *run, device, {"simulated", "lateral along y", true, std::nullopt, 1, HUGE_VAL});
+  };
+  const FeltReport prompt = report(0, 0), slow = report(20, 20), across = report(20, 0);
+  // The largest percent is felt where the hand turns round; most of the way it is too fast for them.
+  EXPECT_LT(slow.levels.at(0).back->level, 0.56);
+  EXPECT_LT(slow.felt.force_rubbing.rms, 0.5 * prompt.felt.force_rubbing.rms);
+  EXPECT_EQ(slow.felt.crossings, prompt.felt.crossings);
+  const auto says = [](const FeltReport& of, const char* what) { return felt_text(of).find(what) != std::string::npos; };
+  EXPECT_TRUE(says(slow, " %); its actuators follow to 20 Hz\n")) << felt_text(slow);
+  EXPECT_TRUE(says(slow, "1.934 N that the actuator was told")) << felt_text(slow);
+  EXPECT_TRUE(says(report(30, 20), "follow to 30 Hz along x and 20 Hz along y\n"));
+  for (const FeltReport& each : {prompt, across}) {  // nothing pushes along x
+    EXPECT_NEAR(each.levels.at(0).back->level, 0.6, 0.01);
+    EXPECT_FALSE(says(each, "follow to")) << felt_text(each);
+  }
+}
+
 TEST(FeltPercepts, AreThoseThatDescribeReads) {
   Declared plain("material m { physical { force = vector(1 N * sin(2 pi * x / 4 mm), 0 N) } }\n");
   const Program program = plain.program();

@@ -55,7 +55,7 @@ def test_a_file_holds_the_same(workspace: wale.Workspace, library: wale.Library,
     assert wale.Workspace.load(data).patches[0].statement == (0, 0)
     with pytest.raises(wale.Error) as damaged:
         wale.Workspace.load(data[:-1])
-    assert damaged.value.code == wale.Code.damaged_file
+    assert damaged.value.code == wale.Code.damaged_file and damaged.value.argument == "bytes"
 
 
 def test_its_patches_are_felt(workspace: wale.Workspace, stage: wale.Stage) -> None:
