@@ -120,6 +120,7 @@ struct Description {
   Swing noise;                       ///< what changes with time without a rate; of amplitude 0 if nothing does
   OpposingForce motion;              ///< what resists a moving hand
   double spring_force = 0;           ///< N: at which a spring's force grows no more; 0 if nothing limits it
+  double spring_beyond = 0;          ///< N/m: of another spring that goes on beyond; then the force is a part's
   double small_feature = 0;          ///< N: the largest force of what fills less than a hundredth of the patch
   glm::dvec2 constant_push{0};       ///< N: everywhere alike; beside a spring, in the patch's middle
   std::optional<glm::dvec2> rest;    ///< m: where a spring pulls to, if that is beside the patch's middle and on it

@@ -176,6 +176,8 @@ void tell_forces(Description& description, const ForceReading& found, const Cues
   description.held = held_figures(found);
   description.uneven = found.sway.least ? found.sway : found.vibration;
   description.spring_force = cues[CueKind::spring_force].value_or(0);
+  if (description.spring_force > 0 && found.still.beyond_cut >= least_stiffness)
+    description.spring_beyond = found.still.beyond_cut;
   description.small_feature = cues[CueKind::small_feature].value_or(0);
   if (glm::length(found.constant) >= least_force) {
     description.constant_push = without_rounding(found.constant);

@@ -246,6 +246,7 @@ void add_other_forces(nlohmann::ordered_json& json, const Description& descripti
   other("moving", description.other.moving);
   other("later", description.other.later);
   if (description.spring_force > 0) json["spring_force_newton"] = figure(description.spring_force);
+  if (description.spring_beyond > 0) json["spring_beyond_newton_per_metre"] = figure(description.spring_beyond);
   if (description.swirl != 0) json["swirl_newton_per_metre"] = figure(description.swirl);
   if (description.travel) json["travel_rad"] = direction_figure(*description.travel);
   if (const ComingForce& coming = description.coming; coming.after > 0) {

@@ -13,7 +13,8 @@ namespace wale {
 namespace {
 
 constexpr std::array<double, 4> told_speeds = {0.05, 0.1, 0.2, 0.4};  // m/s
-constexpr double creeping_speed = 0.01;                               // m/s: told too if the drag is greater there
+constexpr double creeping_speed = 0.01;  // m/s: told too if the drag is another one there
+constexpr double plainly_differs = 0.1;  // relative
 
 std::string size_words(double newton) {
   if (std::abs(newton) < least_force) return "none";
@@ -84,7 +85,10 @@ std::string motion_lines(const OpposingForce& motion) {
   if (motion.explained || motion.changes_in_time || goes_one_way(motion) || motion.uneven() > 0) return text;
   std::string sizes;
   const double creeping = motion.creeping();
-  if (std::abs(creeping) >= std::max(least_force, std::abs(motion.unexplained_at(told_speeds.front()))))
+  const double slow = std::abs(motion.unexplained_at(told_speeds.front()));
+  // A drag that grows from nothing by a power is told by that.
+  const bool differs = motion.exponent == 0 && std::abs(std::abs(creeping) - slow) > plainly_differs * slow;
+  if (std::abs(creeping) >= least_force && (differs || std::abs(creeping) >= slow))
     sizes = readable("{} at {:.0f} mm/s", size_words(creeping), 1e3 * creeping_speed);
   for (const double speed : told_speeds)
     sizes += readable("{}{} at {:.0f} mm/s", sizes.empty() ? "" : ", ", size_words(motion.unexplained_at(speed)),

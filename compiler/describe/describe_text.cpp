@@ -331,7 +331,10 @@ std::string other_forces(const Description& description) {
   // What the device cuts is told with its bounds.
   constexpr double plainly_less = 0.99;
   if (description.spring_force > 0 && description.spring_force < plainly_less * description.device.most())
-    text += readable("  a spring whose force ends at {:.3g} N\n", description.spring_force);
+    text += description.spring_beyond > 0
+                ? readable("  a part of the spring ends at {:.3g} N: beyond, {:.3g} N/m are left\n",
+                           description.spring_force, description.spring_beyond)
+                : readable("  a spring whose force ends at {:.3g} N\n", description.spring_force);
   if (description.swirl != 0)
     text += readable("  a swirl of {:.3g} N/m, which turns a resting hand {}\n", std::abs(description.swirl),
                      description.swirl > 0 ? "counterclockwise" : "clockwise");

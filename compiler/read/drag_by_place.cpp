@@ -12,6 +12,7 @@
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/unlimited.hpp"
+#include "wale/memory.hpp"
 
 namespace wale {
 namespace {
@@ -23,7 +24,10 @@ constexpr double plainly_differs = 0.05,
                  by_place = 0.2;      // of the greater one: two way_count, and two places, that differ
 constexpr double surely_differs = 4;  // standard errors of a mean over places
 constexpr double as_a_drag = 0.15;    // natural logarithms
-constexpr double rarest = 0.05;       // of the places, at either end
+constexpr double rarest = 0.012;      // of the places, at either end
+constexpr int lines_through = 6;      // each way along an axis
+constexpr double taken_up = 8e-3, averaged = 6e-3;    // m, at the beginning of a line, and along it
+constexpr double short_reach = 8e-3, short_counts = 4e-3;  // m, of a stroke where a line shows more or less
 
 /// A mean over places, and its standard error.
 struct OverPlaces {
@@ -78,8 +82,70 @@ std::vector<glm::dvec2> pushed_whichever_begins(const Bank& bank, std::vector<St
   return pushes;
 }
 
+/// Where hands that go all through the patch on lines along an axis are resisted least and most, m. What a hand that
+/// rests there feels, having just come, is none of it; what a memory stores may be, so that it is a place to look at.
+std::vector<glm::dvec2> least_and_most_on_lines(const Bank& bank, int axis, const Outside& outside) {
+  const double rate = bank.program().description().device.rate, most = bank.program().description().device.most();
+  const glm::dvec2 half = half_of(bank), along = axis == 0 ? glm::dvec2(1, 0) : glm::dvec2(0, 1);
+  const auto apart = static_cast<std::size_t>(averaged / speed_of_hands * rate);
+  const auto ticks = static_cast<std::size_t>(2 * half[axis] / speed_of_hands * rate);
+  Bank own = bank;
+  double least = HUGE_VAL, greatest = -HUGE_VAL;
+  glm::dvec2 least_at{0}, greatest_at{0};
+  for (int line = 0; line < 2 * lines_through; ++line) {
+    const double sense = line % 2 == 0 ? 1 : -1;
+    const glm::dvec2 aside = half * glm::dvec2(along.y, along.x) * ((line / 2 + 0.5) / (0.5 * lines_through) - 1);
+    Memory memory(own.program());
+    std::vector<Hand> still(ticks);
+    std::vector<Force> moving(ticks), at_rest(ticks);
+    for (std::size_t i = 0; i < ticks; ++i) {
+      const double gone = speed_of_hands * (static_cast<double>(i) + 0.5) / rate;
+      still[i].position = still[i].workspace = glm::vec2(aside + sense * (gone - half[axis]) * along);
+      still[i].time = static_cast<double>(i) / rate;
+      Hand hand = still[i];
+      hand.velocity = hand.raw_velocity = glm::vec2(sense * speed_of_hands * along);
+      if (i == 0) memory.enter(own, hand);
+      moving[i] = tick(own, memory, hand);
+    }
+    tick_all(bank, still, at_rest);
+    double sum = 0;
+    std::size_t cut = 0;
+    const auto counted = [&](std::size_t i) {
+      return at_limit(moving[i], most) || !outside.at(glm::dvec2(still[i].position)) ? std::size_t{1} : 0;
+    };
+    for (std::size_t i = 0; i < ticks; ++i) {
+      const auto against = [&](std::size_t k) { return -sense * (moving[k] - at_rest[k])[axis]; };
+      sum += against(i), cut += counted(i);
+      if (i >= apart) sum -= against(i - apart), cut -= counted(i - apart);
+      if (i < apart || cut > 0 || static_cast<double>(i - apart) < taken_up / speed_of_hands * rate) continue;
+      const glm::dvec2 middle(still[i - apart / 2].position);
+      if (sum < least) least = sum, least_at = middle;
+      if (sum > greatest) greatest = sum, greatest_at = middle;
+    }
+  }
+  return greatest > least ? std::vector{least_at, greatest_at} : std::vector<glm::dvec2>{};
+}
+
+/// N: what opposes strokes to and fro at these places, along an axis.
+std::vector<double> opposed_there(const Bank& bank, int axis, const std::vector<glm::dvec2>& places,
+                                  const Outside& outside) {
+  const double rate = bank.program().description().device.rate;
+  const glm::dvec2 half = half_of(bank), way = axis == 0 ? glm::dvec2(1, 0) : glm::dvec2(0, 1);
+  const double reach = std::min(short_reach, 0.5 * half[axis]), counts = std::min(short_counts, 0.25 * half[axis]);
+  std::vector<Stroke> strokes;
+  for (glm::dvec2 place : places) {
+    place[axis] = std::clamp(place[axis], reach - half[axis], half[axis] - reach);
+    const long pass = 2 * std::max(2L, std::lround(reach / speed_of_hands * rate));
+    strokes.push_back({way, place, speed_of_hands, pass, counts});
+  }
+  std::vector<double> against;
+  if (strokes.empty()) return against;
+  for (const glm::dvec2& each : opposed_on(bank, strokes, outside)) against.push_back(each[axis]);
+  return against;
+}
+
 DragByPlace drag_by_strokes(const Bank& bank, const std::vector<Stroke>& strokes,
-                            const std::vector<glm::dvec2>& opposed, const Outside& outside) {
+                            const std::vector<glm::dvec2>& opposed, const Outside& outside, bool turns_soon) {
   DragByPlace found;
   for (const int axis : {0, 1}) {
     const std::size_t half = strokes.size() / 2, first = axis == 0 ? 0 : half;
@@ -94,6 +160,10 @@ DragByPlace drag_by_strokes(const Bank& bank, const std::vector<Stroke>& strokes
     std::map<double, std::vector<double>> either;
     for (std::size_t i = 0; i < some.size(); ++i) either[some[i].speed].push_back(pushes[i][axis]);
     if (goes_with_speed(either)) tell_ways(found, axis, against, either.at(speed_of_hands));
+    // The usual strokes leave out what is near the edge, or small.
+    if (turns_soon && !goes_by_time(bank.program().description()))
+      for (const double each : opposed_there(bank, axis, least_and_most_on_lines(bank, axis, outside), outside))
+        against.push_back(each);
     const auto [low, high] = std::ranges::minmax(against);
     tell_places(found, low, high);
   }
@@ -103,10 +173,10 @@ DragByPlace drag_by_strokes(const Bank& bank, const std::vector<Stroke>& strokes
 }  // namespace
 
 DragByPlace drag_by_place(const Bank& bank, const std::vector<Stroke>& strokes, const std::vector<glm::dvec2>& opposed,
-                          const Outside& outside) {
+                          const Outside& outside, bool turns_soon) {
   const PatchProgram& program = bank.program().description();
   if (!program.grids.empty()) return {};
-  if (remembers_anything(program)) return drag_by_strokes(bank, strokes, opposed, outside);
+  if (remembers_anything(program)) return drag_by_strokes(bank, strokes, opposed, outside, turns_soon);
   if (!reads(program, {Input::velocity_x, Input::velocity_y, Input::raw_velocity_x, Input::raw_velocity_y})) return {};
   std::vector<Hand> hands;
   for (const Hand& still : hands_at_rest(hands_all_over, glm::vec2(half_of(bank)))) {

@@ -14,8 +14,9 @@ struct DragByPlace {
 };
 
 /// Of hands all over the patch outside of a wall; of a program that remembers, by strokes along x and then as many
-/// along y (`opposed`: `opposed_on` them). Nothing of a program with memories over the patch.
+/// along y (`opposed`: `opposed_on` them), and, if what drags has turned about within some millimetres (`turns_soon`),
+/// where hands that go through the whole patch feel least and most. Nothing of a program with memories over the patch.
 DragByPlace drag_by_place(const Bank& bank, const std::vector<Stroke>& strokes, const std::vector<glm::dvec2>& opposed,
-                          const Outside& outside);
+                          const Outside& outside, bool turns_soon);
 
 }  // namespace wale

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double probing = 0.1, faster = 0.2;  // m/s
 constexpr double inside = 0.98;                // of the patch without its rim
-constexpr double bin = 1.5e-3;                 // m, over which a force is averaged
+constexpr double bin = 1.5e-3, least_bins = 24;  // m, over which a force is averaged, and of the way
 constexpr double grown = 0.97;                 // of its size
 constexpr double all_of_it = 0.999;            // of the device's limit
 constexpr double growing = 1.01;               // times what it was some bins before
@@ -38,7 +38,7 @@ class LongStroke {
       from_.push_back(middle - 0.5 * length * each), ways_.push_back(each);
       memories_.emplace_back(own_.program());
     }
-    a_bin_ = std::max<std::size_t>(1, static_cast<std::size_t>(bin / speed * rate_));
+    a_bin_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::min(bin, length / least_bins) / speed * rate_));
     bins_ = static_cast<std::size_t>(length / speed * rate_) / a_bin_;
   }
 

@@ -127,19 +127,21 @@ MeanOpposed mean_of(const std::vector<Stroke>& strokes, const std::vector<glm::d
   return mean;
 }
 
-/// m: so long a hand goes on after it has turned, before what is felt counts: a bristle turns about on twice its path.
-double settling_of(const std::array<LongWay, 2>& ways) {
-  double longest = 0;
-  for (const LongWay& way : ways) longest = std::max(longest, way.path);
-  return longest > usual_path ? with_a_margin * 2 * longest : 0;
-}
-
 /// m: how far the shortest of the strokes goes on before it counts.
 double least_reach(const std::vector<Stroke>& strokes, double rate) {
   double least = HUGE_VAL;
   for (const Stroke& each : strokes)
     least = std::min(least, 0.5 * static_cast<double>(each.pass) * each.speed / rate - each.counts);
   return least;
+}
+
+/// m: so long a hand goes on after it has turned, before what is felt counts: a bristle turns about on twice its path.
+/// 0 if the strokes do so anyway, which go on for `settled`.
+double settling_of(const std::array<LongWay, 2>& ways, double settled) {
+  constexpr double hardly_more = 1.1;
+  double longest = 0;
+  for (const LongWay& way : ways) longest = std::max(longest, way.path);
+  return longest > std::min(usual_path, 0.5 * hardly_more * settled) ? with_a_margin * 2 * longest : 0;
 }
 
 /// Where a bristle needs a longer way to turn about than the patch has, the way through the patch tells its friction,
@@ -209,23 +211,24 @@ void tell_differences(OpposingForce& found, const DragByPlace& drag) {
 
 namespace {
 
-/// What resists, but for what use makes of it; `strokes` become those that told it.
-OpposingForce opposing_law(const Bank& bank, const Outside& outside, std::vector<Stroke>& strokes, double& settling) {
+/// What resists, but for what use makes of it; `strokes` become those that told it, slow ones too if they are wanted.
+OpposingForce opposing_law(const Bank& bank, const Outside& outside, std::vector<Stroke>& strokes, double& settling,
+                           bool slowly = false) {
   const PatchProgram& program = bank.program().description();
   const Room space(bank);
-  strokes = strokes_over(bank, {1, 0}, outside, space, 0);
+  strokes = strokes_over(bank, {1, 0}, outside, space, 0, slowly);
   const DragByTime in_time = drag_by_time(bank, strokes);
   std::array<LongWay, 2> ways;
   if (!in_time.changes) ways = long_ways(bank, space);
-  settling = settling_of(ways);
-  if (settling > 0) strokes = strokes_over(bank, {1, 0}, outside, space, settling);
+  settling = settling_of(ways, least_reach(strokes, program.device.rate));
+  if (settling > 0) strokes = strokes_over(bank, {1, 0}, outside, space, settling, slowly);
   const auto opposed_by = [&] {
     return in_time.changes ? opposed_over_time(bank, strokes, outside) : opposed_on(bank, strokes, outside);
   };
   std::vector<glm::dvec2> opposed = opposed_by();
   // What moments differ by is no difference between places.
   DragByPlace differences;
-  if (!in_time.changes) differences = drag_by_place(bank, strokes, opposed, outside);
+  if (!in_time.changes) differences = drag_by_place(bank, strokes, opposed, outside, settling == 0);
   const std::size_t half = strokes.size() / 2;
   const MeanOpposed mean = mean_of(strokes, opposed);
   std::array<std::vector<DragAt>, 2> by_axis;
@@ -243,7 +246,7 @@ OpposingForce opposing_law(const Bank& bank, const Outside& outside, std::vector
   if (everywhere && !two) {
     two = two_frictions(strokes, opposed);
     if (two) {
-      const std::vector<Stroke> turned = strokes_over(bank, two->friction.axis, outside, space, 0);
+      const std::vector<Stroke> turned = strokes_over(bank, two->friction.axis, outside, space, 0, slowly);
       if (!shows(*two, turned, opposed_on(bank, turned, outside))) two.reset();
     }
   }
@@ -272,7 +275,7 @@ OpposingForce opposing_law(const Bank& bank, const Outside& outside, std::vector
   const bool oblique = std::min(std::abs(axis.x), std::abs(axis.y)) > 0.02;
   if (oblique) {
     for (int turn = 0; turn < 2; ++turn) {
-      strokes = strokes_over(bank, axis, outside, space, settling), opposed = opposed_by();
+      strokes = strokes_over(bank, axis, outside, space, settling, slowly), opposed = opposed_by();
       glm::dvec2 push{0};
       for (std::size_t i = 0; i < half; ++i) push += opposed[i];
       const bool turned = std::abs(push.x * axis.y - push.y * axis.x) > 0.01 * glm::length(push);
@@ -310,6 +313,29 @@ OpposingForce opposing_law(const Bank& bank, const Outside& outside, std::vector
   return found;
 }
 
+/// Whether slow hands are resisted otherwise than faster ones tell, or these by no law, so that slow ones are to be
+/// looked at.
+bool differs_slowly(const OpposingForce& found, const Bank& bank, const std::vector<Stroke>& strokes,
+                    const Outside& outside) {
+  constexpr double plainly = 0.1;  // of what the law says
+  const PatchProgram& program = bank.program().description();
+  if (!remembers_anything(program) || remembers_time_only(program) || !program.grids.empty()) return false;
+  if (!found.explained) return true;
+  const auto along = [](const Principal& size, glm::dvec2 way) {
+    const double share = glm::dot(size.axis, way);
+    return size.directed() ? size.across + share * share * (size.greatest - size.across) : size.greatest;
+  };
+  const double whole = found.saturation_speed > 0 ? std::min(1.0, slow_stroke_speed / found.saturation_speed) : 1;
+  const std::vector<Stroke> slow = slow_strokes(bank, strokes);
+  const std::vector<double> felt = along_strokes(slow, opposed_on(bank, slow, outside));
+  for (std::size_t i = 0; i < slow.size(); ++i) {
+    const double told = whole * along(found.frictions(), slow[i].direction) +
+                        slow_stroke_speed * along(found.dampings(), slow[i].direction);
+    if (std::abs(felt[i] - told) > std::max(least_force, plainly * std::abs(told))) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
@@ -318,6 +344,9 @@ OpposingForce opposing_force(const Bank& bank, const WallFace* wall) {
   std::vector<Stroke> strokes;
   double settling = 0;
   OpposingForce found = opposing_law(bank, outside, strokes, settling);
+  const bool steady = settling == 0 && !found.changes_in_time;
+  if (steady && differs_slowly(found, bank, strokes, outside))
+    found = opposing_law(bank, outside, strokes, settling, true);
   // A long bristle needs more than a stroke to turn about.
   if (settling > 0) return found;
   const DragByUse use = drag_by_use(bank, strokes, outside);

@@ -98,7 +98,7 @@ void scale(SlowChange& slow, double times) {
 
 ForceReading times_as_strong(ForceReading found, double times) {
   StaticForce& still = found.still;
-  still.largest *= times, still.cut_at *= times;
+  still.largest *= times, still.cut_at *= times, still.beyond_cut *= times;
   for (glm::dvec2* each : {&still.trend.mean, &still.trend.by_x, &still.trend.by_y}) *each *= times;
   for (Feature& each : still.features) {
     for (glm::dvec2& force : each.profile) force *= times;

@@ -424,6 +424,8 @@ ForceReading read_again(const Bank& bank, const Declarations&, ReadParts wanted,
     if (parted && !parted->alone) at_first.uncertain = std::max(at_first.uncertain, misfit_of_parting * parted->amplitude);
     found.other = other_force(bank, felt, slow, found.sway.amplitude + found.vibration.amplitude,
                               std::max(found.opposing.friction, found.breakaway));
+    // What swings in a part of the patch was felt there.
+    found.other.rehearsed = std::max({found.other.rehearsed, found.sway.amplitude, found.vibration.amplitude});
     found.other.later = later_force(bank, still_seconds, remembers_time_only(bank.program().description()));
     const bool swings = std::max(found.sway.amplitude, found.vibration.amplitude) >= least_force;
     const std::vector<std::vector<Force>> unmoved;

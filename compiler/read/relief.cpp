@@ -5,15 +5,15 @@
 #include <glm/geometric.hpp>
 
 #include "compiler/read/bent_wall.hpp"
+#include "compiler/read/beside_waves.hpp"
+#include "compiler/read/cut_part.hpp"
 #include "compiler/read/dependence.hpp"
-#include "compiler/read/fundamental.hpp"
-#include "compiler/read/harmonic_fit.hpp"
+#include "compiler/read/motion.hpp"
 #include "compiler/read/relief_figures.hpp"
 #include "compiler/read/slow_sine.hpp"
 #include "compiler/read/spring_end.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/unlimited.hpp"
-#include "compiler/read/window_spectrum.hpp"
 #include "wale/picture.hpp"
 
 namespace wale {
@@ -21,16 +21,7 @@ namespace {
 
 constexpr std::size_t side_of_whole = 160;  // 0.9 mm apart on a patch of 160 mm
 constexpr double bending_periods = 20;      // over the patch: slower waves bend like what stands in it
-constexpr std::size_t most_harmonics = 8;
-constexpr double weak_harmonic = 1e-3;      // of a wave's mean square
 constexpr double plainly_explained = 0.03;  // of the mean square, left by a trend that is found before the waves
-constexpr double left_by_waves = 2e-3;      // of the mean square beyond a line: nothing stands beside the waves
-constexpr double left_in_a_quarter = 0.01;  // of the mean square there: waves are all that it holds
-constexpr double even_over_cells = 0.3;    // of the mean square
-constexpr double left_beside_both = 0.02;   // of what a line leaves, by wall and wave
-constexpr double few_harmonics = 0.3;       // ... or of a wave that jumps, by its first harmonics
-constexpr double left_by_a_jumping_wave = 0.05;  // ... and by its whole form, where it jumps within a part of it
-constexpr std::size_t places_of_a_quarter = 2000, bins_of_a_wave = 96;
 constexpr double little = 0.04;             // of the mean square: not worth its own spectrum
 constexpr double repeats = 0.02;            // of the mean square beyond a line, left by waves alone
 constexpr double curved = 0.02;             // of the mean square without waves, beyond a line
@@ -196,7 +187,8 @@ class ReliefReader {
 
   /// Fits features anew beside the waves that were found. What the features took of the waves goes back to them.
   void refine(std::vector<Feature>& features) {
-    if (found_.obstacles.empty() || is_bent_) return refine_features(features, whole_.places, without_waves_and_with(features));
+    if (found_.obstacles.empty() || is_bent_)
+      return refine_features(features, whole_.places, without_waves_and_with(features));
     std::vector<glm::dvec2> forces = whole_.forces;
     std::vector<SlowWave> slow;
     for (const FoundWave& each : waves_.waves) {
@@ -208,15 +200,6 @@ class ReliefReader {
     }
     found_.obstacles = fitted_beside(found_.obstacles, slow, whole_.places, forces);
     features = features_of(found_.obstacles, whole_.places);
-  }
-
-  /// The number of a wave's harmonics that are worth a fit.
-  static std::size_t harmonics_worth(const FoundWave& wave) {
-    const std::vector<double> powers = harmonics_of(wave.wave, most_harmonics);
-    std::size_t number = 1;
-    for (std::size_t i = 0; i < powers.size(); ++i)
-      if (powers[i] > weak_harmonic) number = i + 1;
-    return number;
   }
 
   /// Looks for walls and steps in forces.
@@ -285,78 +268,15 @@ class ReliefReader {
     found_.features = std::move(features);
   }
 
-  /// A quarter of the patch, by its corner; all of a lattice's places that lie in it.
-  StillForces quarter_of_whole(std::size_t corner) const {
-    const std::size_t side = whole_.side / 2, top = corner / 2 * side, left = corner % 2 * side;
-    StillForces quarter{side, whole_.centre + 0.25 * whole_.size * glm::dvec2(left > 0 ? 1 : -1, top > 0 ? 1 : -1),
-                        0.5 * whole_.size, {}, {}};
-    for (std::size_t row = 0; row < side; ++row)
-      for (std::size_t column = 0; column < side; ++column) {
-        const std::size_t i = (top + row) * whole_.side + left + column;
-        quarter.places.push_back(whole_.places[i]), quarter.forces.push_back(whole_.forces[i]);
-      }
-    return quarter;
-  }
-
-  /// The forces less waves and a line that explain all of them in a quarter of the patch; nothing if none do. Both are
-  /// then the same elsewhere, and what stands in the rest of the patch stands beside them. The waves are put into
-  /// `slow`.
-  std::optional<std::vector<glm::dvec2>> beside_waves_of(const StillForces& quarter, double bent,
-                                                         std::vector<SlowWave>& slow) const {
-    std::vector<glm::dvec2> rest = quarter.forces;
-    const LinearForce line = linear_force(quarter.places, rest);
-    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= line.at(quarter.places[i]);
-    const double by_line = mean_square(rest);
-    if (by_line < least_force * least_force) return std::nullopt;
-    const std::vector<glm::dvec2> peaks = WindowSpectrum(quarter, rest).peaks(1, 1.4);
-    if (peaks.empty()) return std::nullopt;
-    const std::vector<glm::dvec2> places = some_of(quarter.places, places_of_a_quarter),
-                                  forces = some_of(quarter.forces, places_of_a_quarter);
-    HarmonicFit fit = fit_harmonics(places, forces, peaks, quarter.size, bins_of_a_wave);
-    if (fit.left > few_harmonics * by_line) return std::nullopt;
-    if (fit.left > left_in_a_quarter * by_line) {
-      // What jumps has many more harmonics.
-      for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = quarter.forces[i] - fit.line.at(quarter.places[i]);
-      const glm::dvec2 exact = better_fitting(quarter.places, rest, fit.waves.front().waves, bins_of_a_wave);
-      fit.waves = {folded(quarter.places, rest, exact, bins_of_a_wave)};
-      fit.waves.front().add_to(quarter.places, rest, -1);
-      if (mean_square(rest) > left_by_a_jumping_wave * by_line) return std::nullopt;
-    }
-    std::vector<glm::dvec2> left = whole_.forces;
-    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= fit.line.at(whole_.places[i]);
-    for (const FoldedWave& each : fit.waves) {
-      each.add_to(whole_.places, left, -1);
-      slow.push_back({each.waves, harmonics_worth({each})});
-    }
-    // What is left there belongs to what stands in the rest.
-    return mean_square(left) > bent ? std::optional(std::move(left)) : std::nullopt;
-  }
-
-  /// Looks for walls and steps beside a slow wave. The wave is known from a part of the patch where nothing stands;
-  /// without it they are seen, and then all is fitted together.
+  /// Looks for walls and steps beside a slow wave.
   void find_beside_waves(const std::vector<glm::dvec2>& beyond) {
-    if (!found_.obstacles.empty() || waves_.lattice || slow_sine_) return;
-    const double all = mean_square(beyond), least = std::max(least_force * least_force, left_by_waves * all);
-    const double left = mean_square(waves_.rest);
-    if (found_.features.empty() && left < least) return;
-    // A wall is even over small cells. A texture that is no wave is not, and is left at once.
-    if (found_.features.empty() && mean_square(cell_means(whole_.side, waves_.rest)) < even_over_cells * left)
-      return;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      std::vector<SlowWave> slow;
-      const auto forces = beside_waves_of(quarter_of_whole(corner), least, slow);
-      if (!forces) continue;
-      const auto obstacles = find_obstacles(whole_, *forces);
-      if (!obstacles || obstacles->empty() || obstacles->hill) continue;
-      const Obstacles fitted = fitted_beside(*obstacles, slow, whole_.places, whole_.forces);
-      std::vector<Feature> features = features_of(fitted, whole_.places);
-      FoundWaves waves = find_waves(field_, whole_, features);
-      if (waves.waves.empty() || waves.local || mean_square(waves.rest) > left_beside_both * all) continue;
-      found_.obstacles = fitted, found_.features = std::move(features), waves_ = std::move(waves);
-      refine(found_.features);
-      waves_ = find_waves(field_, whole_, found_.features);
-      return;
-    }
+    if (!found_.obstacles.empty() || slow_sine_) return;
+    auto beside = obstacles_beside_waves(field_, whole_, beyond, found_.features, waves_);
+    if (!beside) return;
+    found_.obstacles = std::move(beside->obstacles), found_.features = std::move(beside->features);
+    waves_ = std::move(beside->waves);
+    refine(found_.features);
+    waves_ = find_waves(field_, whole_, found_.features);
   }
 
   /// Adds places where a small feature would be: about what is busiest, if little lies elsewhere.
@@ -472,12 +392,9 @@ class ReliefReader {
 
 namespace {
 
-StillField field_of(const Unlimited& law) {
-  return [&law](std::span<const glm::dvec2> places) {
-    std::vector<glm::dvec2> forces = forces_at(law.bank, places);
-    for (glm::dvec2& force : forces) force *= law.scale;
-    return forces;
-  };
+/// N/m: along the axis along which a linear force draws a hand back most; 0 if it does along none.
+double stiffest_of(const LinearForce& force) {
+  return std::max(0.0, principal_of(-force.by_x, -force.by_y, least_stiffness).greatest);
 }
 
 /// The force with the laws of its parts that the author limits: each is told as it is where it is not cut, and what is
@@ -485,34 +402,29 @@ StillField field_of(const Unlimited& law) {
 /// limit.
 std::optional<StaticForce> beside_limited_parts(const Bank& bank, const StillForces& felt,
                                                 const std::vector<glm::dvec2>& asked) {
-  constexpr std::size_t every = 7;          // of the places
-  constexpr double least_cut_part = 0.025;  // of those: the 99th percentile of a texture cuts a hundredth ...
-  constexpr double least_even_part = 1e-3;  // ... and the end of a wall or a spring is cut evenly
+  constexpr std::size_t every = 7;  // of the places
+  const std::vector<PartLimit> parts = part_limits(bank);
+  if (parts.empty()) return std::nullopt;
+  std::vector<glm::dvec2> places, there;
+  for (std::size_t i = 0; i < felt.places.size(); i += every) places.push_back(felt.places[i]), there.push_back(asked[i]);
   std::vector<PartLimit> cut;
   double cut_at = 0;
-  for (const PartLimit& part : part_limits(bank)) {
-    const auto law = without_part_limits(bank, {&part, 1});
-    if (!law) continue;
-    std::vector<glm::dvec2> places;
-    for (std::size_t i = 0; i < felt.places.size(); i += every) places.push_back(felt.places[i]);
-    const std::vector<glm::dvec2> forces = field_of(*law)(places);
-    std::vector<glm::dvec2> there, off;
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (glm::length(forces[i] - asked[i * every]) > 0.5 * least_force)
-        there.push_back(places[i]), off.push_back(forces[i] - asked[i * every]);
-    const double share = static_cast<double>(there.size()) / static_cast<double>(places.size());
-    if (share <= least_even_part || (share <= least_cut_part && !changes_evenly(there, off))) continue;
-    const double newton = part.keeping.empty() ? part.newton : end_of_a_spring(there, off);
-    if (!(newton > 0)) continue;
-    cut.push_back(part), cut_at = std::max(cut_at, newton);
+  for (const PartLimit& part : parts) {
+    const auto found = cut_part(bank, part, places, there);
+    if (found) cut.push_back(found->limit), cut_at = std::max(cut_at, found->newton);
   }
   if (cut.empty()) return std::nullopt;
   const auto law = without_part_limits(bank, cut);
-  if (!law) return std::nullopt;
+  const auto rest = without_parts(bank, cut);
+  if (!law || !rest) return std::nullopt;
   const StillField whole = field_of(*law);
   ReliefReader without(whole, bank.size());
   if (without.reaches(limit_of(bank) * law->scale)) return std::nullopt;
-  return without.read_beside_cut(felt.forces, asked, cut_at);
+  auto found = without.read_beside_cut(felt.forces, asked, cut_at);
+  // A spring beside it goes on where it ends.
+  if (const std::vector<glm::dvec2> others = field_of(*rest)(places); found && changes_evenly(places, others))
+    found->beyond_cut = stiffest_of(linear_force(places, others));
+  return found;
 }
 
 }  // namespace

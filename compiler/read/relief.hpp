@@ -59,7 +59,6 @@ struct Relief {
 
   /// The size within a band, N: the amplitude times the root of the band's share of the mean square.
   double within(const PeriodBand& band) const;
-  /// Whether it repeats, so that it has a period.
   /// 0 .. 1: the share of the mean square in waves, if these do not all repeat after one short period. Otherwise 0, and
   /// it is the regularity.
   double repeating = 0;
@@ -68,6 +67,7 @@ struct Relief {
   /// N: the largest force found, if that is much larger than the amplitude: of a feature that fills less than a
   /// hundredth of the patch; or what such a one adds to waves. 0 otherwise.
   double small_feature() const;
+  /// Whether it repeats, so that it has a period.
   bool regular() const { return amplitude > 0 && std::max(regularity, repeating) >= 0.5; }
   /// Whether it changes mostly in one direction, so that this direction has a meaning.
   bool oriented() const { return amplitude > 0 && anisotropy >= 0.5; }
@@ -85,6 +85,7 @@ struct StaticForce {
   bool cut_off = false;
   bool part_is_cut = false;  ///< by a limit of a part of the force, beside others that it does not limit
   double cut_at = 0;         ///< N: where a trend grows no more that is cut off; 0 if none is
+  double beyond_cut = 0;     ///< N/m: of the force beside a part that is cut; 0 if that does not change evenly
   Relief relief;
 };
 

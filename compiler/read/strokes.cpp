@@ -16,6 +16,7 @@ namespace {
 // m/s, speeds of an exploring hand; fewer for programs whose ticks must run one after another
 constexpr std::array<double, 10> speeds = {0.005, 0.01, 0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2, 0.4};
 constexpr std::array<double, 4> few_speeds = {0.05, 0.1, 0.2, 0.4};
+constexpr std::array<double, 7> some_speeds = {0.01, 0.02, 0.035, 0.05, 0.1, 0.2, 0.4};
 constexpr double stretch = 0.024;      // m, length of a stroke, which goes there and back
 constexpr double least_stretch = 0.5;  // of the patch's extent, if that is smaller
 constexpr double looked_at = 0.5;      // of the stretch, in its middle: there a program with memory has settled
@@ -57,9 +58,12 @@ double reach_within(glm::dvec2 half, glm::dvec2 place, glm::dvec2 direction) {
 }
 
 std::vector<Stroke> strokes_over(const Bank& bank, glm::dvec2 axis, const Outside& outside, const Room& space,
-                                 double settling) {
+                                 double settling, bool slowly) {
   const PatchProgram& program = bank.program().description();
   const bool alone = !remembers_anything(program);
+  const std::span<const double> gone_at = alone ? std::span<const double>(speeds)
+                                          : slowly ? std::span<const double>(some_speeds)
+                                                   : std::span<const double>(few_speeds);
   const glm::dvec2 half = half_of(bank), middle = outside.middle(half);
   const double rate = program.device.rate, usual = std::min(stretch / 2, least_stretch * std::min(half.x, half.y));
   std::vector<Stroke> strokes;
@@ -77,11 +81,23 @@ std::vector<Stroke> strokes_over(const Bank& bank, glm::dvec2 axis, const Outsid
         counts *= 0.5, place = space.nearest({wanted, direction, counts, counts}, taken);
       taken.push_back(place);
       const double reach = std::max(usual, std::min(counts + settling, reach_within(half, place, direction)));
-      for (const double speed : alone ? std::span<const double>(speeds) : std::span<const double>(few_speeds))
+      for (const double speed : gone_at)
         strokes.push_back({direction, place, speed, 2 * std::max(2L, std::lround(reach / speed * rate)), counts});
     }
   }
   return strokes;
+}
+
+std::vector<Stroke> slow_strokes(const Bank& bank, const std::vector<Stroke>& strokes) {
+  const double rate = bank.program().description().device.rate;
+  std::vector<Stroke> slow;
+  for (const std::size_t first : {std::size_t{0}, strokes.size() / 2}) {
+    Stroke stroke = strokes[first];
+    const double reach = 0.5 * static_cast<double>(stroke.pass) * stroke.speed / rate;
+    stroke.speed = slow_stroke_speed, stroke.pass = 2 * std::lround(reach / slow_stroke_speed * rate);
+    slow.push_back(stroke);
+  }
+  return slow;
 }
 
 namespace {

@@ -51,9 +51,15 @@ double reach_within(glm::dvec2 half, glm::dvec2 place, glm::dvec2 direction);
 
 /// Strokes along `axis` (of length 1), then as many across it, `stroke_lines` of each speed. Where a resting hand feels
 /// all that the device gives, strokes say nothing: they go elsewhere. Each goes on for `settling` (m) before it counts,
-/// if the patch is large enough.
+/// if the patch is large enough. Those of a program that remembers are at fewer speeds, unless slow ones are wanted.
 std::vector<Stroke> strokes_over(const Bank& bank, glm::dvec2 axis, const Outside& outside, const Room& space,
-                                 double settling);
+                                 double settling, bool slowly = false);
+
+/// m/s: the speed at which `slow_strokes` go.
+inline constexpr double slow_stroke_speed = 0.02;
+
+/// One stroke along each axis of some strokes, at that speed.
+std::vector<Stroke> slow_strokes(const Bank& bank, const std::vector<Stroke>& strokes);
 
 /// The mean force on each stroke, N, turned about for a hand that goes forth: its part along the stroke opposes the
 /// hand, and the other part pushes it aside. States and memories work as they do under a hand; memories stay as they

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "compiler/read/dependence.hpp"
 #include "compiler/read/fading_swing.hpp"
 #include "compiler/read/fourier.hpp"
 #include "compiler/read/relief_figures.hpp"
@@ -17,13 +16,10 @@
 #include "compiler/read/tones.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
-#include "wale/batch.hpp"
-#include "wale/memory.hpp"
 
 namespace wale {
 namespace {
 
-constexpr std::size_t still_places = 8;
 constexpr std::size_t fewest_swings = 3;  // over that time; slower changes are a drift
 constexpr std::size_t most_harmonic = 8;
 constexpr double of_the_strongest = 0.2;  // line's power, in a fundamental
@@ -218,58 +214,6 @@ double Swing::beside_strongest() const {
   return std::sqrt(squares);
 }
 
-std::vector<glm::dvec2> places_of_rest(const Bank& bank) {
-  const PatchSize patch = bank.size();
-  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
-  std::vector<glm::dvec2> places;
-  for (std::size_t i = 0; i < still_places; ++i) {
-    // On a spiral, so that no two positions have the same distance or angle.
-    const auto number = static_cast<double>(i);
-    const double radius = 0.8 * number / still_places, angle = number * std::numbers::pi * (3 - std::sqrt(5.0));
-    places.push_back(half * radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-  }
-  return places;
-}
-
-std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
-  const PatchProgram& program = bank.program().description();
-  const bool timed = reads(program, {Input::time});
-  std::vector<std::vector<Force>> felt;
-  if (!timed && program.states.empty()) return felt;
-  const double rate = program.device.rate;
-  const auto ticks = static_cast<std::size_t>(std::lround(still_seconds * rate));
-  std::vector<Hand> hands(still_places);
-  const std::vector<glm::dvec2> places = places_of_rest(bank);
-  for (std::size_t i = 0; i < still_places; ++i) hands[i].position = hands[i].workspace = glm::vec2(places[i]);
-  felt.assign(still_places, std::vector<Force>(ticks));
-  if (program.states.empty()) {
-    for (std::size_t i = 0; i < still_places; ++i) {
-      std::vector<Hand> moments(ticks, hands[i]);
-      for (std::size_t tick = 0; tick < ticks; ++tick) moments[tick].time = static_cast<double>(tick) / rate;
-      tick_all(bank, moments, felt[i]);
-    }
-    return felt;
-  }
-  Batch batch(bank, still_places);
-  batch.enter(hands);
-  std::vector<Force> forces(still_places);
-  const std::size_t all = program.states.size() * still_places;
-  std::vector<float> before(all), now(all);
-  for (std::size_t tick = 0; tick < ticks; ++tick) {
-    for (Hand& hand : hands) hand.time = static_cast<double>(tick) / rate;
-    batch.tick(hands, forces);
-    for (std::size_t i = 0; i < still_places; ++i) felt[i][tick] = forces[i];
-    for (std::size_t i = 0; i < all; ++i) now[i] = batch.state(i / still_places, i % still_places);
-    // Without a clock, a force that does not change in one tick never changes.
-    if (!timed && tick > 0 && now == before) {
-      for (auto& each : felt) each.assign(ticks, each[tick]);
-      break;
-    }
-    before.swap(now);
-  }
-  return felt;
-}
-
 namespace {
 
 /// What swings at one place, as its spectrum shows it.
@@ -456,11 +400,19 @@ void tell_course(const Bank& bank, const std::vector<std::vector<Force>>& felt, 
   if (even.noise || (!(even.frequency > 0) && !(swing.frequency > 0))) return;
   if (even.frequency > 0) swing.frequency = even.frequency, swing.axis = even.axis;
   swing.amplitude = unsteady->amplitude, swing.course = unsteady->course;
+  if (!swing.course->grows) return;
+  // One that has grown to its size is fitted a little larger.
+  const double farthest = farthest_from_middle(*busiest);
+  swing.amplitude = std::min(swing.amplitude, farthest);
+  swing.course->greatest = std::min(swing.course->greatest, farthest);
 }
 
 }  // namespace
 
-void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway, Swing& vibration) {
+void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& at_rest, Swing& sway, Swing& vibration) {
+  std::vector<std::vector<Force>> felt = at_rest;
+  // What swings in a part of the patch may be elsewhere.
+  if (auto busiest = felt_where_busiest(bank)) felt.push_back(*std::move(busiest));
   const double share = tell_greatest_swings(bank, felt, sway, vibration);
   if (vibration.frequency > 0 && sway.amplitude < least_force) {
     // What comes or goes beside it is in its spectrum too.

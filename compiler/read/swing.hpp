@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "compiler/read/at_rest.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
@@ -46,20 +47,11 @@ struct Swing {
   double change() const { return !course ? 0 : course->grows ? -course->greatest : course->greatest; }
 };
 
-/// s: so long hands hold still that feel what time brings.
-inline constexpr double still_seconds = 8;
-
 /// Below this frequency (Hz) a swing is a sway, which the hand follows; above it is a vibration.
 inline constexpr double slowest_vibration = 10;
 
-/// m: where such hands are, over a patch.
-std::vector<glm::dvec2> places_of_rest(const Bank& bank);
-
-/// The forces on hands that hold still at a few positions for some seconds, for each tick; empty if they cannot change.
-std::vector<std::vector<Force>> felt_at_rest(const Bank& bank);
-
-/// Tells the swings of such forces at the place where they change most. A force that only rises or falls does not
-/// swing.
-void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& felt, Swing& sway, Swing& vibration);
+/// Tells the swings of the forces on resting hands (`felt_at_rest`), at the place where they change most, be it another
+/// one. A force that only rises or falls does not swing.
+void tell_swings(const Bank& bank, const std::vector<std::vector<Force>>& at_rest, Swing& sway, Swing& vibration);
 
 }  // namespace wale

@@ -122,7 +122,7 @@ std::optional<PartLimit> limit_made_at(const Bank& bank, std::size_t minimum) {
     if (writer_before(code, code.size(), ceiling)) continue;
     const auto smaller = readers_of(program, minimum);
     if (!smaller || smaller->empty()) continue;
-    PartLimit found{.newton = bank.registers()[ceiling], .factor = code[minimum].destination, .one = one};
+    PartLimit found{.ceiling = bank.registers()[ceiling], .factor = code[minimum].destination, .one = one};
     for (const std::size_t each : *smaller) {
       const auto held = readers_of(program, each);
       if (!is(code[each], Operation::multiply) || !held || held->size() != 1) return std::nullopt;
@@ -238,6 +238,19 @@ std::optional<Unlimited> without_part_limits(const Bank& bank, std::span<const P
       Instruction& limit = program.tick[part.limit[i]];
       limit = {static_cast<std::uint8_t>(Operation::multiply), limit.destination, limit.a, part.one, 0};
     }
+  }
+  return without_limit(std::move(program), bank, 1);
+}
+
+std::optional<Unlimited> without_parts(const Bank& bank, std::span<const PartLimit> parts) {
+  PatchProgram program = bank.program().description();
+  const auto make_nothing = [&](std::size_t at) {
+    Instruction& made = program.tick[at];
+    made = {static_cast<std::uint8_t>(Operation::subtract), made.destination, made.a, made.a, 0};
+  };
+  for (const PartLimit& part : parts) {
+    if (!part.keeping.empty()) make_nothing(part.keeping.back().first);
+    for (const std::size_t each : part.multiply) make_nothing(each);
   }
   return without_limit(std::move(program), bank, 1);
 }

@@ -40,7 +40,7 @@ std::optional<Unlimited> without_limit(const Bank& bank, int times = 1);
 
 /// A `limit` of a part of the force, beside other forces, or a number that is kept between two opposite ones.
 struct PartLimit {
-  double newton = 0;                         ///< at this bank's parameters; 0 of a number that is kept: it may be no force
+  double ceiling = 0;                        ///< at this bank's parameters, of what is limited, which may be no force
   std::vector<std::size_t> multiply, limit;  ///< instructions of a tick: where the part becomes smaller
   RegisterNumber factor = 0;                 ///< by which both are multiplied
   RegisterNumber one = 0;                    ///< has the number 1
@@ -54,6 +54,9 @@ std::vector<PartLimit> part_limits(const Bank& bank);
 
 /// The program without some limits of parts of its force, which becomes smaller as that of `without_limit`.
 std::optional<Unlimited> without_part_limits(const Bank& bank, std::span<const PartLimit> parts);
+
+/// The same without these parts: what is limited, or kept, is 0.
+std::optional<Unlimited> without_parts(const Bank& bank, std::span<const PartLimit> parts);
 
 /// Whether a force is at the device's limit `most` (N) along x or y, so that its law may ask for more.
 bool at_limit(glm::dvec2 force, double most);

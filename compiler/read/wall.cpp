@@ -30,6 +30,7 @@ constexpr double gently = 0.03;           // of the largest push: what may be fe
 constexpr double slow = 0.02;             // m/s, the speed at which damping is measured
 constexpr double nearly_straight = 0.02;  // of the largest push
 constexpr double jump_of_rise = 3;        // times the usual rise from one step to the next
+constexpr std::array<long, 2> waits = {97, 211};  // ticks: no swing is the same after both
 constexpr double least_preload = 0.05, before_a_jump = 0.5;  // of the largest push, and of the preload
 
 /// A line of hands at rest. If the program has memory, one hand goes along the line step by step instead.
@@ -61,8 +62,8 @@ std::vector<Scan> scans_of(PatchSize patch) {
 }
 
 /// The forces along all lines, one after another. A program with memory is scanned by hands that move the whole way
-/// slowly: a wall may yield to a hand that is placed behind its face.
-std::vector<Force> forces_along(const Bank& bank, const std::vector<Scan>& scans) {
+/// slowly, after a wait of so many ticks where they come: a wall may yield to a hand that is placed behind its face.
+std::vector<Force> forces_along(const Bank& bank, const std::vector<Scan>& scans, long waited = 0) {
   std::vector<Force> forces(scans.back().first + scans.back().count);
   if (!remembers_anything(bank.program().description())) {
     std::vector<Hand> hands;
@@ -75,13 +76,14 @@ std::vector<Force> forces_along(const Bank& bank, const std::vector<Scan>& scans
   Batch batch(bank, scans.size());
   std::vector<Hand> hands(scans.size());
   std::vector<Force> felt(scans.size());
-  const std::size_t longest = std::ranges::max(scans, {}, &Scan::count).count;
-  for (std::size_t i = 0; i < longest; ++i) {
+  const auto longest = static_cast<long>(std::ranges::max(scans, {}, &Scan::count).count);
+  for (long now = 0; now < waited + longest; ++now) {
+    const auto i = static_cast<std::size_t>(std::max(0L, now - waited));
     for (std::size_t k = 0; k < scans.size(); ++k) {
       hands[k] = scans[k].hand(static_cast<double>(std::min(i, scans[k].count - 1)));
-      hands[k].time = static_cast<double>(i) / bank.program().description().device.rate;
+      hands[k].time = static_cast<double>(now) / bank.program().description().device.rate;
     }
-    if (i == 0) batch.enter(hands);
+    if (now == 0) batch.enter(hands);
     batch.tick(hands, felt);
     for (std::size_t k = 0; k < scans.size(); ++k)
       if (i < scans[k].count) forces[scans[k].first + i] = felt[k];
@@ -247,6 +249,18 @@ void tell_damping(const Bank& bank, WallFace& face) {
 std::optional<WallFace> wall_face(const Bank& bank) {
   const std::vector<Scan> scans = scans_of(bank.size());
   const std::vector<Force> forces = forces_along(bank, scans);
+  // What swings or comes with time in a part of the patch begins there like a face. A wall is the same for a hand that
+  // comes later.
+  std::vector<std::vector<Force>> later;
+  if (const PatchProgram& program = bank.program().description(); remembers_anything(program) && goes_by_time(program))
+    for (const long waited : waits) later.push_back(forces_along(bank, scans, waited));
+  const auto is_steady = [&](std::size_t first, double within) {
+    return std::ranges::all_of(later, [&](const std::vector<Force>& other) {
+      for (std::size_t i = first; i <= first + steps_deep; ++i)
+        if (glm::length(other[i] - forces[i]) > within) return false;
+      return true;
+    });
+  };
   std::optional<WallFace> stiffest;
   const Scan* met = nullptr;
   double depth_met = 0;  // steps from the start of the line
@@ -270,7 +284,7 @@ std::optional<WallFace> wall_face(const Bank& bank) {
         // Along an oblique line the depth grows with the cosine of the angle.
         const double cosine = glm::dot(inward, scan.direction), stiffness = slope / cosine;
         if (far > least_push && straight && depth >= 0 && depth <= 1.05 * step && cosine > 0.3 &&
-            (!stiffest || stiffness > 1.001 * stiffest->stiffness)) {
+            is_steady(scan.first + i, proportional * far) && (!stiffest || stiffness > 1.001 * stiffest->stiffness)) {
           const double steps = static_cast<double>(i) - depth / step;
           stiffest = WallFace{scan.from + steps * step * scan.direction + 0.0, inward + 0.0, stiffness, 0, 0};
           met = &scan, depth_met = steps + 2;

@@ -26,6 +26,7 @@ std::vector<Family> mixture_families();
 std::vector<Family> axis_families();
 std::vector<Family> obstacle_families();
 std::vector<Family> place_families();
+std::vector<Family> part_families();
 
 /// All of them.
 std::vector<Family> families();

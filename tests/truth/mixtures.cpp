@@ -109,7 +109,7 @@ std::vector<Family> families() {
   for (const auto& part :
        {texture_families(), sum_families(), aperiodic_families(), trend_families(), motion_families(), time_families(),
         swing_families(), way_families(), memory_families(), mixture_families(), axis_families(), obstacle_families(),
-         place_families()})
+         place_families(), part_families()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

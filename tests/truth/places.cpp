@@ -1,5 +1,6 @@
 // What stands in one place beside something else: a hill beside a spring or a wall, walls that begin with a jump, walls
-// one behind the other, springs in half of the patch, soft steps, and walls that the author limits.
+// one behind the other, walls that push with a power of the depth, springs in half of the patch, soft steps, and walls
+// that the author limits.
 
 #include <fmt/format.h>
 
@@ -146,6 +147,45 @@ Composition nested_walls(Chance& chance) {
   return made;
 }
 
+/// A wall that pushes with a power of the depth: softer bodies, or rounder ones (Hertz: 3/2).
+void push_bent_wall(Composition& made, Chance& chance) {
+  const double angle = any_orientation(chance);
+  const double face = rounded(nearer_half(made) * chance.between(-0.2, 0.4), 3);
+  const double power = rounded(chance.happens(0.3)   ? 1.5
+                               : chance.happens(0.3) ? chance.between(0.6, 0.85)
+                                                     : chance.between(1.25, 3.2),
+                               3);
+  const double newton = rounded(chance.octaves(0.8, 6), 3), scale = 0.06;
+  const glm::dvec2 inward{std::cos(angle), std::sin(angle)};
+  // The device's own limit stays out of it.
+  const double deepest = std::abs(inward.x) * made.half().x + std::abs(inward.y) * made.half().y - face;
+  const double size = rounded(newton * std::pow(scale / deepest, power), 5);
+  made.push(fmt::format("-{} N * (max({} * x + {} * y - {}, 0 mm) / {})^{} * {}", number(size), number(inward.x),
+                        number(inward.y), millimetres(face), millimetres(scale), number(power), unit_vector(angle)),
+            [=](const Sample& hand) {
+              const double depth = std::max(0.0, glm::dot(inward, hand.position) - face);
+              return -size * std::pow(depth / scale, power) * inward;
+            });
+  made.allow(1e-4);
+  const double stiffness = size * std::pow(deepest / scale, power) / deepest;
+  expect_walls(made, {{.stiffness = stiffness, .face = face, .inward = angle, .power = power}});
+  made.truth[Cue::wall_jump] = open;
+}
+
+Composition bent_walls(Chance& chance) {
+  Composition made = any_patch(chance);
+  push_bent_wall(made, chance);
+  if (chance.happens(0.3)) add_viscosity(made, chance, 4);
+  return made;
+}
+
+Composition bent_walls_on_textures(Chance& chance) {
+  Composition made = any_patch(chance);
+  push_bent_wall(made, chance);
+  add_texture(made, chance, any_waveform(chance), 0.8e-3, 6e-3, 0.8);
+  return made;
+}
+
 /// A spring on one side of a line along which it pulls: neither a hole nor a wall.
 Composition half_springs(Chance& chance) {
   Composition made = any_patch(chance);
@@ -213,6 +253,8 @@ std::vector<Family> place_families() {
           {"jumping wall on texture", jumping_walls_on_textures},
           {"two jumping walls", two_jumping_walls},
           {"nested walls", nested_walls},
+          {"bent wall", bent_walls},
+          {"bent wall on texture", bent_walls_on_textures},
           {"half spring", half_springs},
           {"soft step", soft_steps},
           {"limited wall", limited_walls}};

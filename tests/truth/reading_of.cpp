@@ -70,8 +70,10 @@ Reading reading_of(const Program& program) {
     if (wall.radius > 0)
       reading.walls.push_back({wall.stiffness, wall.radius, 0, wall.fills ? -1 : 1, wall.centre.x, wall.centre.y});
     else
-      reading.walls.push_back(
-          {wall.stiffness, glm::dot(wall.place, wall.inward), std::atan2(wall.inward.y, wall.inward.x)});
+      reading.walls.push_back({.stiffness = wall.stiffness,
+                               .face = glm::dot(wall.place, wall.inward),
+                               .inward = std::atan2(wall.inward.y, wall.inward.x),
+                               .power = wall.power});
   };
   if (found.wall) tell_wall(*found.wall);
   std::ranges::for_each(found.more_walls, tell_wall);

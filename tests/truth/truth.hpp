@@ -83,6 +83,7 @@ struct WallTruth {
   double inward = 0;     ///< rad: the way into a straight one
   int round = 0;         ///< 1: it lies outside of a circle; -1: it fills the circle
   double x = 0, y = 0;   ///< m: of the circle's centre
+  double power = 1;      ///< its push grows with this power of the depth; then the stiffness is that of its deepest place
 };
 bool alike(const WallTruth& a, const WallTruth& b);
 
