@@ -87,8 +87,10 @@ std::string why_no_texture(const PatchProgram& program, const Measured& force, b
   std::string text;
   for (std::size_t i = 0; i < found.size(); ++i)
     text += (i == 0 ? "" : i + 1 == found.size() ? " and " : ", ") + found[i];
-  return depends_on_place(program) ? fmt::format("its force depends on {}, so it has no single texture", text)
-                                   : fmt::format("its force depends on {}, and is the same at every place", text);
+  const bool has_places = reads(program, {Input::x, Input::y, Input::workspace_x, Input::workspace_y}) ||
+                          (remembers_anything(program) && !remembers_time_only(program));
+  return has_places ? fmt::format("its force depends on {}, so it has no single texture", text)
+                    : fmt::format("its force depends on {}, and is the same at every place", text);
 }
 
 /// "roughness from 0.7 mm to 10 mm, …": the periods of the percepts of textures.
