@@ -10,6 +10,8 @@
 
 #include "calibration/feel/own_force.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/read/dependence.hpp"
+#include "compiler/read/relief.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/wall.hpp"
 #include "compiler/text/json_text.hpp"
@@ -105,6 +107,13 @@ std::optional<double> needed_seconds(const PatchProgram& program, const Felt& fe
   constexpr double margin = 1.2;
   const double pace = static_cast<double>(felt.crossings) / (seconds - settling);
   return std::ceil(settling + margin * static_cast<double>(least_crossings) / pace);
+}
+
+bool has_relief(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  const auto is_texture = [](const PerceptRecord& each) { return each.extractor == Extractor::lateral_force; };
+  if (program.device.shaker || std::ranges::any_of(program.percepts, is_texture)) return true;
+  return depends_on_place(program) && static_force(bank).relief.amplitude >= least_force;
 }
 
 bool needs_wall(const PerceptRecord& percept) {
@@ -279,6 +288,7 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
                                .vibrates = device.shaker.has_value(),
                                .bandwidth = {device.bandwidth_x, device.bandwidth_y}};
   report.felt = measure(run.record, options);
+  report.has_relief = has_relief(bank);
   report.needed_seconds = needed_seconds(program, report.felt, report.seconds, settling);
   report.levels = levels_back(bank, report.felt, least_crossings);
   std::vector<LevelBack> own;
@@ -344,6 +354,9 @@ std::string felt_text(const FeltReport& report) {
     text += readable("  place        none: `{}` does not measure the hand's position\n", report.device.name);
   else if (felt.vibration)
     text += readable("  place        the hand ranged over {:.1f} mm\n", 1e3 * felt.position_range);
+  else if (!report.has_relief)
+    text += readable("  place        the hand ranged over {:.1f} mm, {:.1f} % of the time stuck\n",
+                     1e3 * felt.position_range, 100 * felt.stuck);
   else
     text += readable("  texture      {} crossings, {:.1f} % of the time stuck; the hand ranged over {:.1f} mm\n",
                      felt.crossings, 100 * felt.stuck, 1e3 * felt.position_range);

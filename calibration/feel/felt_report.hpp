@@ -61,6 +61,8 @@ struct FeltReport {
   /// The motion of a hand that crosses the texture more often, "lateral along y"; empty if that of the run does as
   /// well.
   std::string crossing_motion;
+  /// Whether the program has a relief at all: of another force, such as a vibration, the crossings are no texture's.
+  bool has_relief = true;
 };
 
 /// The least number of crossings that a texture needs to be read back.

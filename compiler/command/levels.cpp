@@ -94,8 +94,10 @@ int levels(const LevelsOptions& options) {
   if (const auto unread = unread_level(*proposed, options.choice.request(), known.declarations()))
     return refuse(*unread);
   std::set<const Threshold*> recalled;
-  for (const ProposedLevel& each : proposed->levels)
-    if (each.threshold && each.threshold->recalled()) recalled.insert(each.threshold);
+  for (const ProposedLevel& each : proposed->levels) {
+    const Threshold* decides = each.floor ? each.floor : each.threshold;
+    if (decides && decides->recalled()) recalled.insert(decides);
+  }
   print_recalled(recalled);
   print_out(options.json ? proposal_json(*proposed) : proposal_text(*proposed));
   return done;

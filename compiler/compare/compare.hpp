@@ -16,6 +16,7 @@ struct CueDifference {
   CueKind kind = CueKind::amplitude;
   std::optional<double> a, b;               ///< SI; empty if the material does not have this cue
   std::optional<double> noticeable;         ///< in just noticeable differences at d' = 1; empty if unknown
+  std::string why_unknown;                  ///< in words, if `noticeable` is empty: "no published threshold"
   const Threshold* threshold = nullptr;     ///< that gives `noticeable`; null if none is published or nothing differs
   Evidence evidence = Evidence::estimated;  ///< of the threshold on this device
   /// The conditions of the threshold's measurement that the materials do not meet, as written; beyond them it is
@@ -84,6 +85,7 @@ class Comparer {
   template <typename Visit>
   void each_cue(const Cues& a, const Cues& b, Visit visit) const;
   std::optional<double> noticeable(const CueFacts& facts, const Cues& of_a, const Cues& of_b) const;
+  std::string why_unknown(const CueFacts& facts, const Cues& of_a, const Cues& of_b) const;
 
   std::vector<Discrimination> people_;  ///< by `CueKind`
   std::optional<double> speed_;         ///< mean speed of the hand `normal` as it strokes, m/s

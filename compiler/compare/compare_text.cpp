@@ -80,7 +80,9 @@ void write_cues(std::string& text, const ComparisonMatrix& matrix, std::size_t f
     const auto [of_a, of_b] = cue_texts(cue);
     text += fmt::format("  {:<20} {:<{}}  {:<{}}  {}", facts_of(cue.kind).name, of_a, width, of_b, width,
                         noticeable_text(cue.noticeable));
-    if (cue.floor)
+    if (!cue.noticeable)
+      text += fmt::format("  ({})", cue.why_unknown);
+    else if (cue.floor)
       text += fmt::format("  ({})", floor_words(*cue.floor, cue.least, facts_of(cue.kind).unit));
     else if (cue.threshold)
       text += readable("  ({:.2g} at d' = 1, {}: {})", cue.threshold->weber,
@@ -138,6 +140,7 @@ nlohmann::ordered_json pair_json(const ComparisonMatrix& matrix, std::size_t a, 
   for (const CueDifference& cue : comparison.cues) {
     Json& each = cues[facts_of(cue.kind).name] = {
         {"a", value(cue.a)}, {"b", value(cue.b)}, {"noticeable", value(cue.noticeable)}};
+    if (!cue.noticeable) each["unknown"] = cue.why_unknown;
     if (cue.threshold) write_threshold(each, *cue.threshold, cue.evidence, cue.outside);
     if (cue.floor) write_floor(each, *cue.floor, cue.least);
   }

@@ -87,7 +87,10 @@ std::string why_no_texture(const PatchProgram& program, const Measured& force, b
   std::string text;
   for (std::size_t i = 0; i < found.size(); ++i)
     text += (i == 0 ? "" : i + 1 == found.size() ? " and " : ", ") + found[i];
-  return fmt::format("its force depends on {}, so it has no single texture", text);
+  const bool has_places = reads(program, {Input::x, Input::y, Input::workspace_x, Input::workspace_y}) ||
+                          (remembers_anything(program) && !remembers_time_only(program));
+  return has_places ? fmt::format("its force depends on {}, so it has no single texture", text)
+                    : fmt::format("its force depends on {}, and is the same at every place", text);
 }
 
 /// "roughness from 0.7 mm to 10 mm, …": the periods of the percepts of textures.
@@ -118,6 +121,9 @@ std::string why_no_percept(const Description& description, const PatchProgram& p
       depends_on_place(program))
     return readable("`{}` cuts its force, and a force that is cut has no size that a map covers",
                     description.device.name);
+  // Such a resistance has no texture, but that is not why: its law is none of those that maps cover.
+  if (dependences(program) == std::vector<std::string>{"the hand's velocity"} && !description.motion.explained)
+    return "its resistance is neither a friction nor in proportion to the speed, and no map covers another";
   const std::string why = why_no_texture(program, description.force, description.grade.later_newton > 0);
   return why.empty() ? "no map covers what it does" : why;
 }

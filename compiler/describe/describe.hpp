@@ -170,6 +170,12 @@ Description describe(const Bank& bank, const Declarations& declarations, Texture
 
 /// The description as text for people.
 std::string description_text(const Description& description);
+/// "95 % of the means of groups: at least 0.19 .. 0.47 (scatter assumed)": where the means of other people lie, with the
+/// marks of what is assumed.
+std::string means_words(const DescribedPercept& percept);
+/// The same, and where single people lie: "95 % of the means of 15 people: 0.44 .. 0.82; of single people: 0.20 .. 1.77
+/// (spread and noise assumed)".
+std::string people_words(const DescribedPercept& percept);
 /// JSON: an object for one description, an array for several.
 std::string descriptions_json(const std::vector<Description>& descriptions);
 

@@ -47,23 +47,6 @@ std::vector<std::string> evidence_lines(const DescribedPercept& percept) {
   return lines;
 }
 
-/// "95 % of the means of 15 people: 0.44 .. 0.82; of single people: 0.20 .. 1.77 (spread and noise assumed)".
-std::string people_line(const DescribedPercept& percept) {
-  const LawUncertainty& law = percept.uncertainty;
-  const auto& [means, differ_more, people] = percept.intervals;
-  std::string line =
-      readable("95 % of the means of {}: {}{:.2f} .. {:.2f}{}",
-               law.observers > 0 ? readable("{} people", law.observers) : "groups", differ_more ? "at least " : "",
-               means.low, means.high, law.scatter_assumed ? " (scatter assumed)" : "");
-  if (!people) return line;
-  line += readable("; of single people: {:.2f} .. {:.2f}", people->low, people->high);
-  const char* assumed = law.spread_assumed && law.noise_assumed ? "spread and noise"
-                        : law.spread_assumed                    ? "spread"
-                        : law.noise_assumed                     ? "noise"
-                                                                : nullptr;
-  return assumed ? line + readable(" ({} assumed)", assumed) : line;
-}
-
 std::vector<std::string> reading_lines(const DescribedPercept& percept, const Description& description) {
   std::vector<std::string> lines;
   if (percept.unknown) return {"unknown"};
@@ -74,7 +57,7 @@ std::vector<std::string> reading_lines(const DescribedPercept& percept, const De
   lines.push_back(readable("{:.2f} from {}{} {}{:.4g} {} (magnitude {:.3g})", percept.level,
                            percept.effective ? "an effective " : "", percept.carrier, percept.effective ? "of " : "",
                            percept.amplitude, percept.unit, percept.magnitude));
-  lines.push_back(people_line(percept));
+  lines.push_back(people_words(percept));
   if (!percept.readable && !description.shaking)
     lines.push_back(readable("not read but aimed at: `{}` cuts the forces, which hides it", description.device.name));
   if (percept.near_threshold) lines.emplace_back("near or below threshold");
@@ -222,7 +205,7 @@ void write_texture(std::string& text, const Description& description) {
       text += readable("  period {:.3g} mm, {:.0f} % regular, {:.2g} sign changes per millimetre\n", 1e3 * force.period,
                        100 * force.regularity, 1e-3 * force.transitions);
     else if (force.period == 0)
-      text += readable("  single features, no period\n");
+      text += readable("  single features, no period; where they are, they push with up to {:.3g} N\n", force.maximum);
     else
       text += readable("  irregular, about {:.2g} mm; {:.2g} sign changes per millimetre\n", 1e3 * force.period,
                        1e-3 * force.transitions);
@@ -258,6 +241,8 @@ void write_texture(std::string& text, const Description& description) {
     const std::string& why = texture.kind.empty() ? description.no_texture : texture.kind;
     text += readable("  none{}{}\n", why.empty() ? "" : ": ", why);
   }
+  // People were asked of what never pushes too, but nobody who reads this asks whether nothing is a texture.
+  if (description.force.max_newton == 0 && force.amplitude == 0) return;
   if (texture.confidence_mean)
     text += readable("  confidence that it is a texture: {:.0f} % (s.d. {:.0f} %; {})\n",
                      100 * *texture.confidence_mean, 100 * texture.confidence_spread.value_or(0), texture.source);
@@ -438,6 +423,27 @@ void write_shown(std::string& text, const Description& description) {
 }
 
 }  // namespace
+
+std::string means_words(const DescribedPercept& percept) {
+  const LawUncertainty& law = percept.uncertainty;
+  const auto& [means, differ_more, people] = percept.intervals;
+  return readable("95 % of the means of {}: {}{:.2f} .. {:.2f}{}",
+                  law.observers > 0 ? readable("{} people", law.observers) : "groups", differ_more ? "at least " : "",
+                  means.low, means.high, law.scatter_assumed ? " (scatter assumed)" : "");
+}
+
+std::string people_words(const DescribedPercept& percept) {
+  const LawUncertainty& law = percept.uncertainty;
+  const std::optional<LevelBounds>& people = percept.intervals.people;
+  std::string words = means_words(percept);
+  if (!people) return words;
+  words += readable("; of single people: {:.2f} .. {:.2f}", people->low, people->high);
+  const char* assumed = law.spread_assumed && law.noise_assumed ? "spread and noise"
+                        : law.spread_assumed                    ? "spread"
+                        : law.noise_assumed                     ? "noise"
+                                                                : nullptr;
+  return assumed ? words + readable(" ({} assumed)", assumed) : words;
+}
 
 std::string description_text(const Description& description) {
   const DeviceProfile& device = description.device;

@@ -20,11 +20,13 @@ constexpr double two_pi = 6.283185307179586;
 struct Stroke {
   double reach = 0, frequency = 0;  ///< m to both sides of the centre; Hz
   double seconds = 0;               ///< duration
+  glm::dvec2 way{1, 0};             ///< of length 1
 
   /// The hand's place at a time (s), in m. It begins at rest at the centre.
   glm::dvec2 operator()(double time) const {
     const double phase = two_pi * frequency * (time - seconds) + last_phase;
-    return glm::dvec2(std::sin(phase), bend * std::sin(phase / 2 + 0.7)) * (coming_up(time, whole_after) * reach);
+    const double onward = std::sin(phase), aside = bend * std::sin(phase / 2 + 0.7);
+    return (onward * way + aside * glm::dvec2(-way.y, way.x)) * (coming_up(time, whole_after) * reach);
   }
 };
 
@@ -49,9 +51,10 @@ double longest_trajectory(const std::vector<ShownMark>& marks) {
 
 bool remembers(const PatchProgram& program) { return !program.states.empty() || !program.grids.empty(); }
 
-Rehearsal rehearse(Bank bank, const HandDeclaration* hand, std::optional<double> seconds) {
+Rehearsal rehearse(Bank bank, const HandDeclaration* hand, std::optional<double> seconds, double along) {
   const PatchProgram& program = bank.program().description();
   Rehearsal result(bank.program());
+  if (along != 0) result.way = {std::cos(along), std::sin(along)};
   result.memory.enter(bank, {});
   result.marks = show(bank, result.memory, {});
   result.paths.resize(result.marks.size());
@@ -59,7 +62,8 @@ Rehearsal rehearse(Bank bank, const HandDeclaration* hand, std::optional<double>
 
   const double rate = program.device.rate > 0 ? std::min(program.device.rate, most_rate) : 1000;
   result.seconds = seconds.value_or(std::clamp(longest_trajectory(result.marks), least_seconds, most_seconds));
-  const Stroke stroke = stroke_over(bank.size(), result.seconds, hand);
+  Stroke stroke = stroke_over(bank.size(), result.seconds, hand);
+  stroke.way = result.way;
   const long ticks = std::lround(result.seconds * rate), every = std::max(1L, ticks / most_samples);
   std::vector<std::vector<ShownMark>> shown;
   for (long i = 0; i <= ticks; ++i) {

@@ -17,6 +17,7 @@ bool remembers(const PatchProgram& program);
 struct Rehearsal {
   explicit Rehearsal(const Program& program) : memory(program) {}
 
+  glm::dvec2 way{1, 0};          ///< along which it rubs, of length 1
   Memory memory;                 ///< after the last tick
   Hand hand;                     ///< in the last tick
   std::vector<ShownMark> marks;  ///< at the end, in the order of drawing
@@ -29,8 +30,8 @@ struct Rehearsal {
 };
 
 /// Runs a program that remembers or shows marks for a simulated time: one second, or as long as its longest trajectory,
-/// at most five seconds; or for `seconds`. The hand goes to and fro along a slightly curved stroke. The program's ticks
-/// run without guards. Deterministic.
-Rehearsal rehearse(Bank bank, const HandDeclaration* hand, std::optional<double> seconds = {});
+/// at most five seconds; or for `seconds`. The hand goes to and fro along a slightly curved stroke, `along` rad to the left
+/// of x. The program's ticks run without guards. Deterministic.
+Rehearsal rehearse(Bank bank, const HandDeclaration* hand, std::optional<double> seconds = {}, double along = 0);
 
 }  // namespace wale

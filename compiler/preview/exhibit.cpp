@@ -65,6 +65,11 @@ double along_section(const Bank& bank, const Exhibit& exhibit, Force force) {
   return force.x * exhibit.way.x + force.y * exhibit.way.y;
 }
 
+/// The force to the left of the section.
+double across_section(const Exhibit& exhibit, Force force) {
+  return force.y * exhibit.way.x - force.x * exhibit.way.y;
+}
+
 /// The distance along the section at point `i` of `count`, the ends among them.
 double distance_at(const SectionRange& range, int i, int count) {
   return range.from + (i / (count - 1.0)) * (range.to - range.from);
@@ -257,12 +262,11 @@ Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int 
     hand.velocity = glm::vec2(exhibit.way * speed);
   }
   for (Force force : forces_on(bank, hands))
-    profile.values.push_back(across ? force.y * exhibit.way.x - force.x * exhibit.way.y
-                                    : along_section(bank, exhibit, force));
+    profile.values.push_back(across ? across_section(exhibit, force) : along_section(bank, exhibit, force));
   return profile;
 }
 
-Profile force_against_speed(const Bank& bank, const Exhibit& exhibit, int count) {
+Profile force_against_speed(const Bank& bank, const Exhibit& exhibit, int count, bool across) {
   std::vector<Hand> hands(static_cast<std::size_t>(count));
   Profile profile;
   for (int i = 0; i < count; ++i) {
@@ -270,7 +274,8 @@ Profile force_against_speed(const Bank& bank, const Exhibit& exhibit, int count)
     hands[static_cast<std::size_t>(i)].velocity = glm::vec2(exhibit.way * profile.at.back());
     hands[static_cast<std::size_t>(i)].position = glm::vec2(exhibit.moving_at);
   }
-  for (Force force : forces_on(bank, hands)) profile.values.push_back(along_section(bank, exhibit, force));
+  for (Force force : forces_on(bank, hands))
+    profile.values.push_back(across ? across_section(exhibit, force) : along_section(bank, exhibit, force));
   return profile;
 }
 

@@ -59,7 +59,7 @@ Profile height_along(const Bank& bank, const Memory* memory, const Exhibit& exhi
 /// The force along the section on a hand that moves along it at `speed` (m/s); with `across`, that to its left.
 Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int count, bool across = false);
 /// The same force on a hand at the exhibit's place for moving hands, against its velocity.
-Profile force_against_speed(const Bank& bank, const Exhibit& exhibit, int count);
+Profile force_against_speed(const Bank& bank, const Exhibit& exhibit, int count, bool across = false);
 
 /// The position of the middle of pixel (column, row) of `count` by `count` pixels over the exhibit; row 0 is at the
 /// top, where y is largest.

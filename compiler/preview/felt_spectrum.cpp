@@ -21,7 +21,7 @@ constexpr double turn = 6.283185307179586;
 
 FeltStroke felt_along(Bank bank, const Exhibit& exhibit, const HandDeclaration* hand, double seconds) {
   const DeviceProfile& device = bank.program().description().device;
-  FeltStroke felt{.rate = device.rate > 0 ? device.rate : 1000, .forces = {}};
+  FeltStroke felt{.rate = device.rate > 0 ? device.rate : 1000, .forces = {}, .across = {}};
   double reach = room_to_stroke(bank.size()), frequency = 1;
   if (hand) {
     reach = std::min(reach, hand->lateral_amplitude);
@@ -37,7 +37,9 @@ FeltStroke felt_along(Bank bank, const Exhibit& exhibit, const HandDeclaration* 
   for (long i = 0; i < ticks; ++i) {
     const Force force = tick(bank, memory, hand_along(place, static_cast<double>(i) / felt.rate, 1 / felt.rate));
     const double along = force.x * exhibit.way.x + force.y * exhibit.way.y;
+    const double across = force.y * exhibit.way.x - force.x * exhibit.way.y;
     felt.forces.push_back(std::isfinite(along) ? static_cast<float>(along) : 0);
+    felt.across.push_back(std::isfinite(across) ? static_cast<float>(across) : 0);
   }
   return felt;
 }
@@ -66,9 +68,22 @@ FeltSpectrum spectrum_of(std::span<const float> signal, double rate) {
       squares[line] += amplitudes.back() * amplitudes.back();
     }
   }
+  // A sine that is slower than a step is in the first line, by as much as it is off its mean in each window.
+  squares.front() *= 2;
   for (const double square : squares)
     spectrum.amplitudes.push_back(std::sqrt(square / static_cast<double>(spectrum.windows.size())));
   return spectrum;
+}
+
+FeltSpectrum spectrum_of(const FeltStroke& felt) {
+  FeltSpectrum whole = spectrum_of(felt.forces, felt.rate);
+  const FeltSpectrum across = spectrum_of(felt.across, felt.rate);
+  const auto add = [](std::vector<double>& sum, const std::vector<double>& other) {
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = std::hypot(sum[i], other[i]);
+  };
+  add(whole.amplitudes, across.amplitudes);
+  for (std::size_t i = 0; i < whole.windows.size(); ++i) add(whole.windows[i], across.windows[i]);
+  return whole;
 }
 
 }  // namespace wale

@@ -115,6 +115,15 @@ Plot height_plot(const Bank& bank, const Memory& memory, const Exhibit& exhibit)
   return plot;
 }
 
+/// Adds the force across the way, as of an oblique rib, if it is a tenth of the one along it.
+void add_across(Plot& plot, Profile profile) {
+  Curve across = {std::move(profile), style::height, "across it"};
+  const double largest = largest_of(plot.curves), largest_across = largest_of({across});
+  if (!(largest_across > std::max(0.1 * largest, least_force))) return;
+  if (plot.curves.front().name.empty()) plot.curves.front().name = "along it";
+  plot.curves.push_back(std::move(across));
+}
+
 Plot force_plot(const Bank& bank, const Exhibit& exhibit) {
   Plot plot;
   plot.title = fmt::format("Force along {}", axis_name(exhibit));
@@ -125,10 +134,7 @@ Plot force_plot(const Bank& bank, const Exhibit& exhibit) {
     plot.curves.push_back({force_along(bank, exhibit, stroking_speed, curve_points), style::moving,
                            fmt::format("moving at {} m/s", shown_number(stroking_speed))});
   }
-  // A force across the way, as of an oblique rib, is shown if it is a tenth of the one along it.
-  Curve across = {force_along(bank, exhibit, 0, curve_points, true), style::height, "across it"};
-  const double largest = largest_of(plot.curves), largest_across = largest_of({across});
-  if (largest_across > std::max(0.1 * largest, least_force)) plot.curves.push_back(std::move(across));
+  add_across(plot, force_along(bank, exhibit, 0, curve_points, true));
   plot.y_notation = force_notation(largest_of(plot.curves));
   plot.balanced = true;
   return plot;
@@ -147,6 +153,9 @@ Plot speed_plot(const Bank& bank, const Exhibit& exhibit) {
   plot.x_name = fmt::format("velocity along {}", axis_name(exhibit));
   plot.x_notation = speed_notation(exhibit.speed);
   plot.curves = {{force_against_speed(bank, exhibit, curve_points), style::moving, ""}};
+  // As of a force that turns the hand aside.
+  if (!bank.program().description().vibrates())
+    add_across(plot, force_against_speed(bank, exhibit, curve_points, true));
   plot.y_notation = force_notation(largest_of(plot.curves));
   plot.balanced = true;
   return plot;
@@ -161,13 +170,14 @@ Plot shaking_plot(const Bank& bank, const Exhibit& exhibit) {
   return plot;
 }
 
-/// The position of the hand along x while it rubbed.
-Plot stroke_plot(const Rehearsal& rehearsal) {
+/// The position of the hand along its way while it rubbed.
+Plot stroke_plot(const Exhibit& exhibit, const Rehearsal& rehearsal) {
+  const bool along_x = rehearsal.way == glm::dvec2(1, 0);
   Plot plot;
-  plot.title = "The hand along x, rubbing to and fro";
+  plot.title = fmt::format("The hand along {}, rubbing to and fro", along_x ? "x" : axis_name(exhibit));
   plot.x_notation = {"s", 1};
   Profile profile{rehearsal.times, {}};
-  for (glm::vec2 place : rehearsal.places) profile.values.push_back(place.x);
+  for (glm::vec2 place : rehearsal.places) profile.values.push_back(glm::dot(glm::dvec2(place), rehearsal.way));
   plot.curves = {{std::move(profile), style::height, ""}};
   plot.y_notation = length_notation(largest_of(plot.curves));
   plot.balanced = true;
@@ -306,7 +316,7 @@ std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhib
                                           double seconds) {
   if (bank.program().description().vibrates()) return std::nullopt;
   const FeltStroke felt = felt_along(bank, exhibit, hand, seconds);
-  FeltSpectrum spectrum = spectrum_of(felt.forces, felt.rate);
+  FeltSpectrum spectrum = spectrum_of(felt);
   const auto& amplitudes = spectrum.amplitudes;
   if (amplitudes.empty() || !(*std::max_element(amplitudes.begin(), amplitudes.end()) > least_force))
     return std::nullopt;
@@ -337,7 +347,7 @@ void draw_shaking_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit
 /// The plots of a program that remembers: its surface or the hand's way, and the force over the rehearsal.
 void draw_rehearsed_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal) {
   if (!exhibit.has_relief) {
-    draw_plot(canvas, upper_plot, stroke_plot(rehearsal));
+    draw_plot(canvas, upper_plot, stroke_plot(exhibit, rehearsal));
     return draw_plot(canvas, lower_plot, felt_plot(rehearsal));
   }
   Plot heights = height_plot(bank, rehearsal.memory, exhibit);
@@ -398,7 +408,7 @@ std::vector<std::pair<const char*, Plot>> plots_of(const Bank& bank, const Exhib
   if (program.vibrates()) {
     if (program.device.has_position()) plots.emplace_back("shaking", shaking_plot(bank, exhibit));
   } else if (remembers(program)) {
-    if (!exhibit.has_relief) plots.emplace_back("hand", stroke_plot(rehearsal));
+    if (!exhibit.has_relief) plots.emplace_back("hand", stroke_plot(exhibit, rehearsal));
     plots.emplace_back("time", felt_plot(rehearsal));
   } else {
     if (exhibit.has_relief || !is_of_velocity(exhibit)) plots.emplace_back("force", force_plot(bank, exhibit));
@@ -414,7 +424,7 @@ Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const De
   const auto images = image_library();
   if (!images) return images.error();
   const HandDeclaration* hand = declarations.hands.find("showing");
-  const Rehearsal rehearsal = rehearse(bank, hand, choice.seconds);
+  const Rehearsal rehearsal = rehearse(bank, hand, choice.seconds, choice.section.along.value_or(0));
   Exhibit exhibit = exhibit_of(bank, &rehearsal.memory, choice.section);
   exhibit.felt = text.felt;
   if (choice.small) {
@@ -429,13 +439,17 @@ Result<Preview> draw_preview(const Bank& bank, const PreviewText& text, const De
   auto page = new_canvas(page_width, spectrum ? page_height_with_spectrum : page_height, style::paper);
   if (!page) return page.error();
   Canvas& canvas = **page;
-  write_words(canvas, bank, text, exhibit);
+  PreviewText words = text;
+  if (!spectrum && !bank.program().description().vibrates())
+    words.evidence += fmt::format("{}no spectrum: the force does not change on a hand that strokes along {}",
+                                  words.evidence.empty() ? "" : " · ", axis_name(exhibit));
+  write_words(canvas, bank, words, exhibit);
   draw_picture(canvas, picture, bank, exhibit, rehearsal, **images);
   draw_plots(canvas, bank, exhibit, rehearsal);
   canvas.outline(picture, {1, style::rule});
   if (spectrum) {
     canvas.line({margin, 985}, {page_width - margin, 985}, {1, style::rule});
-    draw_spectrum(canvas, spectrum_plot, *spectrum);
+    draw_spectrum(canvas, spectrum_plot, *spectrum, axis_name(exhibit));
     draw_spectrogram(canvas, spectrogram_plot, *spectrum);
   }
   return Preview{*std::move(page), square_of(bank, picture, shows_surface(bank, exhibit))};
@@ -468,8 +482,9 @@ Result<PreviewParts> draw_preview_parts(const Bank& bank, std::optional<double> 
   for (const auto& [name, plot] : plots_of(bank, parts.exhibit, parts.rehearsal))
     add(name, plot.title, [&plot = plot](Canvas& page) { draw_plot(page, part_plot, thinned(plot)); });
   if (const auto spectrum = felt_spectrum(bank, parts.exhibit, hand, 2))
-    add("spectrum", "Spectrum of the force on a hand that strokes to and fro",
-        [&](Canvas& page) { draw_spectrum(page, part_plot, *spectrum); });
+    add("spectrum",
+        fmt::format("Spectrum of the whole force on a hand that strokes to and fro along {}", axis_name(parts.exhibit)),
+        [&](Canvas& page) { draw_spectrum(page, part_plot, *spectrum, axis_name(parts.exhibit)); });
   return parts;
 }
 

@@ -49,8 +49,9 @@ struct PreviewChoice {
 PreviewText preview_text(const Bank& bank, const Declarations& declarations);
 
 /// A picture of a material, 1600 x 1330 pixels: shaded relief with a scale bar; height and force along a line; the
-/// words; and the spectrum and the spectrogram of the force on a hand that strokes to and fro along that line. A pad
-/// has no spectrum, nor has a program that does not push such a hand; their page is 1600 x 1000 pixels.
+/// words; and the spectrum and the spectrogram of the whole force on a hand that strokes to and fro along that line. A
+/// pad has no spectrum, nor has a program whose force on such a hand does not change, and then the foot says so; their
+/// page is 1600 x 1000 pixels.
 ///
 /// A program with a constant relief shows its force field as arrows instead; one that only resists motion shows the
 /// force against velocity. A program with colours, marks or memory always shows its surface. With marks or memory, a

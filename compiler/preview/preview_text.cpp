@@ -28,15 +28,13 @@ std::vector<std::string> said(const Layers& layers, std::string_view word) {
   return {};
 }
 
-/// "roughness: measured (Minsky 1995, figure 19) on sandpaper, 95 % of observers' means within 0.48 .. 0.75": the worst
-/// of the three grades, its source and its interval.
+/// "roughness: measured (Minsky 1995, figure 19) on sandpaper, 95 % of the means of 15 people: 0.48 .. 0.75": the
+/// worst of the three grades, its source and its interval, in the words and with the marks of `wale describe`.
 std::string evidence_of(const DescribedPercept& percept) {
   std::string text = fmt::format("{}: {}", percept.name, evidence_word(percept.evidence()));
   if (!percept.source.empty()) text += fmt::format(" ({})", percept.source);
   if (!percept.device.empty()) text += " on " + percept.device;
-  if (percept.intervals.means.low < percept.intervals.means.high)
-    text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.intervals.means.low,
-                        percept.intervals.means.high);
+  if (percept.intervals.means.low < percept.intervals.means.high) text += ", " + means_words(percept);
   if (percept.saturated) text += ", limited by the device";
   for (const OutsideRange& each : percept.outside) text += ", " + outside_in_words(each);
   return text;

@@ -53,12 +53,12 @@ Colour shade_of(double share) {
 
 }  // namespace
 
-void draw_spectrum(Canvas& canvas, const PageBox& box, const FeltSpectrum& spectrum) {
+void draw_spectrum(Canvas& canvas, const PageBox& box, const FeltSpectrum& spectrum, const std::string& way) {
   const double highest = highest_shown(spectrum);
   Plot plot;
-  plot.title = "Spectrum of the force under a stroking hand";
+  plot.title = fmt::format("Spectrum of the whole force, hand stroking along {}", way);
   plot.x_name = "frequency";
-  plot.x_notation = {"Hz", 1};
+  plot.x_notation = {fmt::format("Hz, in steps of {} Hz", shown_number(spectrum.frequencies[1])), 1};
   Profile profile;
   for (std::size_t i = 0; i < spectrum.frequencies.size() && spectrum.frequencies[i] <= highest; ++i) {
     profile.at.push_back(spectrum.frequencies[i]);
@@ -94,9 +94,9 @@ void draw_spectrogram(Canvas& canvas, const PageBox& box, const FeltSpectrum& sp
     }
   }
   canvas.place(box, pixels);
-  canvas.write({box.left, box.top - 16}, "Spectrogram", style::heading);
+  canvas.write({box.left, box.top - 16}, "Spectrogram of the whole force", style::heading);
   canvas.write({box.right, box.top - 16},
-               fmt::format("darkest {}", shown_quantity(strongest, force_notation(strongest))), style::label,
+               fmt::format("darkest {} about its mean", shown_quantity(strongest, force_notation(strongest))), style::label,
                Align::right);
   for (const Tick& tick : round_ticks(0, highest, 5)) {
     const double at = box.bottom - tick.at / highest * box.height();

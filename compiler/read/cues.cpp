@@ -67,6 +67,39 @@ ReliefWave crossing_wave(const Relief& relief, Better better) {
 ReliefWave finest_of(const Relief& relief) { return crossing_wave(relief, std::less()); }
 ReliefWave coarsest_of(const Relief& relief) { return crossing_wave(relief, std::greater()); }
 
+/// m: the periods of a sum of waves along one direction by which it is felt, of those that are plainly there. A single
+/// one is told if the sum has another period, that after which all its waves repeat.
+struct SummedPeriods {
+  double finest = 0, coarsest = 0;  ///< 0 of what is no such sum
+};
+SummedPeriods summed_periods(const Relief& relief) {
+  constexpr double plainly = 0.1, alike = 0.02, one_way = 0.02;
+  if (!relief.regular() || !relief.oriented()) return {};
+  SummedPeriods found;
+  std::size_t along = 0;
+  for (const ReliefWave& each : relief.waves) {
+    const double turned = std::remainder(each.orientation - relief.waves.front().orientation, std::numbers::pi);
+    if (std::abs(turned) > one_way) continue;
+    ++along;
+    if (each.share < plainly) continue;
+    found.finest = found.finest > 0 ? std::min(found.finest, each.period) : each.period;
+    found.coarsest = std::max(found.coarsest, each.period);
+  }
+  const bool told_by_period =
+      found.finest == found.coarsest && std::abs(found.finest - relief.period) <= alike * relief.period;
+  return along < 2 || told_by_period ? SummedPeriods{} : found;
+}
+double finest_period(const Relief& relief) {
+  return relief.oriented() ? summed_periods(relief).finest : finest_of(relief).period;
+}
+double coarsest_period(const Relief& relief) {
+  return relief.oriented() ? summed_periods(relief).coarsest : coarsest_of(relief).period;
+}
+/// 0 .. 1: of the mean square of such a sum, whether its waves repeat together or not.
+double in_waves(const Relief& relief) {
+  return summed_periods(relief).finest > 0 ? std::max(relief.regularity, relief.repeating) : no_value;
+}
+
 /// N: the force that none of the other cues reads, the largest of some; negative if it mostly pushes a resting hand
 /// away from the middle.
 double unread_force(const ForceReading& found) {
@@ -190,6 +223,7 @@ std::optional<CueKind> whole_of(CueKind kind) {
     case CueKind::finest_axis:
     case CueKind::coarsest_wave:
     case CueKind::coarsest_axis:
+    case CueKind::in_waves:
     case CueKind::other_waves: return CueKind::amplitude;
     case CueKind::wall_direction:
     case CueKind::wall_push:

@@ -135,19 +135,6 @@ Markup picture(const SiteMaterial& material, const MaterialSources& sources, con
       figures.whole || figures.of_velocity ? "" : ", a part of the patch", hand);
 }
 
-std::string means_words(const DescribedPercept& percept) {
-  const LawUncertainty& law = percept.uncertainty;
-  std::string text = readable("95 % of the means of {}: {}{:.2f} to {:.2f}{}",
-                              law.observers > 0 ? readable("{} people", law.observers) : "groups",
-                              percept.intervals.means_differ_more ? "at least " : "", percept.intervals.means.low,
-                              percept.intervals.means.high, law.scatter_assumed ? " (scatter assumed)" : "");
-  if (percept.intervals.people)
-    text +=
-        readable("; of single people: {:.2f} to {:.2f}{}", percept.intervals.people->low,
-                 percept.intervals.people->high, law.spread_assumed || law.noise_assumed ? " (partly assumed)" : "");
-  return text;
-}
-
 Markup percept_row(const DescribedPercept& percept, const MaterialSources& sources, const std::string& path) {
   const DeclaredNames& names = *sources.names;
   Markup asked = html("<span class=\"none\">nothing</span>");
@@ -161,7 +148,7 @@ Markup percept_row(const DescribedPercept& percept, const MaterialSources& sourc
                  figure(percept.intervals.means.low), figure(percept.intervals.means.high),
                  with_decimals(percept.level, 2));
     bar = level_bar(percept.asked, percept.level, percept.intervals.means.low, percept.intervals.means.high);
-    bar += html("<p class=\"means\">{}</p>", means_words(percept));
+    bar += html("<p class=\"means\">{}</p>", people_words(percept));
   }
   const std::string grade = evidence_word(percept.evidence());
   Markup why;

@@ -93,10 +93,18 @@ TEST(Compare, ARecalledThresholdIsAWarning) {
   const auto heavy = [&](const std::string& name, const std::string& mass) {
     return folder.write(name + ".wale", "wale 1\nmaterial " + name + " { physical { force = heavy(" + mass + ") } }\n");
   };
-  const Outcome run = wale({"compare", heavy("light", "0.05 kg"), heavy("lead", "0.15 kg")});
+  const Outcome run = wale({"compare", heavy("light", "0.5 kg"), heavy("lead", "0.55 kg")});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(contains(run.err, "warning[W0420]")) << run.err;
   EXPECT_TRUE(contains(run.err, "Beauregard and Srinivasan 1997, recalled")) << run.err;
+  // Of light ones the smallest force decides, which was looked up, and the recalled fraction says nothing.
+  const Outcome small = wale({"compare", heavy("air", "0.05 kg"), heavy("cork", "0.15 kg")});
+  EXPECT_TRUE(contains(small.out, "by the smallest difference at d' = 1")) << small.out;
+  EXPECT_FALSE(contains(small.err, "W0420")) << small.err;
+  for (const char* percept : {"viscosity", "crispness", "heaviness"}) {
+    const Outcome levels = wale({"levels", percept});
+    EXPECT_EQ(contains(levels.err, "recalled"), contains(levels.out, "recalled")) << levels.out << levels.err;
+  }
 }
 
 TEST(Levels, AreProposedAsADeclaration) {

@@ -325,6 +325,19 @@ TEST(Feeling, WithNoMoreForceThanTheUserAllows) {
   }
 }
 
+TEST(Feeling, AVibrationHasNoTextureToCross) {
+  const TemporaryFolder folder;
+  const std::string force = "force = vector(0 N, 0.4 N * sin(2 pi * phase(100 Hz)))";
+  const std::string shaking =
+      folder.write("shaking.wale", "wale 1\nmaterial shaking { physical { active 0.5 W\n " + force + " } }\n");
+  const auto felt = [](const std::string& what) {
+    return wale({"feel", what, "--virtual-time", "--seconds", "1"}).out;
+  };
+  EXPECT_FALSE(contains(felt(shaking), "crossings")) << felt(shaking);
+  EXPECT_TRUE(contains(felt(shaking), "the hand ranged over")) << felt(shaking);
+  EXPECT_TRUE(contains(felt(corduroy), "crossings"));
+}
+
 TEST(Describe, AnUnknownMaterialIsNoFateOnAnyDevice) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{corduroy, "--material", "cordroy"}, std::vector<std::string>{corduroy + ":cordroy"}})

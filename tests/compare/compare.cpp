@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -169,6 +170,117 @@ TEST(Compare, ThePublishedThresholdHoldsForAMissingCue) {
   ASSERT_TRUE(comparison.cues.front().threshold);
   // Jones and Hunter compared 2 to 1024 N s/m. Their figure is used, and not one that is only recalled.
   EXPECT_EQ(comparison.cues.front().threshold->evidence, Evidence::published);
+}
+
+// What a unit of a size pushes with, by the hand `normal` and an assumed depth (schema/percepts.wale).
+TEST(Compare, NoCueHasAThresholdOfAnotherUnit) {
+  const std::map<std::string, std::string> dimensions = {
+      {"N", "force"}, {"m", "length"},  {"N/m", "stiffness"}, {"N s/m", "viscosity"},
+      {"kg", "mass"}, {"Hz", "frequency"}};
+  const auto newtons = [](const CueFacts& facts) {
+    const std::string unit = facts.unit;
+    if (unit == "N/m") return std::string(facts.threshold) == "wall_stiffness" ? 0.005 : 0.04;
+    return unit == "N s/m" ? 0.25 : unit == "kg" ? 1.6 : unit == "N" ? 1 : 0;
+  };
+  std::size_t thresholds = 0;
+  for (const CueFacts& facts : cue_table()) {
+    const auto look_at = [&](const Declarations& known) {
+      for (const Threshold& each : known.own_thresholds) {
+        if (each.cue != facts.threshold) continue;
+        ++thresholds;
+        const auto name = dimensions.find(facts.unit);
+        EXPECT_EQ(each.dimension, name == dimensions.end() ? Dimension{} : declarations().dimension(name->second))
+            << facts.name << ", by " << each.source;
+      }
+    };
+    look_at(declarations());
+    if (declarations().common) look_at(*declarations().common);
+    if (!facts.exerts || !*facts.threshold) continue;
+    ASSERT_GT(newtons(facts), 0) << facts.name << " exerts a force, and its unit has none";
+    // 1 N against nothing, with 0.1 N as the smallest force that is noticed at an assumed 75 %.
+    Cues none{"none", "sandpaper", {}}, some = none;
+    some[facts.kind] = 1 / newtons(facts);
+    const Comparison comparison = compare(none, some);
+    const CueDifference* found = cue(comparison, facts.kind);
+    ASSERT_TRUE(found && found->noticeable) << facts.name;
+    EXPECT_NEAR(*found->noticeable, 10, 1) << facts.name;
+  }
+  EXPECT_GT(thresholds, 20u);
+}
+
+TEST(Compare, ASecondWallIsComparedAsAWall) {
+  const Cues one = cues("force = firm(600 N/m, 15 mm)");
+  const Cues two = cues("force = firm(600 N/m, 15 mm) + vector(-max(0 N, 200 N/m * (x - 10 mm)), 0 N)");
+  const Comparison comparison = compare(one, two);
+  const CueDifference* found = cue(comparison, CueKind::more_walls);
+  ASSERT_TRUE(found && found->noticeable);
+  // 200 N/m are 1 N in 5 mm.
+  EXPECT_NEAR(*found->noticeable, 10, 1);
+  const std::string text = comparison_text(ComparisonMatrix({one, two}, declarations()));
+  EXPECT_NE(text.find("other walls          none            200 N/m"), std::string::npos) << text;
+  EXPECT_EQ(text.find(" 0.1 N/m"), std::string::npos) << text;
+}
+
+TEST(Compare, AVibrationAgainstNoneIsAForceThatIsFelt) {
+  const std::string strong = "active 0.8 W\nforce = vector(0.6 N * sin(2 pi * phase(30 Hz)), 0 N)";
+  const Cues shaking = cues(strong), still = cues("force = firm(600 N/m, 15 mm)");
+  const Comparison against_none = compare(shaking, still);
+  ASSERT_TRUE(cue(against_none, CueKind::vibration)->noticeable);
+  EXPECT_NEAR(*cue(against_none, CueKind::vibration)->noticeable, 6, 1);
+  // Nobody has published by how much two vibrations must differ: a little is neither alike nor apart, and it says why.
+  Cues hardly = shaking;
+  hardly[CueKind::vibration] = 0.62;
+  const Comparison little = compare(shaking, hardly);
+  EXPECT_FALSE(cue(little, CueKind::vibration)->noticeable);
+  EXPECT_NE(cue(little, CueKind::vibration)->why_unknown, "");
+  EXPECT_EQ(little.verdict, Verdict::unknown);
+  const std::string text = comparison_text(ComparisonMatrix({shaking, hardly}, declarations()));
+  EXPECT_NE(text.find("unknown  (no threshold of its own"), std::string::npos) << text;
+}
+
+Cues sum_of_sines(const std::vector<std::pair<double, double>>& newtons_and_millimetres) {
+  std::string force;
+  for (const auto& [newton, period] : newtons_and_millimetres)
+    force += (force.empty() ? "" : " + ") + std::to_string(newton) + " N * sin(2 pi * x / " + std::to_string(period) +
+             " mm)";
+  return cues("force = vector(" + force + ", 0 N)");
+}
+
+TEST(Compare, SumsOfWavesAreComparedWaveByWave) {
+  const auto apart = [](const Cues& a, const Cues& b, CueKind kind) {
+    const Comparison comparison = compare(a, b);
+    const CueDifference* found = cue(comparison, kind);
+    return found && found->noticeable ? *found->noticeable : -1;
+  };
+  // Weber's fraction of periods at d' = 1.
+  const auto periods = [](double ratio) { return std::log(ratio) / std::log1p(0.14 / d_prime); };
+  const Cues sum = sum_of_sines({{1, 3}, {1, 5}}), near = sum_of_sines({{1, 3}, {1, 5.05}});
+  const Cues pure = sum_of_sines({{1, 15}});
+  EXPECT_NEAR(*sum[CueKind::period], 0.015, 1e-4) << "it has the period after which it repeats";
+  EXPECT_NEAR(apart(sum, near, CueKind::period), periods(5.05 / 5), 0.03);
+  EXPECT_LT(apart(sum, near, CueKind::abruptness), 0.3);
+  EXPECT_EQ(apart(sum, near, CueKind::regularity), 0);
+  EXPECT_EQ(apart(sum, near, CueKind::other_waves), 0) << "the amplitude tells it";
+  EXPECT_EQ(compare(sum, near).verdict, Verdict::alike)
+      << comparison_text(ComparisonMatrix({sum, near}, declarations()));
+  EXPECT_NEAR(apart(sum, pure, CueKind::period), periods(15.0 / 5), 0.2);
+  EXPECT_NEAR(apart(sum, sum_of_sines({{1, 4}, {1, 5}}), CueKind::period), periods(4.0 / 3), 0.1);
+  EXPECT_NEAR(apart(sum_of_sines({{1, 3}}), sum, CueKind::period), 0, 0.02) << "and its other wave tells it";
+  EXPECT_NEAR(apart(pure, sum_of_sines({{1, 12}}), CueKind::period), periods(15.0 / 12), 0.1);
+  // A weak wave changes the period after which all repeats, and nobody feels that.
+  EXPECT_NEAR(apart(sum_of_sines({{1, 3}}), sum_of_sines({{1, 3}, {0.2, 5}}), CueKind::period), 0, 0.02);
+  EXPECT_EQ(compare(sum, sum).verdict, Verdict::alike);
+  // A search leaves out none of what is near.
+  const Comparer comparer(declarations(), "sandpaper");
+  for (const Cues& each : {sum, near, pure, sum_of_sines({{1, 3}}), sum_of_sines({{1, 3}, {0.2, 5}})})
+    for (const Cues& other : {sum, near, pure, sum_of_sines({{1, 5}}), sum_of_sines({{1, 3}})})
+      for (const CueKind kind : {CueKind::period, CueKind::abruptness, CueKind::regularity}) {
+        const double most = apart(each, other, kind);
+        if (most < 0) continue;
+        const SizeRange range = comparer.within(kind, each, most + 1e-3);
+        EXPECT_TRUE(range.holds(*other[kind]))
+            << cue_table()[static_cast<std::size_t>(kind)].name << ' ' << *other[kind];
+      }
 }
 
 TEST(Compare, ACueWithoutAThresholdIsUnknownAndNeverTheSame) {

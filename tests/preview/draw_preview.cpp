@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "compiler/describe/describe.hpp"
 #include "compiler/drawing/axis.hpp"
 #include "compiler/drawing/canvas.hpp"
 #include "compiler/image/openimageio.hpp"
@@ -240,6 +241,36 @@ TEST(Preview, HardnessIsReadAlsoBehindALimit) {
   const PreviewText text = preview_text(bank, common_modules()->declarations);
   EXPECT_EQ(text.figures.at(0).word, "hardness");
   EXPECT_EQ(text.evidence.find("physics only"), std::string::npos) << text.evidence;
+}
+
+/// The picture is no surer than `describe`: what is assumed, and what is only a lower bound, is marked in both.
+TEST(Preview, IntervalsHaveTheMarksOfDescribe) {
+  const auto& declarations = common_modules()->declarations;
+  std::size_t marked = 0;
+  declarations.percepts.each([&](const std::string& name, const Percept& percept) {
+    if (!percept.has_reference) return;
+    const Bank bank(standard::material("material m { perceptual { " + name + " 0.5 } }", "m"));
+    const std::string evidence = preview_text(bank, declarations).evidence;
+    const std::string text = description_text(describe(bank, declarations));
+    for (std::size_t at = evidence.find("95 % of"); at != std::string::npos; at = evidence.find("95 % of", at + 1)) {
+      std::string words = evidence.substr(at);
+      words.resize(std::min({words.find(" · "), words.find(", limited"), words.find(", outside"), words.size()}));
+      EXPECT_NE(text.find(words), std::string::npos) << name << ": " << words << '\n' << text;
+      marked += words.find("at least") != std::string::npos && words.find("assumed") != std::string::npos;
+    }
+  });
+  EXPECT_GT(marked, 3u);
+}
+
+/// A drag that turns a hand aside has no force along its way: it is drawn all the same.
+TEST(Exhibit, AForceAcrossTheMotionIsAProfileOfItsOwn) {
+  const Bank bank(standard::material("material m { physical { force = 2 N s/m * perpendicular(velocity) } }", "m"));
+  const Exhibit exhibit = exhibit_of(bank);
+  const Profile along = force_against_speed(bank, exhibit, 11), across = force_against_speed(bank, exhibit, 11, true);
+  for (std::size_t i = 0; i < 11; ++i) {
+    EXPECT_NEAR(along.values[i], 0, 1e-6);
+    EXPECT_NEAR(std::abs(across.values[i]), 2 * std::abs(across.at[i]), 1e-3);
+  }
 }
 
 /// Ribs of 1 N and, 25 mm to the right, a wall: the picture shows both.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "compiler/modules/load_modules.hpp"
@@ -55,6 +56,37 @@ TEST(FeltSpectrum, ShowsWhenAFrequencyOccurs) {
   const double width = spectrum.frequencies[1];
   EXPECT_NEAR(spectrum.frequencies[strongest(spectrum.windows.front())], 100, width);
   EXPECT_NEAR(spectrum.frequencies[strongest(spectrum.windows.back())], 300, width);
+}
+
+// What is slower than the step between two frequencies has no peak of its own.
+TEST(FeltSpectrum, ASlowForceIsInTheFirstLine) {
+  for (const double frequency : {0.6, 1.2, 2.4}) {
+    const FeltSpectrum spectrum = spectrum_of(sine(1.5, frequency, 900, 5), 900);
+    EXPECT_EQ(strongest(spectrum.amplitudes), 0u) << frequency;
+    EXPECT_NEAR(spectrum.amplitudes[0], 1.5, 0.3) << frequency;
+    EXPECT_TRUE(std::ranges::is_sorted(spectrum.amplitudes.begin(), spectrum.amplitudes.begin() + 5, std::greater()));
+  }
+}
+
+// A force may push across the way of the hand, or along and across it at different rates.
+TEST(FeltSpectrum, OfAStrokeHasTheWholeForce) {
+  const auto amplitude = [](const FeltSpectrum& spectrum, double frequency) {
+    return spectrum.amplitudes[static_cast<std::size_t>(std::lround(frequency / spectrum.frequencies[1]))];
+  };
+  const double rate = 900, width = spectrum_of(sine(1, 100, rate, 2), rate).frequencies[1];
+  const double slow = 5 * width, quick = 14 * width;
+  const std::vector<float> none(1800, 0.0f);
+  const FeltSpectrum both = spectrum_of({rate, sine(0.5, slow, rate, 2), sine(0.4, quick, rate, 2)});
+  EXPECT_NEAR(amplitude(both, slow), 0.5, 0.01);
+  EXPECT_NEAR(amplitude(both, quick), 0.4, 0.01);
+  EXPECT_NEAR(amplitude(spectrum_of({rate, none, sine(0.4, quick, rate, 2)}), quick), 0.4, 0.01);
+  // Two that are as strong at one rate have twice the power of one.
+  const std::vector<float> one = sine(1, slow, rate, 2);
+  EXPECT_NEAR(amplitude(spectrum_of({rate, one, one}), slow), std::sqrt(2.0), 0.01);
+  const FeltStroke across = felt_along(sine_grating(0.004f, 1), {.through = {0.0005, 0}, .way = {0, 1}},
+                                       common_modules()->declarations.hands.find("showing"));
+  EXPECT_NEAR(*std::ranges::max_element(across.forces), 0, 1e-6) << "it pushes across a stroke along its ribs";
+  EXPECT_GT(std::abs(across.across.front()), 0.001);
 }
 
 TEST(FeltSpectrum, OfTooShortASignalIsEmpty) {

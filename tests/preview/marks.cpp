@@ -192,6 +192,16 @@ TEST(Rehearsal, LastsAsLongAsTheLongestTrajectoryUpToFiveSeconds) {
   EXPECT_EQ(rehearse(sine_grating(0.004f, 1), showing_hand()).seconds, 0);
 }
 
+TEST(Rehearsal, TheHandGoesAlongTheWayThatIsChosen) {
+  const Bank bank = moving(0, MarkKind::point, {0, 0, 0.001f}, 0);
+  const Rehearsal along_x = rehearse(bank, showing_hand()), along_y = rehearse(bank, showing_hand(), {}, 0.5 * pi);
+  ASSERT_EQ(along_x.places.size(), along_y.places.size());
+  for (std::size_t i = 0; i < along_x.places.size(); ++i) {
+    EXPECT_NEAR(along_x.places[i].x, along_y.places[i].y, 1e-6);
+    EXPECT_NEAR(along_x.places[i].y, -along_y.places[i].x, 1e-6);
+  }
+}
+
 TEST(Rehearsal, TheHandRubsToAndFroOnThePatch) {
   const Rehearsal rehearsal = rehearse(moving(0, MarkKind::point, {0, 0, 0.001f}, 0), showing_hand());
   EXPECT_EQ(rehearsal.places.front(), glm::vec2(0));

@@ -328,7 +328,10 @@ TEST(DescribingForces, FromWhichValueOnTheDeviceCutsIsSearched) {
 
 TEST(DescribingForces, WhatGoesByTimeAloneHasNoMemoryAndOneLargestForce) {
   const Description shaking = described("active 2 W\nforce = vibrate(0.5 N)");
-  EXPECT_EQ(shaking.no_texture, "its force depends on time, so it has no single texture");
+  EXPECT_EQ(shaking.no_texture, "its force depends on time, and is the same at every place");
+  const Description drag = described("force = -10 N s/m * velocity * length(velocity) / 1 m/s");
+  EXPECT_EQ(drag.no_texture, "its force depends on the hand's velocity, and is the same at every place");
+  EXPECT_TRUE(drag.no_percept.starts_with("its resistance is neither a friction nor")) << drag.no_percept;
   const Description slow = described("active 2 W\nforce = vector(1 N * sin(2 * pi * phase(0.2 Hz)), 0 N)");
   EXPECT_NEAR(slow.force.max_newton, 1, 1e-3);
   EXPECT_NEAR(slow.bound.found.newton, 1, 1e-3);
