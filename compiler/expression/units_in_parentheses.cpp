@@ -88,8 +88,10 @@ std::optional<Value> report_units_in_parentheses(ExpressionReading& reading, con
   if (literal->suffix.count > 0) number = number.substr(0, tree.suffix(*literal).front().name.span.begin - left.begin);
   while (!number.empty() && (number.back() == ' ' || number.back() == '/')) number.remove_suffix(1);
   const std::string meant = fmt::format("{} {}", number, text_of(units));
-  return reading.calls.report(Code::unknown_name, span, "the units of a number have no parentheses", "",
-                              Advice(fmt::format("write `{}`", meant)));
+  return reading.calls.report(
+      Code::unknown_name, span,
+      fmt::format("the units of a number have no parentheses, as in `{}`", reading.surroundings.sources.text(span)), "",
+      Advice(fmt::format("write `{}`", meant)));
 }
 
 }  // namespace wale

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "compiler/check_files.hpp"
-#include "tests/language/shipped.hpp"
 
 namespace wale::small_features_test {
 namespace {
@@ -100,15 +99,6 @@ TEST(SmallFeatures, TexturesWideFeaturesAndConesAreLeftAlone) {
         "exp(-(length(hand) / 12 mm)^2)", "exp(-(length(hand) / 30 mm)^2)", "max(0 mm, 9 mm - length(hand))",
         "smoothstep(x / 8 mm)", "sin(2 pi * x / 5 mm) + exp(-(length(hand) / 3 mm)^2)"})
     EXPECT_EQ(said_of(height).codes, "") << height;
-}
-
-TEST(SmallFeatures, NoShippedMaterialIsCalledSmall) {
-  for (const auto& [name, text] : shipped_files()) {
-    SourceSet sources;
-    const SourceId source = sources.add(std::string(WALE_SOURCE_DIR) + "/" + name, text);
-    for (const Diagnostic& each : check_text(sources, source).all())
-      EXPECT_NE(each.code, Code::held_feature) << name << ": " << each.message;
-  }
 }
 
 TEST(SmallFeatures, AHeightThatOnlyJumpsRisesOverADistanceThatIsEnough) {
