@@ -10,6 +10,7 @@
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
 #include "compiler/evidence/confirm.hpp"
+#include "compiler/expression/check_expression.hpp"
 #include "compiler/grade/grade.hpp"
 #include "compiler/grade/own_rate.hpp"
 #include "compiler/grade/sought_force.hpp"
@@ -20,71 +21,19 @@
 #include "compiler/parse/parse.hpp"
 #include "compiler/prove/force_bound.hpp"
 #include "compiler/prove/reachable.hpp"
+#include "compiler/report_heights.hpp"
 #include "compiler/solve/formula_mistakes.hpp"
 #include "compiler/solve/plausible.hpp"
 #include "compiler/solve/solve.hpp"
-#include "compiler/solve/still_field.hpp"
 #include "compiler/text/readable.hpp"
 #include "compiler/text/sampled_rate.hpp"
+#include "compiler/warn_of_energy.hpp"
 #include "schema/spelling.hpp"
 #include "schema/without_place.hpp"
 
 namespace wale {
 
 namespace {
-
-constexpr double least_declared_watt = 0.01;  // W; the resolution of the proposed `active`
-
-/// Warns of a program that gives more energy than its material declares.
-void warn_of_undeclared_energy(const Bank& bank, const CheckedMaterial& checked, const SolvedMaterial& material,
-                               const GradingHand& hand, Diagnostics& diagnostics) {
-  const Energy energy = energy_of(bank, hand);
-  if (!energy.active() || (material.active_watt > 0 && energy.watt() <= material.active_watt)) return;
-  const double watt = std::max(energy.watt(), least_declared_watt);
-  // Upwards to two digits, so that what is declared then is enough.
-  const double step = std::max(0.01, std::pow(10, std::floor(std::log10(watt)) - 1));
-  const std::string mend = typeable("active {:.6g} W", std::ceil(watt / step) * step);
-  // Of what is declared, it may be a little more.
-  const std::string given =
-      material.active_watt > 0 ? readable("{:.3g}", energy.watt()) : readable("{:.2g}", energy.watt());
-  // A device's limit cuts x and y separately, and so turns a slanted force.
-  if (energy.reasons.size() == 1 && energy.curl_watt > 0 && has_no_curl(checked, material.device)) {
-    // A limited force keeps its direction, but one that differs with the direction turns in circles all the same.
-    const double most = material.device.most();
-    const bool helps = has_no_curl(checked, material.device, most), declares = material.active_watt > 0;
-    return diagnostics.report(
-        {.code = Code::undeclared_energy,
-         .span = material.force_span,
-         .message = readable("`{}` gives energy to a hand that moves in circles, up to {:.2g} W at an ordinary pace: "
-                             "`{}` limits its force along x and y separately, which turns it",
-                             material.name, energy.watt(), material.device.name),
-         .help = !helps ? readable("keep the force below {:.4g} N, or {} `{}`", most,
-                                   declares ? "declare" : "declare what it gives:", mend)
-                 : checked.forces.size() > 1
-                     ? typeable("let the whole force keep its direction: `force = … + … limit {:.4g} N`", most)
-                     : typeable("let the force keep its direction: `force = … limit {:.4g} N`", most)});
-  }
-  diagnostics.report({.code = Code::undeclared_energy,
-                      .span = material.force_span,
-                      .message = fmt::format("`{}` gives energy to the hand, up to {} W at an ordinary pace: {}",
-                                             material.name, given, energy.reasons.front()),
-                      .help = material.active_watt > 0
-                                  ? readable("it declares {:.3g} W; write `{}`", material.active_watt, mend)
-                                  : fmt::format("write `{}` in its physical block", mend)});
-}
-
-/// Warns of a force that drives the hand away, as of a spring without its minus.
-void warn_of_driving_away(const CheckedMaterial& material, const SolvedMaterial& solved, Diagnostics& diagnostics) {
-  const auto span = driving_away(material, solved.device);
-  if (!span) return;
-  diagnostics.report(
-      {.code = Code::pushes_away,
-       .span = *span,
-       .message = "the further a hand goes from where it rests, the harder this force pushes it on, up "
-                  "to the edge of the patch",
-       .help = "perhaps a minus is missing, as in `force = -20 N/m * hand`; a plus, as in `force = +20 N/m * "
-               "hand`, says that it is meant"});
-}
 
 /// Warns of a material that declares more active power than the device allows, so that it feels weaker.
 void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostics& diagnostics) {
@@ -97,32 +46,13 @@ void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostic
                       .help = "the runtime holds back the rest; declare less, or choose another device"});
 }
 
-/// Reports a texture without slope, which cannot push; a height that only jumps has none either. If an argument was
-/// hardly meant, that is why: the error takes the place of the warning.
-void report_flat_height(const SolvedMaterial& solved, const CheckedMaterial& material, Diagnostics& diagnostics) {
-  if (!material.doubts.empty()) {
-    Diagnostic doubt = material.doubts.front();
-    doubt.code = Code::flat_height;
-    doubt.message = "this height is flat inside the patch, and a flat height gives no force: " + doubt.message;
-    return diagnostics.report(std::move(doubt));
-  }
-  const auto jump = find_level(material, solved.device) ? std::nullopt : find_jump(material, solved.device);
-  diagnostics.report(
-      {.code = Code::flat_height,
-       .span = jump ? jump->span : solved.force_span,
-       .message = jump ? "this height has no slope: it is level, and jumps from level to level"
-                       : "this height is flat inside the patch, and a flat height gives no force",
-       .help = jump ? "let it rise over a distance, as `smoothstep(x / 1 mm)` does"
-                    : "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
-}
-
 /// The loaded program of a solved material; empty after errors.
 std::optional<Program> program_of(const SolvedMaterial& solved, const CheckedMaterial& material,
                                   const CheckedModule& module, const SourceSet& sources, Diagnostics& diagnostics) {
   if (diagnostics.has_errors()) return std::nullopt;
   const SourceLines lines(sources, module.modules);
   const LoweredMaterial lowered = lower(solved, diagnostics);
-  if (lowered.flat && !diagnostics.has_errors()) report_flat_height(solved, material, diagnostics);
+  if (lowered.flat && !diagnostics.has_errors()) report_flat_height(solved, material, nullptr, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   auto program = emit(lowered, solved, diagnostics, &lines);
   if (!program) return std::nullopt;
@@ -181,20 +111,6 @@ Result<Program> with_fate_of_force(const Program& program, const Bank& bank, con
   return Program::load(std::move(changed));
 }
 
-/// Warns of a height with slopes that jumps besides.
-void warn_of_jumps(const SolvedMaterial& solved, const CheckedMaterial& material, Diagnostics& diagnostics) {
-  const auto found = find_jump(material, solved.device);
-  if (!found) return;
-  diagnostics.report(
-      {.code = Code::jumping_height,
-       .span = found->span,
-       .message = fmt::format(
-           "this height jumps by {:.0f} % of its range at ({:.1f}, {:.1f}) mm, where the force would "
-           "be infinite; `{}` leaves the jump out",
-           100 * std::min(found->jump.share, 1.0), 1e3 * found->jump.x, 1e3 * found->jump.y, found->function),
-       .help = "let it rise over a distance, as `smoothstep(x / 1 mm)` does, or begin and end at the same height"});
-}
-
 /// The force of a program for all its parameters, at rest or moving, inside its patch's rim: what is proved and found.
 ForceBound bound_inside(const Bank& bank) {
   const PatchSize size = bank.size();
@@ -236,14 +152,16 @@ void warn_of_no_force(const Bank& bank, const CheckedMaterial& material, const S
   const std::string where = fmt::format("{:.0f} mm by {:.0f} mm", 1e3 * solved.patch_width, 1e3 * solved.patch_height);
   const std::string needed =
       fmt::format("`{}` gives no less than {:.2g} N", solved.device.name, solved.device.force_step());
-  const bool walled = std::ranges::any_of(solved.percepts, [](const SolvedPercept& each) {
-    return each.asked && each.record.extractor == Extractor::wall_stiffness;
-  });
+  const auto is_wall = [](const SolvedPercept& each) { return each.record.extractor == Extractor::wall_stiffness; };
+  const bool walled = std::ranges::any_of(solved.percepts, is_wall) &&
+                      std::ranges::none_of(material.carriers, [&](const Carrier& each) {
+                        return constant_value(material.terms, each.size, &material.parameters) == 0.0;
+                      });
   std::string message;
   std::string help =
       walled ? "its wall stands outside of the patch, or in its rim: move the face inside, as `firm(face: 5 mm)` does, "
                "or take a larger patch"
-             : "look for a length in m instead of mm, or for a size of 0";
+             : "look for a place outside of the patch, for a length in m instead of mm, or for a size of 0";
   if (measured.max_newton >= least) {
     message =
         fmt::format("`{}` pushes only in the rim of its patch, with up to {:.3g} N, where heights fade; inside, {}",
@@ -320,7 +238,7 @@ std::optional<Program> compiled(const CheckedMaterial& checked, const CheckedMod
   const Bank bank(*finished.program);
   const Measured measured = measure(bank);
   if (measured.flat || find_level(*material, solved.device)) {
-    report_flat_height(solved, *material, diagnostics);
+    report_flat_height(solved, *material, &bank, diagnostics);
     return std::nullopt;
   }
   const GradingHand hand = normal_hand(module.declarations());
@@ -341,6 +259,7 @@ std::optional<Program> compiled(const CheckedMaterial& checked, const CheckedMod
     const bool partly = !far && warn_of_no_number(*material, solved.device, diagnostics);
     if (!far && !partly && !first) {
       if (!fine) warn_of_jumps(solved, *material, diagnostics);
+      if (!doubted()) warn_of_held_feature(bank, solved, *material, diagnostics);
       warn_of_huge_forces(*material, module.declarations(), solved.device, diagnostics);
       warn_of_no_force(bank, *material, solved, measured, diagnostics);
       warn_of_driving_away(*material, solved, diagnostics);

@@ -68,6 +68,39 @@ std::optional<double> plain_level(const Declared<MaterialDecl>& declared, ExprId
   return value;
 }
 
+/// The names of the percepts and antonyms that people describe with that word: `hardness` of "hard".
+std::vector<std::string> percepts_called(const Declarations& declarations, std::string_view word) {
+  std::vector<std::string> names;
+  declarations.percepts.each([&](const std::string& name, const Percept& percept) {
+    if (std::ranges::find(percept.words, word) != percept.words.end()) names.push_back(name);
+    if (std::ranges::find(percept.antonym_words, word) != percept.antonym_words.end() && !percept.antonym.empty())
+      names.push_back(percept.antonym);
+  });
+  return names;
+}
+
+/// What to write where a word stands alone among percepts: a percept lacks its level, a level its percept.
+std::string instead_of_bare(const Declarations& declarations, const PerceptName& meant, std::string_view word) {
+  if (meant.percept) {
+    std::vector<std::string> own;
+    for (const auto* levels : declarations.levels())
+      if (levels->percept == meant.percept->name)
+        for (const auto& level : levels->levels) own.push_back(fmt::format("`{} {}`", word, level.name));
+    return own.empty() ? fmt::format("write a level from 0 to 1 behind it, as in `{} 0.5`", word)
+                       : fmt::format("write a level from 0 to 1 behind it, as in `{} 0.5`, or one by name: {}", word,
+                                     fmt::join(own, ", "));
+  }
+  std::vector<std::string> whole;
+  for (const auto* levels : declarations.levels())
+    for (const auto& level : levels->levels)
+      if (level.name == word) whole.push_back(fmt::format("`{} {}`", levels->percept, word));
+  if (!whole.empty())
+    return fmt::format("a level stands behind its percept: write {}", fmt::join(whole, " or "));
+  for (const std::string& name : percepts_called(declarations, word)) whole.push_back(fmt::format("`{} 0.5`", name));
+  if (!whole.empty()) return fmt::format("write a percept and its level, as in {}", fmt::join(whole, " or "));
+  return "write a percept and its level, as in `roughness 0.5`";
+}
+
 }  // namespace
 
 std::optional<double> named_level(const Declarations& declarations, const std::string& percept, const Word& word,
@@ -105,11 +138,19 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
   };
   const auto& declarations = *declared.home;
   const PerceptName meant = declarations.percept_named(node.name.text);
+  if (node.level_name && node.level_name->text.empty())
+    return surroundings.diagnostics.propose(Code::unexpected_token, node.level_name->span,
+                                            instead_of_bare(declarations, meant, node.name.text));
   if (!meant.percept) {
     const auto known = declarations.percept_spellings();
     const std::string message = fmt::format("nothing declares a percept `{}`", node.name.text);
     if (auto imported = import_mend(surroundings, node.name.text, {"percept"}))
       return report(Code::unknown_name, node.name.span, message, *std::move(imported));
+    if (const auto named = percepts_called(declarations, node.name.text); !named.empty())
+      return report(Code::unknown_name, node.name.span, message,
+                    Advice(fmt::format("did you mean `{}`?", fmt::join(named, "` or `")))
+                        .fix(replace(node.name.span, named.front(), {}, false))
+                        .fact("meant", named.front()));
     return report(
         Code::unknown_name, node.name.span, message,
         did_you_mean(node.name.span, node.name.text, known,
@@ -118,7 +159,11 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
   for (const auto& other : declared.node->perceptual) {
     if (&other == &node) break;
     if (declarations.percept_named(other.name.text).percept == meant.percept)
-      return report(Code::declared_twice, node.name.span, fmt::format("`{}` is asked for twice", node.name.text),
+      return report(Code::declared_twice, node.name.span,
+                    other.name.text == node.name.text
+                        ? fmt::format("`{}` is asked for twice", node.name.text)
+                        : fmt::format("`{}` is `{}` from the other end, which is asked for already", node.name.text,
+                                      other.name.text),
                     Advice("keep one of them").see(other.name.span, "asked for here first"));
   }
   AskedPercept asked{.name = meant.percept->name, .span = node.span, .essential = node.essential};

@@ -22,19 +22,46 @@ void StatementChecker::warn_of_percent(const ParamStatement& node) {
           .fix(insert_after(span, " %", fmt::format("write `{} %`", surroundings_.sources.text(span)), false)));
 }
 
+/// The proposal to give each of these numbers that has none the unit: "write `3 mm`", or, of several, all of the
+/// parameter: "write `3 mm in 1 mm .. 5 mm`".
+Advice StatementChecker::with_units(const std::vector<ExprId>& numbers, const std::string& unit,
+                                    const char* write) const {
+  Fix all;
+  std::string each, whole;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::string text(surroundings_.sources.text(tree().span(numbers[i])));
+    const std::vector<Fix> fixes = append_unit(tree(), numbers[i], unit, surroundings_.sources);
+    const std::string meant = fixes.empty() ? text : fmt::format("{} {}", text, unit);
+    const bool is_default = numbers.size() == 3;
+    whole += fmt::format("{}{}", i == 0 ? "" : is_default && i == 1 ? " in " : " .. ", meant);
+    if (fixes.empty()) continue;
+    all.edits.insert(all.edits.end(), fixes.front().edits.begin(), fixes.front().edits.end());
+    each = meant;
+  }
+  if (all.edits.empty()) return fmt::format("give the number its unit, {}", unit);
+  const std::string& meant = all.edits.size() == 1 ? each : whole;
+  all.title = fmt::format("write `{}`", meant);
+  return Advice(fmt::format("{} `{}`", write, meant)).fix(std::move(all));
+}
+
 /// Whether the default lacks the unit that the range has. That is one error, and not one for each end of the range.
 bool StatementChecker::lacks_its_unit(const ParamStatement& node, const Value& value) {
   if (!node.range || value.type != Value::Type::number || !value.dimension.plain()) return false;
-  const Value low = checker_.check(tree(), node.range->low, scope_);
+  Value low = checker_.check(tree(), node.range->low, scope_);
   if (low.failed()) return true;
-  if (low.type != Value::Type::number || low.dimension.plain()) return false;
+  if (low.type != Value::Type::number) return false;
+  ExprId measured = node.range->low;
+  if (low.dimension.plain()) {
+    // `3 in 1 .. 5 mm`: the unit behind the last number was meant for all of them.
+    const Value high = checker_.check(tree(), node.range->high, scope_);
+    if (high.failed() || high.type != Value::Type::number || high.dimension.plain()) return high.failed();
+    low = high, measured = node.range->high;
+  }
   const auto& names = declarations().names();
   const std::string unit = written_unit(node, low.dimension).first;
   const auto sides = names.side_by_side(low.dimension, value.dimension);
-  const std::string text(surroundings_.sources.text(value.span));
-  Diagnostic diagnostic = Advice(fmt::format("write `{} {}`", text, unit))
-                              .fix(append_unit(tree(), node.value, unit, surroundings_.sources))
-                              .see(tree().span(node.range->low), with_article(names.words(low.dimension)))
+  Diagnostic diagnostic = with_units({node.value, node.range->low, node.range->high}, unit, "write")
+                              .see(tree().span(measured), with_article(names.words(low.dimension)))
                               .fact("expected", names.words(low.dimension))
                               .fact("found", names.words(value.dimension))
                               .about(Code::wrong_dimension, value.span,
@@ -88,8 +115,7 @@ bool StatementChecker::range_lacks_its_unit(const ParamStatement& node, const Ra
     const Span span = tree().span(end);
     const auto sides = names.side_by_side(dimension, Dimension{});
     Diagnostic diagnostic =
-        Advice(fmt::format("a plain number needs its unit: write `{} {}`", surroundings_.sources.text(span), unit))
-            .fix(append_unit(tree(), end, unit, surroundings_.sources))
+        with_units({range.low, range.high}, unit, "a plain number needs its unit: write")
             .fact("expected", names.words(dimension))
             .fact("found", names.words(Dimension{}))
             .about(Code::wrong_dimension, span,

@@ -153,11 +153,21 @@ std::optional<TermId> StatementChecker::force_limit(ExprId expr) {
   return limit.x;
 }
 
+/// What to write for a patch of one size, or of more than two, with the author's own.
+std::string StatementChecker::two_sizes(const PatchStatement& node) const {
+  const auto text = [&](ExprId size) { return surroundings_.sources.text(tree().span(size)); };
+  if (node.sizes.size() > 2) return fmt::format("write `patch {}, {}`", text(node.sizes[0]), text(node.sizes[1]));
+  const ExprId only = node.sizes.front();
+  const auto* product = std::get_if<Binary>(&tree().expr(only));
+  if (product && product->op == BinaryOperator::multiply)
+    return fmt::format("write `patch {}, {}`", text(product->left), text(product->right));
+  return fmt::format("write `patch {0}, {0}`", text(only));
+}
+
 void StatementChecker::operator()(const PatchStatement& node) {
   const Span span = statement_->statement->span;
   if (node.sizes.size() != 2)
-    return report(Code::wrong_type, span, "a patch needs a width and a height",
-                  "write, for example, `patch 95 mm, 95 mm`");
+    return report(Code::wrong_type, span, "a patch needs a width and a height", two_sizes(node));
   std::array<double, 2> sizes{};
   for (std::size_t side = 0; side < 2; ++side) {
     const auto size = checker_.constant(tree(), node.sizes[side], scope_, declarations().dimension("length"));

@@ -51,6 +51,8 @@ class StatementChecker {
   const SyntaxTree& tree() const { return *statement_->tree; }
 
   std::optional<TermId> force_limit(ExprId expr);
+  std::string two_sizes(const PatchStatement& node) const;
+  Advice with_units(const std::vector<ExprId>& numbers, const std::string& unit, const char* write) const;
   std::optional<double> parameter_value(const ParamStatement& node, const Value& own_value);
   std::optional<double> mixed(const Mixture& mixture, const Dimension& dimension);
   Span place_of_default(const ParamStatement& node) const;

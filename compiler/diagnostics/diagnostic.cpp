@@ -97,6 +97,12 @@ void Diagnostics::report(Diagnostic diagnostic) {
   all_.push_back(std::move(diagnostic));
 }
 
+void Diagnostics::propose(Code code, const Span& span, std::string help) {
+  const auto reported = std::ranges::find_if(
+      all_, [&](const Diagnostic& each) { return each.code == code && each.span == span; });
+  if (reported != all_.end()) reported->help = std::move(help);
+}
+
 void Diagnostics::sort() {
   std::ranges::stable_sort(all_, {},
                            [](const Diagnostic& each) { return std::pair(each.span.source, each.span.begin); });

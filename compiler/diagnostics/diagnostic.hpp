@@ -75,6 +75,9 @@ class Diagnostics {
   /// The same message at the same place is reported once, and a place with an error has no warnings: they are about the
   /// same mistake. Everything after `most_errors` is dropped.
   [[gnu::cold]] void report(Diagnostic diagnostic);
+  /// Gives the error of that code that was reported at that place another proposal: that of a later stage, which knows
+  /// more. Nothing happens if there is none.
+  [[gnu::cold]] void propose(Code code, const Span& span, std::string help);
   /// By file, then by place; diagnostics at one place stay in the order of reporting.
   void sort();
   bool has_errors() const { return errors_ > 0; }

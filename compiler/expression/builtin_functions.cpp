@@ -7,6 +7,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "compiler/expression/plain_number_mend.hpp"
+#include "compiler/text/characters.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {
@@ -23,22 +25,28 @@ bool BuiltinCall::plain(std::size_t i) const {
   if (!number(i)) return false;
   if (value(i).dimension.plain()) return true;
   const auto& dimension = value(i).dimension;
+  std::optional<Advice> mend;
+  for (const Argument& argument : tree.arguments(call))
+    if (tree.span(argument.value) == actuals[i].span)
+      mend = quotient_mend(reading, tree, argument.value, scope, dimension);
   reading.calls.report(Code::wrong_dimension, actuals[i].span,
                        fmt::format("expected a plain number, found {}", reading.dimension_names().words(dimension)),
                        reading.dimension_names().unit(dimension),
-                       fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`",
-                                   customary_unit(*reading.names, dimension)));
+                       mend ? *std::move(mend)
+                            : Advice(fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`",
+                                                 customary_unit(*reading.names, dimension))));
   return false;
 }
 
 Value BuiltinCall::mismatched(std::size_t a, std::size_t b) const {
-  // A zero without a unit is the one that lacks it, wherever it stands.
-  const auto is_bare_zero = [&](std::size_t i) {
-    return value(i).type == Value::Type::number && value(i).dimension.plain() &&
-           constant_value(terms(), value(i).x) == 0.0;
-  };
-  if (is_bare_zero(a) && !is_bare_zero(b)) std::swap(a, b);
-  const bool zero = is_bare_zero(b);
+  // The number without a unit is the one that lacks it, wherever it stands.
+  if (value(a).dimension.plain() && !value(b).dimension.plain()) std::swap(a, b);
+  const auto known = value(b).type == Value::Type::number && value(b).dimension.plain()
+                         ? constant_value(terms(), value(b).x)
+                         : std::nullopt;
+  const bool zero = known == 0.0;
+  const std::string unit = customary_unit(*reading.names, value(a).dimension);
+  const std::string_view text = reading.surroundings.sources.text(actuals[b].span);
   const auto sides = reading.dimension_names().side_by_side(value(a).dimension, value(b).dimension);
   const Dimension mass = reading.names->dimension("mass"), force = reading.names->dimension("force");
   const bool weighs = (value(a).dimension == mass && value(b).dimension == force) ||
@@ -53,8 +61,10 @@ Value BuiltinCall::mismatched(std::size_t a, std::size_t b) const {
        .found = sides[1],
        .help =
            weighs ? "a mass is no force: on earth 100 g weigh 0.98 N"
-           : zero ? fmt::format("zero has a unit too: write `0 {}`", customary_unit(*reading.names, value(a).dimension))
-                  : "the arguments must have the same dimension"});
+           : zero  ? fmt::format("zero has a unit too: write `0 {}`", unit)
+           : known ? fmt::format("a plain number needs its unit: write `{} {}`", text, unit)
+           : value(b).dimension.plain() ? fmt::format("give it a unit: write `0.5 {} * {}`", unit, as_factor(text))
+                                        : "the arguments must have the same dimension"});
   return failed();
 }
 
@@ -202,9 +212,19 @@ Value within(const BuiltinCall& call) {
   if (known && low && high && !(*known >= *low && *known <= *high)) {
     const std::string unit = call.reading.dimension_names().unit(call.value(0).dimension);
     const std::string suffix = unit.empty() ? "" : " " + unit;
-    return call.reading.calls.report(Code::value_out_of_range, call.terms()[call.value(0).x].span,
-                                     readable("{:.4g}{} is out of range", *known, suffix), "",
-                                     readable("give a value from {:.4g}{} to {:.4g}{}", *low, suffix, *high, suffix));
+    // Inside a function the argument that it limits has the name that the author knows.
+    const std::string_view text = call.reading.surroundings.sources.text(call.actuals[0].span);
+    const bool is_name = !text.empty() && begins_name(text.front()) && std::ranges::all_of(text, continues_name);
+    const double share = *known / 100;
+    const bool percent = unit.empty() && *known > 1 && share >= *low && share <= *high;
+    return call.reading.calls.report(
+        Code::value_out_of_range, call.terms()[call.value(0).x].span,
+        is_name ? readable("`{}` is {:.4g}{}, outside its range, {:.4g}{} .. {:.4g}{}", text, *known, suffix, *low,
+                           suffix, *high, suffix)
+                : readable("{:.4g}{} is out of range", *known, suffix),
+        "",
+        percent ? Advice(typeable("for {0:.4g} per cent write `{0:.4g} %`", *known))
+                : Advice(readable("give a value from {:.4g}{} to {:.4g}{}", *low, suffix, *high, suffix)));
   }
   return call.scalar(
       call.terms().apply(Operation::maximum,

@@ -14,6 +14,9 @@ struct BuiltinCall {
   ExpressionReading& reading;
   const std::vector<Actual>& actuals;
   Span span;
+  const SyntaxTree& tree;  ///< the call's, as are the two below
+  const Call& call;
+  const Scope& scope;
 
   Terms& terms() const { return reading.terms; }
   const Value& value(std::size_t i) const { return actuals[i].value; }

@@ -28,7 +28,9 @@ void CallStack::enter(std::string_view name, bool constant, Span site) {
 
 void CallStack::leave() {
   open_.pop_back();
-  if (open_.empty()) terms_.attribute(outside_);
+  if (!open_.empty()) return;
+  terms_.attribute(outside_);
+  cause_.reset();
 }
 
 /// " (inside `grating`)", if the place itself is outside that function.
@@ -57,6 +59,12 @@ void CallStack::say(Diagnostic diagnostic) {
     const auto [place, is_new] =
         failed_calls_.try_emplace({open_.front().site.source, open_.front().site.begin}, open_.front().site.end);
     if (!is_new && place->second == open_.front().site.end) return;
+  }
+  const bool of_dimension =
+      diagnostic.code == Code::wrong_dimension || diagnostic.code == Code::mismatched_dimensions;
+  if (cause_ && of_dimension && !open_.empty() && !at_home(span)) {
+    cause_->message += inside(span);
+    return diagnostics_.report(*std::exchange(cause_, std::nullopt));
   }
   diagnostic.span = blame(span);
   diagnostic.message += inside(span);

@@ -31,6 +31,9 @@ class CallStack {
   /// Begins reading a definition that is used at `site`; `leave` ends it.
   void enter(std::string_view name, bool constant, Span site);
   void leave();
+  /// The likely cause of a wrong dimension inside the function that is called next from outside of all definitions: it
+  /// is reported instead. Nothing: none is known.
+  void expect(std::optional<Diagnostic> cause) { cause_ = std::move(cause); }
 
   /// The place where the outermost definition is used; there must be one.
   Span outermost() const { return open_.front().site; }
@@ -58,6 +61,7 @@ class CallStack {
   std::vector<Open> open_;
   /// The calls inside which an error was reported, by source and begin, with their ends.
   std::map<std::pair<SourceId, std::uint32_t>, std::uint32_t> failed_calls_;
+  std::optional<Diagnostic> cause_;  ///< of a wrong dimension inside the outermost definition
   std::optional<Span> outside_;  ///< the place to which terms were attributed before the outermost definition
 };
 

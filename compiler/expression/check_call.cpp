@@ -14,6 +14,7 @@
 #include "compiler/expression/dimension_mend.hpp"
 #include "compiler/expression/fields.hpp"
 #include "compiler/expression/formal_use.hpp"
+#include "compiler/expression/plain_number_mend.hpp"
 
 namespace wale {
 
@@ -129,7 +130,7 @@ Value call_builtin(ExpressionReading& reading, const SyntaxTree& tree, ExprId ex
         Code::not_constant, span,
         fmt::format("expected a constant, but `{}` depends on the place on a patch", builtin.name), "",
         "use it in a material's physical block");
-  return builtin.apply(BuiltinCall{reading, actuals, span});
+  return builtin.apply(BuiltinCall{reading, actuals, span, tree, call, scope});
 }
 
 /// Whether a function may be expanded here: it does not call itself, and the calls are not too deep. Otherwise it is
@@ -173,6 +174,7 @@ Value call_function(ExpressionReading& reading, const SyntaxTree& tree, ExprId e
   const CallArguments arguments{tree, call, *function.node, dimensions, actuals, span};
   good = fit(reading, arguments, scope) && good;
   good = good && are_vectors_where_needed(reading, arguments, *function.tree);
+  if (good && reading.calls.empty()) reading.calls.expect(plain_beside_measured(reading, arguments));
   if (good && reading.calls.empty()) warn_of_exchanged(reading, arguments);
   return good ? expanded(reading, function, std::move(actuals), scope, span) : failed_value(span);
 }

@@ -10,6 +10,7 @@
 #include "compiler/expression/check_call.hpp"
 #include "compiler/expression/check_name.hpp"
 #include "compiler/expression/dimension_mend.hpp"
+#include "compiler/expression/units_in_parentheses.hpp"
 #include "compiler/parse/overloaded.hpp"
 
 namespace wale {
@@ -148,6 +149,8 @@ Value report_joined_units(ExpressionReading& reading, const SyntaxTree& tree, Ex
 
 Value binary(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Binary& node, Scope& scope) {
   if (!joined_unit(reading, tree, expr, scope).empty()) return report_joined_units(reading, tree, expr);
+  if (begins_with_unit(reading, tree, node))
+    if (const auto reported = report_units_in_parentheses(reading, tree, expr, node, scope)) return *reported;
   const Value left = check_expression(reading, tree, node.left, scope);
   const Value right = check_expression(reading, tree, node.right, scope);
   return applied(reading, {tree, node, left, right, scope, tree.span(expr)});

@@ -9,6 +9,7 @@
 #include "compiler/diagnostics/fix.hpp"
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/expression/check_name.hpp"
+#include "compiler/expression/plain_number_mend.hpp"
 #include "compiler/text/characters.hpp"
 #include "compiler/text/readable.hpp"
 
@@ -346,6 +347,7 @@ Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, 
                    : fmt::format("give it a unit, as in `({}) * 1 {}`", text, unit);
   }
   if (expected.plain()) {
+    if (auto quotient = quotient_mend(reading, tree, expr, scope, found)) return *std::move(quotient);
     const std::string of_found = customary_unit(surroundings.declarations, found);
     const bool is_name = std::holds_alternative<NameUse>(tree.expr(expr));
     if (is_name || is_call)

@@ -160,7 +160,11 @@ bool find_power(const SoughtSources& sought, const ExploredPower& found, const P
     energy.reasons.push_back("something in it moves by itself");
     energy.source_watt = std::max(energy.source_watt, given);
   } else if (energy.source_watt > 0) {
-    energy.reasons.push_back("its memory returns more energy than it received");
+    const PatchProgram& program = sought.bank.program().description();
+    const bool remembers = !program.states.empty() || !program.grids.empty();
+    energy.reasons.push_back(remembers
+                                 ? "its memory returns more energy than it received"
+                                 : "it goes by the hand's acceleration, and returns more energy than it received");
   }
   return energy.source_watt > 0;
 }

@@ -19,7 +19,7 @@ struct Known {
 };
 constexpr Known known[] = {
     {"title", Takes::text, "title \"Wide-wale corduroy\""},
-    {"called", Takes::texts_in_a_language, "called \"corduroy\", or called de \"Cord\""},
+    {"called", Takes::texts_in_a_language, "called \"corduroy\"`, or `called de \"Cord\""},
     {"kind", Takes::word, "kind fabric.woven"},
     {"feels", Takes::texts, "feels \"like ball bearings\""},
     {"source", Takes::texts, "source \"who published it, where and when\""},
@@ -89,6 +89,8 @@ RepresentativeEntry representative_entry(const Setting& setting, const SyntaxTre
                                                        : "texts in quotes"),
              literal && !item.trailing.empty() && is_representative_setting(item.trailing.front().text)
                  ? fmt::format("write `;` or a new line before `{}`", item.trailing.front().text)
+             : !takes_words && !item.value && item.words.size() == 1 && item.trailing.empty()
+                 ? fmt::format("write it in quotes: `\"{}\"`", item.words.front().text)
                  : fmt::format("write, for example, `{}`", meant.example));
     if (i > 0 && takes_one) {
       refuse(item.span, fmt::format("`{}` takes one {}", setting.key.text, takes_words ? "word" : "text"),

@@ -313,9 +313,12 @@ PerceptStatement Parser::percept_statement() {
     percept.level_name = Word{text_.substr(first.span.begin, second.span.end - first.span.begin),
                               {tree_.source, first.span.begin, second.span.end}};
   } else if (ends_statement(at_)) {
+    // Whoever knows the percepts says which one is meant.
     complain("expected a level" + after_previous(), "a level from 0 to 1, or its name",
-             fmt::format("if `{0}` is a percept, write `{0} 0.5`; if it is a level, its percept is before it, as in `roughness {0}`",
+             fmt::format("if `{0}` is a percept, write `{0} 0.5`; if it is a level, write its percept before it, as in "
+                         "`hardness hard`",
                          percept.name.text));
+    percept.level_name = Word{{}, place_here()};
     percept.value = erroneous(begin);
   } else {
     percept.value = expression();

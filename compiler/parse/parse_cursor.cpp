@@ -164,12 +164,17 @@ std::string_view Parser::documentation_here() {
   return found == input_.documentation.end() ? std::string_view() : input_.rewrite(found->second);
 }
 
-void Parser::complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes,
-                      std::vector<SecondarySpan> secondary) {
+/// The place of what is missing here: behind the last token of a line, else at the token here.
+Span Parser::place_here() const {
   Span span = span_of(here());
   const bool after_last = here().starts_line || here().kind == TokenKind::end;
   if (ends_statement(at_) && after_last && at_ > 0) span.begin = span.end = token(at_ - 1).end;
-  complain_at(Code::unexpected_token, span, std::move(message), std::move(expected), found_here(), std::move(help),
+  return span;
+}
+
+void Parser::complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes,
+                      std::vector<SecondarySpan> secondary) {
+  complain_at(Code::unexpected_token, place_here(), std::move(message), std::move(expected), found_here(), std::move(help),
               std::move(fixes), std::move(secondary));
 }
 
@@ -261,6 +266,8 @@ std::string Parser::mend_here() const {
       if (in_placed_ && !in_origin_ && open_parentheses_.empty() && next.kind == TokenKind::number)
         return fmt::format("two values are parted by a comma: write `{}, {}`", value_before(at_), value_at(at_));
       if (begins_another_statement(next, after)) return fmt::format("put `{}` on a line of its own", spelling(next));
+      if (is_call_of_curve())
+        return fmt::format("give the curve a name: `let c = curve(…)`, then `c{}`", parentheses_at(at_));
       if (next.kind == TokenKind::left_parenthesis)
         return fmt::format("to multiply, write `{} * (…)`", spelling(previous));
       if (is_call_without_parentheses())

@@ -189,6 +189,25 @@ std::vector<Fix> Parser::fix_origin() const {
                   fmt::format("{} {}", spelling(here()), spelling(previous)), {}, false)};
 }
 
+/// Whether a parenthesis opens here directly behind `curve(…)`.
+bool Parser::is_call_of_curve() const {
+  if (!at(TokenKind::left_parenthesis) || at_ == 0 || kind(at_ - 1) != TokenKind::right_parenthesis) return false;
+  int depth = 0;
+  for (std::size_t i = at_ - 1; i > 0; --i) {
+    depth += kind(i) == TokenKind::right_parenthesis;
+    depth -= kind(i) == TokenKind::left_parenthesis;
+    if (depth == 0) return is_word(i - 1, "curve");
+  }
+  return false;
+}
+
+/// The text of the parentheses that open there, "(x)"; "(…)" if they do not close in their line.
+std::string_view Parser::parentheses_at(std::size_t open) const {
+  const std::size_t close = token(open).value;
+  if (!closes_in_line(open) || close <= open) return "(…)";
+  return text_.substr(token(open).begin, token(close).end - token(open).begin);
+}
+
 /// Whether the parenthesis that opens there closes in its line.
 bool Parser::closes_in_line(std::size_t open) const {
   int depth = 0;
@@ -210,7 +229,7 @@ std::vector<Fix> Parser::fixes_here() const {
   if (!mend_limit().empty())
     return is_word(at_, "limit") ? std::vector<Fix>{} : std::vector{replace(span_of(here()), "limit", {}, false)};
   if (!mend_origin().empty()) return fix_origin();
-  if (is_where_clause()) return {};
+  if (is_where_clause() || is_call_of_curve()) return {};
   if (at(TokenKind::comma) && in_force_ && open_parentheses_.empty() && is_word(at_ + 1, "limit"))
     return {replace(span_of(here()), "", "drop the comma")};
   const Token& previous = token(at_ - 1);

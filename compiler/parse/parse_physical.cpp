@@ -239,24 +239,41 @@ void Parser::no_equals(const char* keyword, const char* what, const char* expect
   advance();
 }
 
+/// Reports `patch 60 mm x 40 mm` and `patch 60 mm 40 mm`: the width from that token on, and the height here.
+void Parser::two_lengths(std::size_t first) {
+  const bool joined = is_word(at_ - 1, "x") || is_word(at_ - 1, "by");
+  const std::size_t end = joined && at_ - 1 > first ? at_ - 2 : at_ - 1;  // the last token of the width
+  const std::string_view height = rest_of_statement(at_);
+  std::string width(text_.substr(token(first).begin, token(end).end - token(first).begin));
+  // Of `60 x 40 mm` both are in millimetres.
+  const bool has_unit = kind(end) != TokenKind::number;
+  if (!has_unit && !ends_statement(at_ + 1) && kind(at_ + 1) == TokenKind::name)
+    width += fmt::format(" {}", spelling(token(at_ + 1)));
+  const std::string found = joined ? fmt::format("`{}`", spelling(token(at_ - 1))) : shown(here());
+  complain_at(Code::unexpected_token, span_of(joined ? token(at_ - 1) : here()),
+              fmt::format("expected a comma between width and height, found {}", found), "`,`", found,
+              fmt::format("write `patch {}, {}`", width, height),
+              {replace(Span{tree_.source, token(first).begin, here().begin}, width + ", ", {}, has_unit)});
+  throw Abandon{};
+}
+
 PatchStatement Parser::patch() {
   advance();
   no_equals("patch", "the size of the patch", "a length");
   const bool in_parentheses = at(TokenKind::left_parenthesis);
   const std::size_t open = at_;
   if (in_parentheses && token(open).value > 0 && kind(token(open).value + 1) != TokenKind::comma) {
+    const std::uint32_t close = token(open).value;
+    const std::string inside(text_.substr(token(open).end, token(close).begin - token(open).end));
+    const bool two = inside.find(',') != std::string::npos && inside.find('(') == std::string::npos;
     complain_at(Code::unexpected_token, {tree_.source, here().begin, token(here().value).end},
-                "the size of the patch has no parentheses", "two lengths", shown(here()), "write `patch 95 mm, 95 mm`",
-                {});
+                "the size of the patch has no parentheses", "two lengths", shown(here()),
+                two ? fmt::format("write `patch {}`", inside) : "write both lengths, as in `patch 95 mm, 95 mm`", {});
     throw Abandon{};
   }
+  const std::size_t first = at_;
   PatchStatement patch{{expression()}};
-  if (at(TokenKind::number) && is_word(at_ - 1, "x")) {
-    complain_at(Code::unexpected_token, span_of(token(at_ - 1)), "expected a comma between width and height, found `x`",
-                "`,`", "`x`", "write `patch 95 mm, 95 mm`",
-                {replace(Span{tree_.source, token(at_ - 2).end, token(at_ - 1).end}, ",")});
-    throw Abandon{};
-  }
+  if (at(TokenKind::number) && !ends_statement(at_)) two_lengths(first);
   while (at(TokenKind::comma)) {
     advance();
     patch.sizes.push_back(expression());

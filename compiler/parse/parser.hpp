@@ -100,6 +100,7 @@ class Parser {
   std::optional<Word> optional_dimension();
   UpdateStatement update();
   void no_equals(const char* keyword, const char* what, const char* expected);
+  void two_lengths(std::size_t first);
   void no_comma(const char* what);
   PatchStatement patch();
   ActiveStatement active();
@@ -161,6 +162,8 @@ class Parser {
   bool is_like(std::size_t index) const;
   bool is_where_clause() const;
   bool closes_in_line(std::size_t open) const;
+  bool is_call_of_curve() const;
+  std::string_view parentheses_at(std::size_t open) const;
   std::string_view value_at(std::size_t index) const;
   std::string_view rest_of_statement(std::size_t index) const;
   static std::vector<std::string> words_of_evidence();
@@ -240,6 +243,7 @@ class Parser {
   std::string_view documentation_here();
 
   /// Reports an error at the current token, or just after the last token if the statement has ended.
+  Span place_here() const;
   [[gnu::cold]] void complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes = {},
                               std::vector<SecondarySpan> secondary = {});
   [[gnu::cold]] void complain_at(Code code, Span span, std::string message, std::string expected, std::string found,

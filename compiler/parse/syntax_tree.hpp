@@ -170,7 +170,7 @@ struct PerceptStatement {
   Word name;
   bool essential = false;
   std::optional<ExprId> value;
-  std::optional<Word> level_name;
+  std::optional<Word> level_name;  ///< without text: a level is missing there, which has been reported
   std::optional<ExprId> tolerance;
   std::optional<Word> evidence;  ///< how well the level is known, `estimated`
   std::optional<Word> by;        ///< the chosen map, `, by minsky1995.figure19`

@@ -95,7 +95,16 @@ std::optional<Jump> jump_along(PlaceEvaluator& height, const Stroke& way, std::s
     const double beside = to - from;
     if (std::abs(value(to + beside) - value(from - beside)) < size / 2) continue;
     const auto [x, y] = place(from);
-    return Jump{x, y, size, size / (high - low)};
+    Jump found{x, y, size, size / (high - low)};
+    bool up = false, down = false;
+    for (std::size_t i = 0; i < steps; ++i) {
+      const double change = values[i + 1] - values[i];
+      if (std::abs(change) <= least_share * (high - low)) continue;
+      ++found.changes;
+      (change > 0 ? up : down) = true;
+    }
+    found.one_way = !(up && down);
+    return found;
   }
   return std::nullopt;
 }

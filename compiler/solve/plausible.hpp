@@ -10,6 +10,8 @@ struct Jump {
   double x = 0, y = 0;  ///< m from the patch's centre
   double size = 0;      ///< in the height's unit, SI
   double share = 0;     ///< of the height's range on these lines
+  int changes = 0;      ///< how often the height changed along that line between two of the places looked at
+  bool one_way = true;  ///< whether all of these changes were upwards, or all downwards
 };
 
 /// A jump in one of the heights of a material's `lateral` or `bumps`, and the carrier that it belongs to. Empty if

@@ -92,6 +92,20 @@ static std::string levels_of_range(const Law& law, const Map& map) {
   return high > 1.005 ? readable("from {:.2g} on", low) : readable("from {:.2g} to {:.2g}", low, high);
 }
 
+static double lowest_level(const Law& law, const Map& map) {
+  return std::min(law.level_of(map.valid_low), law.level_of(map.valid_high));
+}
+
+/// "ask for roughness 0.1 or more (smoothness 0.9 or less); ": the least level that is felt and in the map's range.
+static std::string least_felt(const AskedPercept& asked, const Percept& percept, const Law& law, const Map& map) {
+  // Upwards to hundredths, so that what is proposed is inside.
+  const double least = std::ceil(100 * std::max(percept.near_threshold, lowest_level(law, map)) - 1e-6) / 100;
+  if (least > 1) return {};
+  const std::string other =
+      percept.antonym.empty() ? "" : readable(" ({} {:.2g} or less)", percept.antonym, 1 - least);
+  return readable("ask for {} {:.2g} or more{}; ", asked.name, least, other);
+}
+
 void PerceptSolver::warn_of_range(const Told& told) {
   const Law& law = *told.law;
   const AskedPercept& asked = *told.asked;
@@ -110,17 +124,22 @@ void PerceptSolver::warn_of_range(const Told& told) {
             .fact("most_level", law.level_of(most))
             .fact("needed", size, of_carrier)
             .fact("most", most, of_carrier));
-  if (asked.level < percept.near_threshold || size < map.valid_low * (1 - rounding) ||
-      size > map.valid_high * (1 + rounding))
+  // Level 0 is nothing, which everybody feels; and `smoothness 0.9` is roughness 0.1 but for rounding.
+  constexpr double rounding_of_level = 1e-9;
+  const bool is_nothing = asked.level < rounding_of_level;
+  const bool is_faint = asked.level < percept.near_threshold - rounding_of_level;
+  const bool is_low = is_faint || asked.level < lowest_level(law, map);
+  if (!is_nothing && (is_faint || size < map.valid_low * (1 - rounding) || size > map.valid_high * (1 + rounding)))
     report(Code::beyond_validity, asked.place(),
-           asked.level < percept.near_threshold
+           is_faint
                ? readable("expected {} {:.2g} or more, found {:.3g}, which few people can feel", asked.name,
                           percept.near_threshold, asked.level)
                : readable("expected {} {}, {}, found {:.3g} ({})", asked.name, levels_of_range(law, map),
                           map.valid_assumed ? "the range assumed for its map" : "the measured range", asked.level,
                           map.source),
-           readable("{}: levels {}, {:.3g} to {:.3g} {}", map.valid_assumed ? "assumed" : "measured",
-                    levels_of_range(law, map), map.valid_low, map.valid_high, of_carrier));
+           readable("{}{}: levels {}, {:.3g} to {:.3g} {}", is_low ? least_felt(asked, percept, law, map) : "",
+                    map.valid_assumed ? "assumed" : "measured", levels_of_range(law, map), map.valid_low,
+                    map.valid_high, of_carrier));
   if (map.recalled())
     report(Code::unverified_basis, asked.place(),
            readable("{} rests on a figure that was recalled and not looked up ({})", asked.name, map.source),

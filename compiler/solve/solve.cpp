@@ -9,6 +9,7 @@
 
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/solve/copy_terms.hpp"
+#include "compiler/solve/only_compared.hpp"
 #include "compiler/solve/solve_percepts.hpp"
 #include "compiler/solve/vibration.hpp"
 #include "compiler/text/readable.hpp"
@@ -238,7 +239,7 @@ class Solver {
     if (!declarations_.percepts.find(asked.name)->has_reference)
       return report(Code::untied_map, asked.place(),
                     fmt::format("expected a percept that has levels, found {}, which can only be compared", asked.name),
-                    "leave it out: `wale describe` and `wale compare` report it for finished materials");
+                    instead_of_a_level(*declarations_.percepts.find(asked.name)));
     report(Code::percept_unrealised, asked.place(),
            fmt::format("expected physics for {}, found none, and `{}` has no rule that makes it from a level",
                        asked.name, device_->profile.name),

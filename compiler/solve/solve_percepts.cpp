@@ -10,6 +10,7 @@
 #include "compiler/declarations/discrimination.hpp"
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/expression/check_expression.hpp"
+#include "compiler/solve/only_compared.hpp"
 #include "compiler/text/readable.hpp"
 
 namespace wale {
@@ -245,7 +246,7 @@ void PerceptSolver::match(const AskedPercept& asked) {
     settle_all();
     return report(Code::untied_map, asked.place(),
                   fmt::format("expected a percept that has levels, found {}, which can only be compared", asked.name),
-                  Advice("leave it out: `wale describe` and `wale compare` report it for finished materials")
+                  Advice(instead_of_a_level(percept))
                       .see(percept.span, "declared here"));
   }
   if (mine.empty()) {

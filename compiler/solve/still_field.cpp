@@ -7,9 +7,7 @@
 #include "compiler/solve/place_evaluator.hpp"
 
 namespace wale {
-namespace {
 
-/// Whether a force depends on a parameter that may be negative, so that it may be turned round.
 bool may_turn(const CheckedMaterial& material, TermId x, TermId y) {
   const Terms& terms = material.terms;
   std::vector<char> needed(std::max(x, y) + 1);
@@ -24,6 +22,8 @@ bool may_turn(const CheckedMaterial& material, TermId x, TermId y) {
   }
   return false;
 }
+
+namespace {
 
 /// What one component of a force does along its own axis.
 enum class Along { nothing, away, other };

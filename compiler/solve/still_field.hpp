@@ -7,6 +7,10 @@
 
 namespace wale {
 
+/// Whether a force, given by its components, depends on a parameter that may be negative, so that it may be turned
+/// round.
+bool may_turn(const CheckedMaterial& material, TermId x, TermId y);
+
 /// The force that drives a hand away from where it rests, as a spring or a wall does whose minus is missing: along x or
 /// along y it never falls, rises over some millimetres, and does not push one way from one edge to the other. A height,
 /// which may be a hill, a force that begins with a sign and a parameter that may be negative are meant so. Nothing

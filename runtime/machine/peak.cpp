@@ -26,7 +26,8 @@ void place_lanes(float* x, float* y, std::uint32_t first, float half_width, floa
 
 }  // namespace
 
-float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<const float> registers) {
+std::vector<float> values_under_peak(const DecodedProgram& program, std::size_t index,
+                                     std::span<const float> registers) {
   const Peak& peak = program.description.peaks[index];
   const BlockOperand value = block_operand(program.description, peak.value);
   const BlockCode& code = program.peaks[index]->code();
@@ -43,6 +44,12 @@ float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<
       values[first + lane] = std::isfinite(v) ? v + 0.0f : 0.0f;  // -0 counts as 0
     }
   }
+  return values;
+}
+
+float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<const float> registers) {
+  const Peak& peak = program.description.peaks[index];
+  std::vector<float> values = values_under_peak(program, index, registers);
   const auto rank = static_cast<std::uint32_t>(std::ceil(peak.percentile * static_cast<float>(peak.points)));
   const auto nth = values.begin() + (std::clamp(rank, 1u, peak.points) - 1);
   std::nth_element(values.begin(), nth, values.end());

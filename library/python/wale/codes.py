@@ -82,6 +82,7 @@ class Code(enum.IntEnum):
     unmatched_colours = 434  # a part of a picture that has none of the colours
     too_small_for_hand = 435  # a patch or a gap of a workspace that is too small for a hand
     many_textures = 436  # more textures side by side than people recognise
+    held_feature = 437  # a feature so small that its force is mostly held at the amplitude
     unreadable_file = 501  # a file that cannot be read
     unreadable_image = 502  # an image that cannot be read
     image_size = 503  # an image too small or too large
@@ -216,6 +217,7 @@ _titles: dict[int, str] = {
     434: "a part of a picture that has none of the colours",
     435: "a patch or a gap of a workspace that is too small for a hand",
     436: "more textures side by side than people recognise",
+    437: "a feature so small that its force is mostly held at the amplitude",
     501: "a file that cannot be read",
     502: "an image that cannot be read",
     503: "an image too small or too large",
