@@ -201,7 +201,7 @@ class TreePrinter {
   std::string percept_text(const PerceptStatement& percept) const {
     std::string text = percept.essential ? "(essential " : "(";
     text += text_of(percept.name) + optional(percept.value);
-    if (percept.level_name) text += " '" + text_of(*percept.level_name);
+    if (percept.level_name && !percept.level_name->text.empty()) text += " '" + text_of(*percept.level_name);
     if (percept.tolerance) text += " ± " + expr(*percept.tolerance);
     if (percept.by) text += " by " + text_of(*percept.by);
     return text + ")";
