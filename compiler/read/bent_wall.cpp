@@ -94,8 +94,7 @@ std::optional<BentWall> bent_wall(const StillForces& whole, const std::vector<gl
   constexpr double least_power = 0.3, most_power = 8, straight_enough = 0.03;
   constexpr std::size_t fewest = 8;
   constexpr std::size_t before_face = 20;  // part of the profile: what has grown from the patch's edge on has no face
-  // A push that softens looks like one that begins with a jump.
-  if (straight.round()) return std::nullopt;
+  if (straight.round() || straight.preload > 0) return std::nullopt;
   const std::optional<Feature> push = bent_push(whole, forces, straight);
   if (!push) return std::nullopt;
   const double sense = glm::dot(push->direction, straight.inward) > 0 ? 1 : -1;

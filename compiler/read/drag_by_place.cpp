@@ -26,6 +26,7 @@ constexpr double surely_differs = 4;  // standard errors of a mean over places
 constexpr double as_a_drag = 0.15;    // natural logarithms
 constexpr double rarest = 0.012;      // of the places, at either end
 constexpr int lines_through = 6;      // each way along an axis
+constexpr double another_drag = 2 * least_force;     // N, on such a line
 constexpr double taken_up = 8e-3, averaged = 6e-3;    // m, at the beginning of a line, and along it
 constexpr double short_reach = 8e-3, short_counts = 4e-3;  // m, of a stroke where a line shows more or less
 
@@ -160,11 +161,13 @@ DragByPlace drag_by_strokes(const Bank& bank, const std::vector<Stroke>& strokes
     std::map<double, std::vector<double>> either;
     for (std::size_t i = 0; i < some.size(); ++i) either[some[i].speed].push_back(pushes[i][axis]);
     if (goes_with_speed(either)) tell_ways(found, axis, against, either.at(speed_of_hands));
-    // The usual strokes leave out what is near the edge, or small.
-    if (turns_soon && !goes_by_time(bank.program().description()))
+    auto [low, high] = std::ranges::minmax(against);
+    // Where the usual strokes are all alike, what is near the edge or small may be another matter.
+    const bool alike = high - low < std::max(least_force, by_place * std::max(std::abs(low), std::abs(high)));
+    if (alike && turns_soon && !goes_by_time(bank.program().description()))
       for (const double each : opposed_there(bank, axis, least_and_most_on_lines(bank, axis, outside), outside))
-        against.push_back(each);
-    const auto [low, high] = std::ranges::minmax(against);
+        if (each < low - another_drag || each > high + another_drag)
+          low = std::min(low, each), high = std::max(high, each);
     tell_places(found, low, high);
   }
   return found;

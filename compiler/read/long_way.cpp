@@ -17,7 +17,7 @@ namespace {
 
 constexpr double probing = 0.1, faster = 0.2;  // m/s
 constexpr double inside = 0.98;                // of the patch without its rim
-constexpr double bin = 1.5e-3, least_bins = 24;  // m, over which a force is averaged, and of the way
+constexpr double bin = 1.5e-3, least_bins = 6;  // m, over which a force is averaged, and of the way
 constexpr double grown = 0.97;                 // of its size
 constexpr double all_of_it = 0.999;            // of the device's limit
 constexpr double growing = 1.01;               // times what it was some bins before

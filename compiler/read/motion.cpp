@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "compiler/read/breakaway.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/drag_by_place.hpp"
 #include "compiler/read/drag_by_time.hpp"
@@ -321,6 +322,8 @@ bool differs_slowly(const OpposingForce& found, const Bank& bank, const std::vec
   const PatchProgram& program = bank.program().description();
   if (!remembers_anything(program) || remembers_time_only(program) || !program.grids.empty()) return false;
   if (!found.explained) return true;
+  // What a memory gives a slow hand beside a viscosity alone is told as remembered.
+  if (std::max(std::abs(found.friction), std::abs(found.friction_across)) < least_force) return false;
   const auto along = [](const Principal& size, glm::dvec2 way) {
     const double share = glm::dot(size.axis, way);
     return size.directed() ? size.across + share * share * (size.greatest - size.across) : size.greatest;
@@ -331,7 +334,9 @@ bool differs_slowly(const OpposingForce& found, const Bank& bank, const std::vec
   for (std::size_t i = 0; i < slow.size(); ++i) {
     const double told = whole * along(found.frictions(), slow[i].direction) +
                         slow_stroke_speed * along(found.dampings(), slow[i].direction);
-    if (std::abs(felt[i] - told) > std::max(least_force, plainly * std::abs(told))) return true;
+    if (std::abs(felt[i] - told) <= std::max(least_force, plainly * std::abs(told))) continue;
+    // What holds a hand until it slides holds a slow one again and again.
+    return felt[i] < told || breakaway_of(bank, found.friction) == 0;
   }
   return false;
 }

@@ -108,9 +108,15 @@ const std::map<std::string, Floor>& floors() {
       {"jumping wall on texture", {8, 248}},
       {"two jumping walls", {8, 248}},
       {"nested walls", {8, 248}},
+      {"bent wall", {7, 235}},
+      {"bent wall on texture", {7, 233}},
       {"half spring", {0, 186}},
       {"soft step", {6, 239}},
       {"limited wall", {8, 248}},
+      {"swing in a part", {8, 256}},
+      {"dead band", {8, 240}},
+      {"stiffening spring", {8, 248}},
+      {"softening spring", {8, 256}},
   };
   return table;
 }
