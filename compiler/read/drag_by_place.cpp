@@ -24,11 +24,12 @@ constexpr double plainly_differs = 0.05,
                  by_place = 0.2;      // of the greater one: two way_count, and two places, that differ
 constexpr double surely_differs = 4;  // standard errors of a mean over places
 constexpr double as_a_drag = 0.15;    // natural logarithms
-constexpr double rarest = 0.012;      // of the places, at either end
+constexpr double rarest = 0.05;       // of the places, at either end
 constexpr int lines_through = 6;      // each way along an axis
-constexpr double another_drag = 2 * least_force;     // N, on such a line
-constexpr double taken_up = 8e-3, averaged = 6e-3;    // m, at the beginning of a line, and along it
-constexpr double short_reach = 8e-3, short_counts = 4e-3;  // m, of a stroke where a line shows more or less
+constexpr double side_by_side = 5e-3;                      // m
+constexpr double another_drag = 2 * least_force;           // N, on such a line
+constexpr double taken_up = 8e-3, averaged = 6e-3;         // m, at the beginning of a line, and along it
+constexpr double short_reach = 10e-3, short_counts = 4e-3;  // m, of a stroke where a line shows more or less
 
 /// A mean over places, and its standard error.
 struct OverPlaces {
@@ -127,21 +128,26 @@ std::vector<glm::dvec2> least_and_most_on_lines(const Bank& bank, int axis, cons
   return greatest > least ? std::vector{least_at, greatest_at} : std::vector<glm::dvec2>{};
 }
 
-/// N: what opposes strokes to and fro at these places, along an axis.
-std::vector<double> opposed_there(const Bank& bank, int axis, const std::vector<glm::dvec2>& places,
-                                  const Outside& outside) {
+/// N: what opposes three strokes to and fro side by side about each of these places, along an axis.
+std::vector<std::array<double, 3>> opposed_about(const Bank& bank, int axis, const std::vector<glm::dvec2>& places,
+                                                 const Outside& outside) {
   const double rate = bank.program().description().device.rate;
   const glm::dvec2 half = half_of(bank), way = axis == 0 ? glm::dvec2(1, 0) : glm::dvec2(0, 1);
   const double reach = std::min(short_reach, 0.5 * half[axis]), counts = std::min(short_counts, 0.25 * half[axis]);
+  const double aside = std::min(side_by_side, 0.25 * half[1 - axis]);
   std::vector<Stroke> strokes;
-  for (glm::dvec2 place : places) {
-    place[axis] = std::clamp(place[axis], reach - half[axis], half[axis] - reach);
-    const long pass = 2 * std::max(2L, std::lround(reach / speed_of_hands * rate));
-    strokes.push_back({way, place, speed_of_hands, pass, counts});
-  }
-  std::vector<double> against;
+  for (const glm::dvec2 place : places)
+    for (const double to_the_side : {-aside, 0.0, aside}) {
+      glm::dvec2 middle = place;
+      middle[axis] = std::clamp(middle[axis], reach - half[axis], half[axis] - reach);
+      middle[1 - axis] = std::clamp(middle[1 - axis] + to_the_side, -half[1 - axis], half[1 - axis]);
+      const long pass = 2 * std::max(2L, std::lround(reach / speed_of_hands * rate));
+      strokes.push_back({way, middle, speed_of_hands, pass, counts});
+    }
+  std::vector<std::array<double, 3>> against(places.size());
   if (strokes.empty()) return against;
-  for (const glm::dvec2& each : opposed_on(bank, strokes, outside)) against.push_back(each[axis]);
+  const std::vector<glm::dvec2> opposed = opposed_on(bank, strokes, outside);
+  for (std::size_t i = 0; i < opposed.size(); ++i) against[i / 3][i % 3] = opposed[i][axis];
   return against;
 }
 
@@ -162,12 +168,18 @@ DragByPlace drag_by_strokes(const Bank& bank, const std::vector<Stroke>& strokes
     for (std::size_t i = 0; i < some.size(); ++i) either[some[i].speed].push_back(pushes[i][axis]);
     if (goes_with_speed(either)) tell_ways(found, axis, against, either.at(speed_of_hands));
     auto [low, high] = std::ranges::minmax(against);
-    // Where the usual strokes are all alike, what is near the edge or small may be another matter.
-    const bool alike = high - low < std::max(least_force, by_place * std::max(std::abs(low), std::abs(high)));
-    if (alike && turns_soon && !goes_by_time(bank.program().description()))
-      for (const double each : opposed_there(bank, axis, least_and_most_on_lines(bank, axis, outside), outside))
-        if (each < low - another_drag || each > high + another_drag)
-          low = std::min(low, each), high = std::max(high, each);
+    // Where the usual strokes are all resisted alike, what is near the edge or small may be another matter. A latch that
+    // keeps some energy is no drag.
+    const bool alike = low >= least_force && high - low < std::max(least_force, by_place * high);
+    if (alike && turns_soon && !goes_by_time(bank.program().description())) {
+      // The grain of a surface is larger somewhere by chance, and not side by side.
+      const auto about = opposed_about(bank, axis, least_and_most_on_lines(bank, axis, outside), outside);
+      if (about.size() == 2) {
+        const double less = std::ranges::max(about[0]), more = std::ranges::min(about[1]);
+        if (less < low - another_drag) low = less;
+        if (more > high + another_drag) high = more;
+      }
+    }
     tell_places(found, low, high);
   }
   return found;

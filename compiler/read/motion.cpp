@@ -336,7 +336,7 @@ bool differs_slowly(const OpposingForce& found, const Bank& bank, const std::vec
                         slow_stroke_speed * along(found.dampings(), slow[i].direction);
     if (std::abs(felt[i] - told) <= std::max(least_force, plainly * std::abs(told))) continue;
     // What holds a hand until it slides holds a slow one again and again.
-    return felt[i] < told || breakaway_of(bank, found.friction) == 0;
+    return breakaway_of(bank, found.friction) == 0;
   }
   return false;
 }
