@@ -55,8 +55,8 @@ double reach_within(glm::dvec2 half, glm::dvec2 place, glm::dvec2 direction);
 std::vector<Stroke> strokes_over(const Bank& bank, glm::dvec2 axis, const Outside& outside, const Room& space,
                                  double settling, bool slowly = false);
 
-/// m/s: the speed at which `slow_strokes` go.
-inline constexpr double slow_stroke_speed = 0.02;
+/// m/s: the speed at which `slow_strokes` go: just above 20 mm/s, up to which a friction may hold a hand.
+inline constexpr double slow_stroke_speed = 0.021;
 
 /// One stroke along each axis of some strokes, at that speed.
 std::vector<Stroke> slow_strokes(const Bank& bank, const std::vector<Stroke>& strokes);

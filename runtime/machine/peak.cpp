@@ -24,10 +24,9 @@ void place_lanes(float* x, float* y, std::uint32_t first, float half_width, floa
   }
 }
 
-}  // namespace
-
-std::vector<float> values_under_peak(const DecodedProgram& program, std::size_t index,
-                                     std::span<const float> registers) {
+// In both callers, so that a program that only runs has it once and no larger.
+[[gnu::always_inline]] inline std::vector<float> values_of(const DecodedProgram& program, std::size_t index,
+                                                           std::span<const float> registers) {
   const Peak& peak = program.description.peaks[index];
   const BlockOperand value = block_operand(program.description, peak.value);
   const BlockCode& code = program.peaks[index]->code();
@@ -47,9 +46,16 @@ std::vector<float> values_under_peak(const DecodedProgram& program, std::size_t 
   return values;
 }
 
+}  // namespace
+
+std::vector<float> values_under_peak(const DecodedProgram& program, std::size_t index,
+                                     std::span<const float> registers) {
+  return values_of(program, index, registers);
+}
+
 float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<const float> registers) {
   const Peak& peak = program.description.peaks[index];
-  std::vector<float> values = values_under_peak(program, index, registers);
+  std::vector<float> values = values_of(program, index, registers);
   const auto rank = static_cast<std::uint32_t>(std::ceil(peak.percentile * static_cast<float>(peak.points)));
   const auto nth = values.begin() + (std::clamp(rank, 1u, peak.points) - 1);
   std::nth_element(values.begin(), nth, values.end());
