@@ -14,6 +14,8 @@ float lattice_coordinate(std::uint32_t i, std::uint32_t step) {
   return static_cast<float>(centred) * 0x1p-31f;
 }
 
+}  // namespace
+
 #if defined(__GNUC__)
 __attribute__((noinline))  // see FloatingPointMode
 #endif
@@ -24,9 +26,7 @@ void place_lanes(float* x, float* y, std::uint32_t first, float half_width, floa
   }
 }
 
-// In both callers, so that a program that only runs has it once and no larger.
-[[gnu::always_inline]] inline std::vector<float> values_of(const DecodedProgram& program, std::size_t index,
-                                                           std::span<const float> registers) {
+float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<const float> registers) {
   const Peak& peak = program.description.peaks[index];
   const BlockOperand value = block_operand(program.description, peak.value);
   const BlockCode& code = program.peaks[index]->code();
@@ -43,19 +43,6 @@ void place_lanes(float* x, float* y, std::uint32_t first, float half_width, floa
       values[first + lane] = std::isfinite(v) ? v + 0.0f : 0.0f;  // -0 counts as 0
     }
   }
-  return values;
-}
-
-}  // namespace
-
-std::vector<float> values_under_peak(const DecodedProgram& program, std::size_t index,
-                                     std::span<const float> registers) {
-  return values_of(program, index, registers);
-}
-
-float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<const float> registers) {
-  const Peak& peak = program.description.peaks[index];
-  std::vector<float> values = values_of(program, index, registers);
   const auto rank = static_cast<std::uint32_t>(std::ceil(peak.percentile * static_cast<float>(peak.points)));
   const auto nth = values.begin() + (std::clamp(rank, 1u, peak.points) - 1);
   std::nth_element(values.begin(), nth, values.end());
