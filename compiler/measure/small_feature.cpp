@@ -17,33 +17,14 @@ constexpr double most_covered = 0.04;  // of the patch; textures cover far more
 constexpr double least_steeper = 2;    // half of the greatest slope comes out no weaker than all of it
 constexpr double left_out = 1e-4;      // of the places: a single tip tells nothing of the shape
 
-/// The values of which a peak is a percentile, at each point of its lattice; 0 where one is not finite. The caller holds
-/// a `FloatingPointMode`. They are not the runtime's, so that a program that only runs is no larger.
-std::vector<float> values_under_peak(const DecodedProgram& program, std::size_t index,
-                                     std::span<const float> registers) {
-  const Peak& peak = program.description.peaks[index];
-  const BlockOperand value = block_operand(program.description, peak.value);
-  Block block(program.description);
-  float* x = block.row(block_operand(program.description, static_cast<RegisterNumber>(Input::x)));
-  float* y = block.row(block_operand(program.description, static_cast<RegisterNumber>(Input::y)));
-  std::vector<float> values(peak.points);
-  for (std::uint32_t first = 0; first < peak.points; first += lanes) {
-    place_lanes(x, y, first, registers[peak.half_width], registers[peak.half_height]);
-    block.run(program.peaks[index]->code(), registers.data(), nullptr);
-    for (std::size_t lane = 0; lane < std::min<std::size_t>(lanes, peak.points - first); ++lane) {
-      const float v = block.value(value, lane, registers.data());
-      values[first + lane] = std::isfinite(v) ? v : 0.0f;
-    }
-  }
-  return values;
-}
-
 /// The share under peak number `index`.
 SlopedShare share_of(const Bank& bank, std::size_t index) {
   const FloatingPointMode mode;
-  std::vector<float> slopes = values_under_peak(bank.program().decoded(), index, bank.registers());
-  std::ranges::sort(slopes);
   const Peak& peak = bank.program().description().peaks[index];
+  std::vector<float> slopes(peak.points);
+  each_under_peak(bank.program().decoded(), index, bank.registers(),
+                  [&](std::size_t point, float slope) { slopes[point] = slope; });
+  std::ranges::sort(slopes);
   const auto places = static_cast<double>(slopes.size());
   const auto at = [&](double share) {
     return double{slopes[static_cast<std::size_t>(std::clamp(std::ceil(share * places), 1.0, places)) - 1]};

@@ -8,6 +8,7 @@
 
 #include "compiler/measure/hands.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/strokes.hpp"
 #include "wale/batch.hpp"
 #include "wale/memory.hpp"
 
@@ -19,11 +20,6 @@ constexpr std::size_t places_looked_at = 256;  // 9 mm apart on a patch of 160 m
 constexpr std::size_t moments_looked_at = 64, ticks_looked_at = 450;
 constexpr long moments_apart = 101;      // ticks: a prime, so that no vibration keeps step with the moments
 constexpr double plainly_busier = 1.03;  // times the size at the places of rest
-
-glm::dvec2 half_of_patch(const Bank& bank) {
-  const PatchSize patch = bank.size();
-  return 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
-}
 
 /// How much the force on a hand changes with time: the sum of its squares about its mean.
 class Change {
@@ -71,7 +67,7 @@ std::vector<double> changes_on(const Bank& bank, std::vector<Hand> hands) {
 }  // namespace
 
 std::vector<glm::dvec2> places_of_rest(const Bank& bank) {
-  const glm::dvec2 half = half_of_patch(bank);
+  const glm::dvec2 half = half_of(bank);
   std::vector<glm::dvec2> places;
   for (std::size_t i = 0; i < still_places; ++i) {
     // On a spiral, so that no two positions have the same distance or angle.
@@ -125,7 +121,7 @@ std::optional<std::vector<Force>> felt_where_busiest(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
   const bool by_place = reads(program, {Input::x, Input::y, Input::workspace_x, Input::workspace_y});
   if (!goes_by_time(program) || !by_place) return std::nullopt;
-  std::vector<Hand> hands = hands_at_rest(places_looked_at, glm::vec2(half_of_patch(bank)));
+  std::vector<Hand> hands = hands_at_rest(places_looked_at, glm::vec2(half_of(bank)));
   for (const glm::dvec2 place : places_of_rest(bank)) {
     Hand& hand = hands.emplace_back();
     hand.position = hand.workspace = glm::vec2(place);

@@ -111,14 +111,14 @@ std::vector<glm::dvec2> least_and_most_on_lines(const Bank& bank, int axis, cons
     }
     tick_all(bank, still, at_rest);
     double sum = 0;
-    std::size_t cut = 0;
-    const auto counted = [&](std::size_t i) {
-      return at_limit(moving[i], most) || !outside.at(glm::dvec2(still[i].position)) ? std::size_t{1} : 0;
+    std::size_t cut = 0;  // of the places that are averaged
+    const auto is_cut = [&](std::size_t i) {
+      return at_limit(moving[i], most) || !outside.at(glm::dvec2(still[i].position));
     };
     for (std::size_t i = 0; i < ticks; ++i) {
       const auto against = [&](std::size_t k) { return -sense * (moving[k] - at_rest[k])[axis]; };
-      sum += against(i), cut += counted(i);
-      if (i >= apart) sum -= against(i - apart), cut -= counted(i - apart);
+      sum += against(i), cut += is_cut(i);
+      if (i >= apart) sum -= against(i - apart), cut -= is_cut(i - apart);
       if (i < apart || cut > 0 || static_cast<double>(i - apart) < taken_up / speed_of_hands * rate) continue;
       const glm::dvec2 middle(still[i - apart / 2].position);
       if (sum < least) least = sum, least_at = middle;

@@ -44,11 +44,12 @@ Principal principal_of(glm::dvec2 by_x, glm::dvec2 by_y, double least) {
                                           : Principal{other, one, glm::dvec2(-axis.y, axis.x)};
 }
 
+double Principal::along(glm::dvec2 way) const {
+  const double share = glm::dot(axis, way);
+  return directed() ? across + share * share * (greatest - across) : greatest;
+}
+
 std::pair<double, double> where_they_differ(const Principal& one, const Principal& other, double least) {
-  const auto along = [](const Principal& size, glm::dvec2 axis) {
-    const double share = glm::dot(size.axis, axis);
-    return size.directed() ? size.across + share * share * (size.greatest - size.across) : size.greatest;
-  };
   const auto by = [&](glm::dvec2 way) {
     const auto of = [&](const Principal& size) {
       return size.directed() ? size.across * way + (size.greatest - size.across) * glm::dot(size.axis, way) * size.axis
@@ -58,7 +59,7 @@ std::pair<double, double> where_they_differ(const Principal& one, const Principa
   };
   const Principal difference = principal_of(by({1, 0}), by({0, 1}), least);
   const glm::dvec2 axis = difference.directed() ? difference.axis : one.directed() ? one.axis : other.axis;
-  return {along(one, axis), along(other, axis)};
+  return {one.along(axis), other.along(axis)};
 }
 
 namespace {
@@ -324,16 +325,12 @@ bool differs_slowly(const OpposingForce& found, const Bank& bank, const std::vec
   if (!found.explained) return true;
   // What a memory gives a slow hand beside a viscosity alone is told as remembered.
   if (std::max(std::abs(found.friction), std::abs(found.friction_across)) < least_force) return false;
-  const auto along = [](const Principal& size, glm::dvec2 way) {
-    const double share = glm::dot(size.axis, way);
-    return size.directed() ? size.across + share * share * (size.greatest - size.across) : size.greatest;
-  };
   const double whole = found.saturation_speed > 0 ? std::min(1.0, slow_stroke_speed / found.saturation_speed) : 1;
   const std::vector<Stroke> slow = slow_strokes(bank, strokes);
   const std::vector<double> felt = along_strokes(slow, opposed_on(bank, slow, outside));
   for (std::size_t i = 0; i < slow.size(); ++i) {
-    const double told = whole * along(found.frictions(), slow[i].direction) +
-                        slow_stroke_speed * along(found.dampings(), slow[i].direction);
+    const double told = whole * found.frictions().along(slow[i].direction) +
+                        slow_stroke_speed * found.dampings().along(slow[i].direction);
     if (std::abs(felt[i] - told) <= std::max(least_force, plainly * std::abs(told))) continue;
     // What holds a hand until it slides holds a slow one again and again.
     return breakaway_of(bank, found.friction) == 0;

@@ -17,6 +17,8 @@ struct Principal {
   glm::dvec2 axis{0};   ///< of length 1: of the greatest; (0, 0) if it is alike in all directions
 
   bool directed() const { return axis != glm::dvec2(0); }
+  /// Along a way of length 1.
+  double along(glm::dvec2 way) const;
 };
 
 /// The principal values of a resistance: the force against a unit of motion along x, and along y. They are alike if

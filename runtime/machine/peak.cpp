@@ -28,21 +28,8 @@ void place_lanes(float* x, float* y, std::uint32_t first, float half_width, floa
 
 float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<const float> registers) {
   const Peak& peak = program.description.peaks[index];
-  const BlockOperand value = block_operand(program.description, peak.value);
-  const BlockCode& code = program.peaks[index]->code();
-  Block block(program.description);
-  float* x = block.row(block_operand(program.description, static_cast<RegisterNumber>(Input::x)));
-  float* y = block.row(block_operand(program.description, static_cast<RegisterNumber>(Input::y)));
   std::vector<float> values(peak.points);
-  for (std::uint32_t first = 0; first < peak.points; first += lanes) {
-    place_lanes(x, y, first, registers[peak.half_width], registers[peak.half_height]);
-    block.run(code, registers.data(), nullptr);
-    const std::size_t count = std::min<std::size_t>(lanes, peak.points - first);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const float v = block.value(value, lane, registers.data());
-      values[first + lane] = std::isfinite(v) ? v + 0.0f : 0.0f;  // -0 counts as 0
-    }
-  }
+  each_under_peak(program, index, registers, [&](std::size_t point, float value) { values[point] = value; });
   const auto rank = static_cast<std::uint32_t>(std::ceil(peak.percentile * static_cast<float>(peak.points)));
   const auto nth = values.begin() + (std::clamp(rank, 1u, peak.points) - 1);
   std::nth_element(values.begin(), nth, values.end());
