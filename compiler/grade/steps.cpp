@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 
 namespace wale {
 namespace {
@@ -105,9 +106,9 @@ double beyond_slopes(const ProgramSlopes::ByPlace& from, const ProgramSlopes::By
   return glm::length(beyond);
 }
 
-void largest_first(std::vector<ForceStep>& steps) {
-  std::ranges::stable_sort(steps, [](const ForceStep& a, const ForceStep& b) { return a.newton() > b.newton(); });
-}
+bool is_larger(const ForceStep& a, const ForceStep& b) { return a.newton() > b.newton(); }
+
+void largest_first(std::vector<ForceStep>& steps) { std::ranges::stable_sort(steps, is_larger); }
 
 }  // namespace
 
@@ -261,9 +262,11 @@ std::vector<ForceStep> StepSearch::at_switches(const SteppedQuantity& quantity, 
         keep_in_reach(hand, quantity);
         tried.add(hand, steps[i].states, 0, steps[i].which);
       }
-    for (ForceStep& step : measured(quantity, on_lines_of_switches(quantity, std::move(tried))))
-      steps.push_back(std::move(step));
-    largest_first(steps);
+    std::vector<ForceStep> more = measured(quantity, on_lines_of_switches(quantity, std::move(tried)));
+    largest_first(more);
+    const auto before = static_cast<std::ptrdiff_t>(steps.size());
+    std::ranges::move(more, std::back_inserter(steps));
+    std::ranges::inplace_merge(steps, steps.begin() + before, is_larger);
   }
   return steps;
 }

@@ -19,6 +19,8 @@ constexpr double even_over_cells = 0.3;     // of the mean square
 constexpr double left_beside_both = 0.02;   // of what a line leaves, by wall and wave
 constexpr double few_harmonics = 0.3;       // ... or of a wave that jumps, by its first harmonics
 constexpr double left_by_a_jumping_wave = 0.05;  // ... and by its whole form, where it jumps within a part of it
+constexpr double times_noise_of_fine = 1.7;           // which means may hold, beside a finer texture
+constexpr std::size_t cells_a_mean_side = 4;       // of each of those means
 constexpr std::size_t places_of_a_quarter = 2000, bins_of_a_wave = 96;
 
 /// A quarter of the patch, by its corner; all of a lattice's places that lie in it.
@@ -34,10 +36,25 @@ StillForces quarter_of(const StillForces& whole, std::size_t corner) {
   return quarter;
 }
 
-/// The forces less waves and a line that explain all of them in a quarter of the patch; nothing if none do. Both are
-/// then the same elsewhere, and what stands in the rest of the patch stands beside them. The waves are put into `slow`.
-std::optional<std::vector<glm::dvec2>> left_by_waves_of(const StillForces& quarter, const StillForces& whole,
-                                                        double bent, std::vector<SlowWave>& slow) {
+/// A part of the patch seen through means over small cells, which hardly hold what is finer.
+struct WithoutFine {
+  StillForces means;
+  double noise = 0;  ///< N^2: what the finer leaves in them
+};
+WithoutFine without_fine(const StillForces& part) {
+  const std::size_t side = part.side / cells_a_mean_side;
+  WithoutFine found{{side, part.centre, part.size, cell_means(part.side, part.places), cell_means(part.side, part.forces)}};
+  constexpr double cells = cells_a_mean_side * cells_a_mean_side;
+  found.noise = (mean_square(part.forces) - mean_square(found.means.forces)) / cells;
+  return found;
+}
+
+/// The forces less waves and a line that explain all of them in a quarter of the patch, but for `noise` (N^2); nothing
+/// if none do. Both are then the same elsewhere, and what stands in the rest of the patch stands beside them. The waves
+/// are put into `slow`.
+std::optional<std::vector<glm::dvec2>> left_by_waves_of(const StillForces& quarter, double noise,
+                                                        const StillForces& whole, double bent,
+                                                        std::vector<SlowWave>& slow) {
   std::vector<glm::dvec2> rest = quarter.forces;
   const LinearForce line = linear_force(quarter.places, rest);
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= line.at(quarter.places[i]);
@@ -49,7 +66,8 @@ std::optional<std::vector<glm::dvec2>> left_by_waves_of(const StillForces& quart
                                 forces = some_of(quarter.forces, places_of_a_quarter);
   HarmonicFit fit = fit_harmonics(places, forces, peaks, quarter.size, bins_of_a_wave);
   if (fit.left > few_harmonics * by_line) return std::nullopt;
-  if (fit.left > left_in_a_quarter * by_line) {
+  if (noise > 0 && fit.left > left_in_a_quarter * by_line + noise) return std::nullopt;
+  if (noise == 0 && fit.left > left_in_a_quarter * by_line) {
     // What jumps has many more harmonics.
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = quarter.forces[i] - fit.line.at(quarter.places[i]);
     const glm::dvec2 exact = better_fitting(quarter.places, rest, fit.waves.front().waves, bins_of_a_wave);
@@ -65,6 +83,13 @@ std::optional<std::vector<glm::dvec2>> left_by_waves_of(const StillForces& quart
   }
   // What is left there belongs to what stands in the rest.
   return mean_square(left) > bent ? std::optional(std::move(left)) : std::nullopt;
+}
+
+/// Whether walls and steps alone are all that waves leave.
+bool stand_alone(const StillForces& whole, const FoundWaves& waves) {
+  std::vector<glm::dvec2> forces = waves.rest;
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += waves.trend.at(whole.places[i]);
+  return find_obstacles(whole, forces).has_value();
 }
 
 }  // namespace
@@ -86,9 +111,17 @@ std::optional<BesideWaves> obstacles_beside_waves(const StillField& field, const
   if (features.empty() && left < least) return std::nullopt;
   // A wall is even over small cells. A texture that is no wave is not, and is left at once.
   if (features.empty() && mean_square(cell_means(whole.side, waves.rest)) < even_over_cells * left) return std::nullopt;
+  std::optional<bool> alone;
   for (std::size_t corner = 0; corner < 4; ++corner) {
+    const StillForces quarter = quarter_of(whole, corner);
     std::vector<SlowWave> slow;
-    const auto forces = left_by_waves_of(quarter_of(whole, corner), whole, least, slow);
+    auto forces = left_by_waves_of(quarter, 0, whole, least, slow);
+    // A step beside a texture looks like a slow wave in a quarter, too.
+    if (!forces && !alone) alone = stand_alone(whole, waves);
+    if (!forces && !*alone) {
+      const WithoutFine seen = without_fine(quarter);
+      forces = left_by_waves_of(seen.means, times_noise_of_fine * seen.noise, whole, least, slow);
+    }
     if (!forces) continue;
     const auto obstacles = find_obstacles(whole, *forces);
     if (!obstacles || obstacles->empty() || obstacles->hill) continue;

@@ -74,14 +74,16 @@ bool goes_with_speed(const std::map<double, std::vector<double>>& either) {
   });
 }
 
-/// The same on both ways of beginning the strokes: what a memory still takes up after the first turn pushes against the
-/// first way, and is not the way's.
-std::vector<glm::dvec2> pushed_whichever_begins(const Bank& bank, std::vector<Stroke> strokes, const Outside& outside) {
-  std::vector<glm::dvec2> pushes = pushed_either_way(bank, strokes, outside);
+/// N: what pushes along an axis whichever way a hand goes, on each stroke. The mean over both ways of beginning it: what
+/// a memory still takes up after the first turn pushes against the first way, and is not the way's.
+std::vector<double> pushed_along(const Bank& bank, std::vector<Stroke> strokes, int axis, const Outside& outside) {
+  if (strokes.empty()) return {};
+  const std::vector<glm::dvec2> pushes = pushed_either_way(bank, strokes, outside);
   for (Stroke& each : strokes) each.direction = -each.direction;
   const std::vector<glm::dvec2> mirrored = pushed_either_way(bank, strokes, outside);
-  for (std::size_t i = 0; i < pushes.size(); ++i) pushes[i] = 0.5 * (pushes[i] + mirrored[i]);
-  return pushes;
+  std::vector<double> mean;
+  for (std::size_t i = 0; i < pushes.size(); ++i) mean.push_back(0.5 * (pushes[i] + mirrored[i])[axis]);
+  return mean;
 }
 
 /// Where hands that go all through the patch on lines along an axis are resisted least and most, m. What a hand that
@@ -156,17 +158,25 @@ DragByPlace drag_by_strokes(const Bank& bank, const std::vector<Stroke>& strokes
   DragByPlace found;
   for (const int axis : {0, 1}) {
     const std::size_t half = strokes.size() / 2, first = axis == 0 ? 0 : half;
-    std::vector<Stroke> some;
+    std::vector<Stroke> usual, faster_and_slower;
     std::vector<double> against;
     for (std::size_t i = first; i < first + half; ++i) {
-      if (strokes[i].speed == speed_of_hands) against.push_back(opposed[i][axis]);
-      if (strokes[i].speed >= 0.5 * speed_of_hands) some.push_back(strokes[i]);
+      if (strokes[i].speed == speed_of_hands)
+        against.push_back(opposed[i][axis]), usual.push_back(strokes[i]);
+      else if (strokes[i].speed >= 0.5 * speed_of_hands)
+        faster_and_slower.push_back(strokes[i]);
     }
     if (against.empty()) continue;
-    const std::vector<glm::dvec2> pushes = pushed_whichever_begins(bank, some, outside);
-    std::map<double, std::vector<double>> either;
-    for (std::size_t i = 0; i < some.size(); ++i) either[some[i].speed].push_back(pushes[i][axis]);
-    if (goes_with_speed(either)) tell_ways(found, axis, against, either.at(speed_of_hands));
+    const std::vector<double> either = pushed_along(bank, usual, axis, outside);
+    DragByPlace ways = found;
+    tell_ways(ways, axis, against, either);
+    // Strokes at other speeds take most of the time, and where nothing differs they have nothing to say.
+    if (ways.forward != found.forward || ways.backward != found.backward) {
+      std::map<double, std::vector<double>> by_speed{{speed_of_hands, either}};
+      const std::vector<double> pushes = pushed_along(bank, faster_and_slower, axis, outside);
+      for (std::size_t i = 0; i < pushes.size(); ++i) by_speed[faster_and_slower[i].speed].push_back(pushes[i]);
+      if (goes_with_speed(by_speed)) found = ways;
+    }
     auto [low, high] = std::ranges::minmax(against);
     // Where the usual strokes are all resisted alike, what is near the edge or small may be another matter. A latch that
     // keeps some energy is no drag.

@@ -11,6 +11,27 @@ namespace {
 
 constexpr double counts_as_wave = 0.02;  // of a wave's mean square, in a wave of its own and its harmonics
 constexpr std::size_t far_off = 4;       // the first harmonic that a waveform hardly has without those between
+constexpr double much_of_family = 0.25;  // of its strongest harmonic: the first one of a wave
+constexpr double more_than_beside = 4;   // times the harmonics next to it
+constexpr double much_more_than_beside = 8, much_of_first = 0.5;  // the third one, which many a waveform has
+
+/// Whether a harmonic is so much more than those next to it that no waveform has it, but a finer wave does. Waveforms
+/// fade from one harmonic to the next; those that have every other one have that beyond it too.
+bool stands_alone(const std::vector<double>& powers, std::size_t fine) {
+  const auto power = [&](std::size_t number) { return number <= powers.size() ? powers[number - 1] : 0; };
+  const auto above_others = [&](std::size_t number, double times) {
+    for (std::size_t each = number - std::min<std::size_t>(number - 2, 2); each <= number + 2; ++each)
+      if (each % fine != 0 && power(number) < times * power(each)) return false;
+    return true;
+  };
+  double family = 0;
+  for (std::size_t i = fine; i <= powers.size(); i += fine) family += power(i);
+  if (family < counts_as_wave) return false;
+  if (fine >= far_off) return above_others(fine, more_than_beside);
+  if (fine == 3) return power(3) >= much_of_first * power(1) && above_others(3, much_more_than_beside);
+  // An octave is told from a lopsided waveform by a harmonic of its own.
+  return above_others(2, more_than_beside) && power(6) >= weak_part && above_others(6, more_than_beside);
+}
 
 }  // namespace
 
@@ -19,17 +40,20 @@ std::size_t fine_wave(const std::vector<double>& powers) {
   std::size_t below = 0;  // the highest harmonic of the coarse wave
   for (std::size_t fine = 1; fine <= powers.size(); ++fine) {
     if (powers[fine - 1] < weak_part) continue;
+    if (fine > 1 && stands_alone(powers, fine)) return fine;
     if (below > 0 && fine >= 2 * below) {
-      double family = 0;
+      double family = 0, strongest = 0;
       bool others = false;
       for (std::size_t i = fine; i <= powers.size(); ++i) {
         if (i % fine == 0)
-          family += powers[i - 1];
+          family += powers[i - 1], strongest = std::max(strongest, powers[i - 1]);
         else
           others = others || powers[i - 1] >= weak_part;
       }
       const bool apart = fine >= far_off && fine > 2 * below;
-      if (!others && (family > 0.5 || (apart && family >= counts_as_wave))) return fine;
+      // Otherwise it is the coarse wave's, and one of its multiples is the fine one.
+      const bool leads = powers[fine - 1] >= much_of_family * strongest;
+      if (!others && leads && (family > 0.5 || (apart && family >= counts_as_wave))) return fine;
     }
     below = fine;
   }
