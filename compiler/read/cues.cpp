@@ -97,7 +97,7 @@ double coarsest_period(const Relief& relief) {
 }
 /// 0 .. 1: of the mean square of such a sum, whether its waves repeat together or not.
 double in_waves(const Relief& relief) {
-  return summed_periods(relief).finest > 0 ? std::max(relief.regularity, relief.repeating) : no_value;
+  return summed_periods(relief).finest > 0 ? relief.in_waves() : no_value;
 }
 
 /// N: the force that none of the other cues reads, the largest of some; negative if it mostly pushes a resting hand

@@ -7,8 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "compiler/read/harmonic_fit.hpp"
-
 namespace wale {
 namespace {
 
@@ -22,6 +20,10 @@ constexpr double least_taken = 0.02;                 // of what is left, by one 
 constexpr double least_parted = 5e-4;                // of the whole mean square: worth it to look for two waves in one
 constexpr double hardly_any = 0.1;                   // of what waves leave, if one of them is parted ...
 constexpr double much_less = 0.5;                    // of what waves leave, if they are moved together
+constexpr std::size_t bins_together = 96;            // of waves that are found together ...
+constexpr double places_a_cell = 10;                 // 16, less than which finer waves leave by chance
+constexpr double fewest_together = 2.5;              // periods over the patch, of each
+constexpr double mostly_first = 0.9;                 // of its mean square, in its first harmonic
 constexpr double as_strong_as_the_strongest = 0.85;  // of its power
 constexpr std::size_t most_joined_harmonic = 24;     // that is found before the wave whose harmonic it is
 
@@ -177,6 +179,10 @@ void FittedWaves::part_slow_waves() {
   // A few harmonics that are free to move fill any waveform a little better.
   const bool parts_one = waves.size() > found_.waves.size();
   if (fit.left > (parts_one ? hardly_any : much_less) * fit.left_there) return;
+  replace_by(std::move(fit));
+}
+
+bool FittedWaves::replace_by(HarmonicFit fit) {
   const FoundWaves before = found_;
   const double left_before = mean_square(found_.rest);
   found_.waves.clear();
@@ -185,7 +191,37 @@ void FittedWaves::part_slow_waves() {
   update_rest();
   for (int turn = 0; turn < 2; ++turn)
     for (FoundWave& each : found_.waves) fold_anew(each, each.wave.waves, each.wave.profile.size());
-  if (mean_square(found_.rest) >= left_before) found_ = before;
+  if (mean_square(found_.rest) < left_before) return true;
+  found_ = before;
+  return false;
+}
+
+bool FittedWaves::take_off_together(const std::vector<glm::dvec2>& waves) {
+  StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_together));
+  some.forces = rest_at(some.places, std::move(some.forces));
+  for (std::size_t i = 0; i < some.places.size(); ++i) some.forces[i] += found_.trend.at(some.places[i]);
+  HarmonicFit fit = fit_harmonics(some.places, some.forces, waves, whole_.size, bins_together);
+  double all = 0;
+  for (const FoldedWave& each : fit.waves) all += mean_square(each.profile);
+  if (!(all > 0)) return false;
+  for (const FoldedWave& each : fit.waves) {
+    const double periods = glm::length(each.waves) * length_along(whole_.size, each.waves);
+    if (periods < fewest_together || mean_square(each.profile) < least_taken * all ||
+        harmonics_of(each, 1).front() < mostly_first)
+      return false;
+  }
+  const FoundWaves before = found_;
+  if (replace_by(std::move(fit)) && hardly_any_slow_rest()) {
+    for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
+    return true;
+  }
+  found_ = before;
+  return false;
+}
+
+bool FittedWaves::hardly_any_slow_rest() const {
+  const double even = mean_square(cell_means(whole_.side, found_.rest)), fine = mean_square(found_.rest) - even;
+  return even < negligible_rest * all_ + fine / places_a_cell;
 }
 
 void FittedWaves::fit_together(bool slow) {

@@ -6,6 +6,7 @@
 
 #include "compiler/read/features.hpp"
 #include "compiler/read/fundamental.hpp"
+#include "compiler/read/harmonic_fit.hpp"
 #include "compiler/read/still_forces.hpp"
 #include "compiler/read/waves.hpp"
 
@@ -27,6 +28,9 @@ class FittedWaves {
 
   /// Takes off one more wave and fits all anew. False if that leaves as much as before.
   bool take_off(glm::dvec2 waves, const Fundamental& fundamental);
+  /// Takes off all waves at once, from where they seem to be (periods over a metre), if nothing was found before and they
+  /// leave hardly anything but finer waves; otherwise it does nothing, and returns false.
+  bool take_off_together(const std::vector<glm::dvec2>& waves);
   /// Keeps a wave that only holds in a window, whose forces without the rest these are.
   void keep_local(const StillForces& window, const std::vector<glm::dvec2>& forces, const Fundamental& fundamental);
   void keep_lattice(const Lattice& lattice) { found_.lattice = lattice; }
@@ -65,6 +69,10 @@ class FittedWaves {
   static void tell_carrier(FoundWave& found);
   /// A wave that lay nearly where a part of a sum does looked like one until it was found itself.
   void drop_parts_that_are_gone();
+  /// Replaces the waves and the line by these, fitted anew. False, with all as before, if they leave no less.
+  bool replace_by(HarmonicFit fit);
+  /// Whether the waves leave hardly more than what is finer than the means over small cells.
+  bool hardly_any_slow_rest() const;
   /// What may be waves of their own, as periods over a metre: the waves that were found, the strongest harmonics of
   /// each.
   std::vector<glm::dvec2> may_be_waves() const;

@@ -127,7 +127,7 @@ void tell_obstacles(const Bank& bank, ForceReading& found) {
 /// relief's irregular part, whose amplitude is about two standard deviations.
 double chance_of_line(const Relief& relief, glm::dvec2 half) {
   const double side = 2 * std::min(half.x, half.y);
-  return 2 * relief.amplitude * std::sqrt(1 - relief.regularity) * std::min(1.0, relief.period / side);
+  return 2 * relief.amplitude * std::sqrt(1 - relief.in_waves()) * std::min(1.0, relief.period / side);
 }
 
 using AtFirst = ReadFirst::AtFirst;

@@ -68,7 +68,9 @@ struct Relief {
   /// hundredth of the patch; or what such a one adds to waves. 0 otherwise.
   double small_feature() const;
   /// Whether it repeats, so that it has a period.
-  bool regular() const { return amplitude > 0 && std::max(regularity, repeating) >= 0.5; }
+  bool regular() const { return amplitude > 0 && in_waves() >= 0.5; }
+  /// 0 .. 1: the share of the mean square in waves, whether they repeat together or not.
+  double in_waves() const { return std::max(regularity, repeating); }
   /// Whether it changes mostly in one direction, so that this direction has a meaning.
   bool oriented() const { return amplitude > 0 && anisotropy >= 0.5; }
 };

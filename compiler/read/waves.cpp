@@ -9,6 +9,7 @@
 
 #include "compiler/read/fitted_waves.hpp"
 #include "compiler/read/fundamental.hpp"
+#include "compiler/read/pair_of_waves.hpp"
 #include "compiler/read/window_spectrum.hpp"
 
 namespace wale {
@@ -27,6 +28,9 @@ constexpr double same_period = 0.03;    // relative difference
 constexpr double coherent = 0.7;        // of the share in a small window, also in the whole
 constexpr double slowest_lattice = 4;   // periods over the patch
 constexpr double too_fine = 0.97;       // of the mean square: nothing is left to search in this window
+constexpr double too_fine_for_lattice = 0.9;  // of what waves leave
+constexpr double few_waves_left = 0.5;        // of the mean square, too fine for the window
+constexpr std::size_t places_of_few = 1500;
 constexpr std::size_t lattice_parts = 20;
 constexpr std::size_t finer_lattice_parts = 40;
 constexpr std::size_t lattice_places = 9000;
@@ -99,6 +103,10 @@ class WaveSearch {
         while (found_.waves.size() < most_waves_found && next_wave(*window, *forces, spectrum, level))
           spectrum = WindowSpectrum(*window, *forces);
         if (mean_square(found_.rest) < negligible_rest * fitted_.all()) return fitted_.finished();
+      }
+      if (level == 0 && two_of_few_periods(spectrum)) {
+        if (mean_square(found_.rest) < negligible_rest * fitted_.all()) return fitted_.finished();
+        spectrum = WindowSpectrum(*window, *forces);
       }
       if (level == 0 && find_lattice(spectrum)) return fitted_.finished();
       const bool finer = spectrum.finer() * mean_square(*forces) > 0.5 * negligible_rest * fitted_.all();
@@ -214,8 +222,31 @@ class WaveSearch {
     return fitted_.take_off(longer.waves, longer);
   }
 
+  /// Finds two waves of which the patch holds so few periods that neither explains much alone, and takes them off.
+  bool two_of_few_periods(const WindowSpectrum& spectrum) {
+    if (!found_.waves.empty() || spectrum.finer() > few_waves_left) return false;
+    const std::vector<glm::dvec2> first = spectrum.peaks(1, 1.4);
+    if (first.empty() || glm::length(first.front()) * length_along(whole_.size, first.front()) > 2 * few_periods)
+      return false;
+    const std::vector<glm::dvec2> places = some_of(whole_.places, places_of_few), some = some_of(found_.rest, places_of_few);
+    const HarmonicFit fit = fit_harmonics(places, some, first, whole_.size, parts_of_a_wave);
+    if (fit.left > (1 - least_explained) * mean_square(some)) return false;
+    // Beside the first one the second is no peak.
+    const glm::dvec2 way = glm::normalize(first.front());
+    const auto pair = best_pair_along(places, some, way, length_along(whole_.size, way));
+    if (fitted_.take_off_together({pair[0], pair[1]})) return true;
+    // Across each other, what the first leaves is the second, nearly.
+    std::vector<glm::dvec2> left = found_.rest;
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= fit.line.at(whole_.places[i]);
+    for (const FoldedWave& each : fit.waves) each.add_to(whole_.places, left, -1);
+    const std::vector<glm::dvec2> second = WindowSpectrum(whole_, left).peaks(1, 1.4);
+    return !second.empty() && fitted_.take_off_together({fit.waves.front().waves, second.front()});
+  }
+
   bool find_lattice(const WindowSpectrum& spectrum) {
     if (mean_square(found_.rest) < 0.1 * fitted_.all()) return false;
+    // Two waves across each other are no lattice beside what is too fine to be seen yet.
+    if (found_.waves.size() >= 2 && spectrum.finer() > too_fine_for_lattice) return false;
     std::vector<glm::dvec2> peaks;
     for (const FoundWave& each : found_.waves) peaks.push_back(each.wave.waves);
     const StillForces left = thinned_by_chance(whole_, fitted_.rest_at(whole_.places, whole_.forces), lattice_places);
