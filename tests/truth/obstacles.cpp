@@ -99,6 +99,20 @@ Composition walls_beside_slow_waves(Chance& chance) {
   return made;
 }
 
+/// A slow wave and a fine one, and a wall beside both, limited or not.
+Composition walls_beside_slow_and_fine(Chance& chance) {
+  Composition made;
+  const double orientation = any_orientation(chance);
+  const auto wave = [&](double period, double way) {
+    made.push_wave({sine(), rounded(period, 6), way, rounded(chance.between(0, 1), 3), rounded(chance.octaves(0.3, 1.5), 3)});
+  };
+  wave(chance.between(0.02, 0.035), orientation);
+  wave(chance.octaves(0.2e-3, 2e-3), chance.happens(0.6) ? orientation : any_orientation(chance));
+  tell_walls(made, {add_straight(made, rounded(chance.octaves(100, 1000), 3), rounded(chance.between(0.005, 0.05), 3),
+                                 chance.happens(0.5) ? orientation : any_orientation(chance))});
+  return made;
+}
+
 StepTruth add_step(Composition& made, double line, double angle, glm::dvec2 change) {
   const glm::dvec2 way = way_of(angle);
   made.push(fmt::format("if {} * x + {} * y > {} then vector({} N, {} N) else vector(0 N, 0 N)", number(way.x),
@@ -195,6 +209,7 @@ Composition resistance_at_a_limit(Chance& chance) {
 std::vector<Family> obstacle_families() {
   return {{"two walls", two_walls},      {"box", boxes},
           {"round wall", round_walls},   {"wall beside slow waves", walls_beside_slow_waves},
+          {"wall beside slow and fine", walls_beside_slow_and_fine},
           {"step beside", steps_beside}, {"few steps", few_steps},
           {"staircase", staircases},     {"resistance at a limit", resistance_at_a_limit}};
 }

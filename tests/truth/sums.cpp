@@ -81,6 +81,37 @@ Composition fine_on_coarse(Chance& chance) {
   return made;
 }
 
+/// Ribs of which a whole number fits into wider ones along the same direction: both are waves of their own.
+Composition whole_ratio(Chance& chance) {
+  Composition made = any_patch(chance);
+  const double number = chance.one_of({2.0, 4.0, 5.0, 6.0});
+  const double coarse = rounded(chance.octaves(0.4e-3 * number, made.longest_period()), 4);
+  const double orientation = any_orientation(chance), size = chance.octaves(0.1, 2);
+  made.truth[Cue::period] = valued(coarse);
+  add_waves(made, chance,
+            {wave_of(chance, smooth_ribs(), coarse, orientation, size),
+             wave_of(chance, smooth_ribs(), coarse / number, orientation, size * chance.between(0.7, 1.4))});
+  return made;
+}
+
+/// Two sines of which a small patch holds three to six periods, sometimes beside one that is a hundred times finer.
+Composition few_of_two(Chance& chance) {
+  const double side = rounded(chance.between(0.03, 0.09), 3);
+  Composition made({side, side});
+  const double coarse = rounded(made.longest_period() * chance.between(0.8, 1), 4);
+  const double fine = rounded(coarse / chance.between(1.35, 1.85), 4);
+  const double orientation = any_orientation(chance), size = chance.octaves(0.2, 1.5);
+  const bool along = chance.happens(0.6), finer = chance.happens(0.5);
+  const double other = along ? orientation : rounded(std::fmod(orientation + chance.between(0.6, 2.5), pi), 6);
+  made.truth[Cue::period] = open;
+  made.push_wave(wave_of(chance, sine(), coarse, orientation, size));
+  made.push_wave(wave_of(chance, sine(), fine, other, size * chance.between(0.6, 1)));
+  if (finer)
+    made.push_wave(wave_of(chance, sine(), rounded(chance.octaves(0.16e-3, 0.5e-3), 6), any_orientation(chance),
+                           size * chance.between(0.4, 0.7)));
+  return made;
+}
+
 /// Two waves of any form across each other.
 Composition crossed(Chance& chance) {
   Composition made = any_patch(chance);
@@ -113,6 +144,8 @@ std::vector<Family> sum_families() {
   return {{"collinear", collinear},
           {"incommensurate", incommensurate},
           {"fine on coarse", fine_on_coarse},
+          {"whole ratio", whole_ratio},
+          {"few periods of two", few_of_two},
           {"crossed", crossed},
           {"three waves", three_waves}};
 }

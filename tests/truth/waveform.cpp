@@ -57,6 +57,12 @@ Waveform ridge(double duty) {
           [push, duty](double t) { return 2 * pi / duty * push(t); }};
 }
 
+Waveform smooth_ribs() {
+  const auto push = [](double t) { return std::sin(2 * pi * t) + 0.25 * std::sin(6 * pi * t); };
+  return {"ribs", text("(sin(2 * pi * #) + 0.25 * sin(6 * pi * #))"), push,
+          text("(cos(2 * pi * #) + cos(6 * pi * #) / 12)"), [push](double t) { return -2 * pi * push(t); }};
+}
+
 Waveform missing_fundamental(double third) {
   const std::string b = number(third);
   return {"missing fundamental",

@@ -34,7 +34,9 @@ Waveform ridge(double duty);
 Waveform missing_fundamental(double third);
 /// Gaussian bumps with a standard deviation of `width` periods, at most 0.1.
 Waveform smooth_bumps(double width);
-/// Any of them.
+/// A sine with a quarter of its third harmonic, as the slope of `grating` has it.
+Waveform smooth_ribs();
+/// Any of those above, but the last.
 Waveform any_waveform(Chance& chance);
 
 /// The slope of `grating` by turns: Gaussians at its edges.
