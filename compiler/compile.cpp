@@ -10,6 +10,7 @@
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
 #include "compiler/evidence/confirm.hpp"
+#include "compiler/evidence/percept_reading.hpp"
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/grade/grade.hpp"
 #include "compiler/grade/own_rate.hpp"
@@ -207,6 +208,34 @@ void warn_of_fast_rates(const Bank& bank, const SolvedMaterial& solved, Diagnost
     }
 }
 
+/// "roughness 0.6 is asked for, and the finished program reads 0.35": of each percept that a factor changes.
+std::string asked_and_read(const FinishedMaterial& finished, const Declarations& declarations) {
+  std::string text;
+  if (!finished.program) return text;
+  const Bank bank(*finished.program);
+  for (std::size_t i = 0; i < finished.solved.percepts.size(); ++i) {
+    const SolvedPercept& percept = finished.solved.percepts[i];
+    const PerceptRecord& record = percept.record;
+    if (!percept.asked || record.basis.summand || record.extractor != Extractor::lateral_force) continue;
+    const PerceptReading told = percept_reading(bank, i, finished.found, declarations);
+    if (!told.readable || told.unknown) continue;
+    text += readable("{}{} {:.3g} is asked for, and the finished program reads {:.2g}", text.empty() ? ": " : "; ",
+                     record.name, *percept.asked, told.level);
+  }
+  return text;
+}
+
+void warn_of_scaled_textures(const FinishedMaterial& finished, const CheckedMaterial& material,
+                             const Declarations& declarations, Diagnostics& diagnostics) {
+  if (material.scaled_textures.empty()) return;
+  const std::string levels = asked_and_read(finished, declarations);
+  for (const Span& each : material.scaled_textures)
+    diagnostics.report({.code = Code::scaled_texture,
+                        .span = each,
+                        .message = "the amplitude is solved from the percept, and then changed by a factor" + levels,
+                        .help = "leave the factor out and ask for more or less of the percept"});
+}
+
 /// "`a`, `b` and 3 more": at most eight names.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 8;
@@ -226,16 +255,15 @@ std::optional<Program> compiled(const CheckedMaterial& checked, const CheckedMod
   diagnostics.renew_budget();
   diagnostics.allow_text(sources[source].text.size());
   const std::size_t said = diagnostics.all().size();
-  for (const Span& each : material->scaled_textures)
-    diagnostics.report({.code = Code::scaled_texture,
-                        .span = each,
-                        .message = "the amplitude is solved from the percept, and then changed by a factor",
-                        .help = "leave the factor out and ask for more or less of the percept"});
   FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics);
   if (first) *first = std::move(finished.first);
   const SolvedMaterial& solved = finished.solved;
-  if (!finished.program || solved.device.shaker) return std::move(finished.program);  // the latter has no force
+  if (!finished.program || solved.device.shaker) {  // the latter has no force
+    warn_of_scaled_textures(finished, *material, module.declarations(), diagnostics);
+    return std::move(finished.program);
+  }
   const Bank bank(*finished.program);
+  warn_of_scaled_textures(finished, *material, module.declarations(), diagnostics);
   const Measured measured = measure(bank);
   if (measured.flat || find_level(*material, solved.device)) {
     report_flat_height(solved, *material, &bank, diagnostics);

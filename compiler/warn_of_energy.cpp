@@ -84,11 +84,26 @@ bool pushes_along(const Bank& bank, const GradingHand& hand, glm::vec2 Hand::*mo
 }
 
 /// Whether a force that pushes along the motion may lack its minus: no sign, and no parameter that may be negative,
-/// says that it is meant.
-bool may_lack_minus(const CheckedMaterial& material) {
-  return std::ranges::any_of(material.forces, [&](const WrittenForce& each) {
+/// says that it is meant. Of any of the forces, if `giving`, that which gives the energy, is not known.
+bool may_lack_minus(const CheckedMaterial& material, const WrittenForce* giving) {
+  const auto may = [&](const WrittenForce& each) {
     return !each.signed_by_author && !may_turn(material, each.force[0], each.force[1]);
-  });
+  };
+  return giving ? may(*giving) : std::ranges::any_of(material.forces, may);
+}
+
+/// That of several forces that gives the energy, if it is known.
+const WrittenForce* giving_most(const CheckedMaterial& checked, const DeviceProfile& device, const Energy& energy,
+                                double speed) {
+  if (checked.forces.size() < 2) return nullptr;
+  constexpr double acceleration = 1;  // m/s^2
+  if (energy.motion_watt >= energy.watt()) return giving_energy(checked, device, GivenBy::velocity, speed);
+  if (energy.curl_watt >= energy.watt()) return giving_energy(checked, device, GivenBy::place, speed);
+  if (energy.source_watt < energy.watt()) return nullptr;
+  // Of a program that remembers, all that gives is told as one.
+  if (const auto* mass = giving_energy(checked, device, GivenBy::acceleration, acceleration)) return mass;
+  if (const auto* drag = giving_energy(checked, device, GivenBy::velocity, speed)) return drag;
+  return giving_energy(checked, device, GivenBy::place, speed);
 }
 
 }  // namespace
@@ -104,9 +119,10 @@ void warn_of_undeclared_energy(const Bank& bank, const CheckedMaterial& checked,
   const std::string mend = typeable("active {:.6g} W", std::ceil(watt / step) * step);
   // Of what is declared, it may be a little more.
   const std::string given = declares ? readable("{:.3g}", energy.watt()) : readable("{:.2g}", energy.watt());
+  const WrittenForce* const giving = giving_most(checked, material.device, energy, hand.speed());
   const auto report = [&](std::string message, std::string help) {
     diagnostics.report({.code = Code::undeclared_energy,
-                        .span = material.force_span,
+                        .span = giving ? giving->span : material.force_span,
                         .message = std::move(message),
                         .help = std::move(help)});
   };
@@ -121,7 +137,7 @@ void warn_of_undeclared_energy(const Bank& bank, const CheckedMaterial& checked,
   }
   std::string help = declares ? readable("it declares {:.3g} W; write `{}`", material.active_watt, mend)
                               : fmt::format("write `{}` in its physical block", mend);
-  if (!declares && may_lack_minus(checked)) {
+  if (!declares && may_lack_minus(checked, giving)) {
     const bool drag = energy.motion_watt > 0 && pushes_along(bank, hand, &Hand::velocity, &Hand::raw_velocity);
     const bool mass =
         !drag && energy.source_watt > 0 && pushes_along(bank, hand, &Hand::acceleration, &Hand::raw_acceleration);

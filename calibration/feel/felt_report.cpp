@@ -109,11 +109,40 @@ std::optional<double> needed_seconds(const PatchProgram& program, const Felt& fe
   return std::ceil(settling + margin * static_cast<double>(least_crossings) / pace);
 }
 
-bool has_relief(const Bank& bank) {
+/// What the hand may cross of a program.
+struct CrossedTexture {
+  bool has_relief = true;
+  bool is_all = true;   ///< it is the whole force, so that the swings of the force are its flanks
+  float amplitude = 0;  ///< N: of its force as it comes to the handle if the device gives all of it
+};
+
+/// Whether a hand that moves about meets the same force again at the same place.
+bool depends_on_place_alone(const PatchProgram& program) {
+  return !depends_on_motion(program) && !goes_by_time(program) && !remembers_anything(program);
+}
+
+/// Whether something pushes beside the relief on a hand at rest: a spring, a wall, an even force.
+bool pushes_beside_relief(const StaticForce& read, PatchSize size) {
+  constexpr double hardly = 0.1;  // of the relief: swings are told by its upper and lower quarter
+  const LinearForce& trend = read.trend;
+  const double most = glm::length(trend.mean) + 0.5 * size.width * glm::length(trend.by_x) +
+                      0.5 * size.height * glm::length(trend.by_y);
+  return most > std::max(least_force, hardly * read.relief.amplitude) || !read.obstacles.walls.empty() ||
+         !read.obstacles.steps.empty() || std::ranges::any_of(read.features, &Feature::monotone);
+}
+
+CrossedTexture crossed_texture(const Bank& bank, float aimed) {
   const PatchProgram& program = bank.program().description();
-  const auto is_texture = [](const PerceptRecord& each) { return each.extractor == Extractor::lateral_force; };
-  if (program.device.shaker || std::ranges::any_of(program.percepts, is_texture)) return true;
-  return depends_on_place(program) && static_force(bank).relief.amplitude >= least_force;
+  if (program.device.shaker) return {.amplitude = aimed};
+  const auto texture = std::ranges::find(program.percepts, Extractor::lateral_force, &PerceptRecord::extractor);
+  const bool is_texture = texture != program.percepts.end();
+  if (is_texture && texture->alone && texture->basis.summand) return {.amplitude = aimed};
+  if (!depends_on_place(program)) return {.has_relief = false, .is_all = false};
+  // A factor or a limit leaves another size than the one that was solved, and formulas solve none.
+  const StaticForce read = static_force(bank);
+  const bool is_all = (is_texture && texture->alone) ||
+                      (depends_on_place_alone(program) && !pushes_beside_relief(read, bank.size()));
+  return {is_texture || read.relief.amplitude >= least_force, is_all, static_cast<float>(read.relief.amplitude)};
 }
 
 bool needs_wall(const PerceptRecord& percept) {
@@ -275,6 +304,7 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
   report.costs = run.costs;
   report.guards = run.guards;
   report.scheduling = run.scheduling;
+  const CrossedTexture texture = crossed_texture(bank, predicted_amplitude(bank));
   report.predicted_amplitude = std::min(predicted_amplitude(bank), static_cast<float>(device.most()));
   const auto let_through = static_cast<float>(std::min(report.manner.most, device.most()));
   const double settling = std::min(settling_seconds, report.seconds / 2);
@@ -283,12 +313,12 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
     if (const double size = glm::length(tick.force); size > report.largest)
       report.largest = size, report.largest_at = tick.time;
   const MeasureOptions options{.position_step = device.position_step(),
-                               .predicted_amplitude = std::min(report.predicted_amplitude, let_through),
+                               .predicted_amplitude = std::min(texture.amplitude, let_through),
                                .settling = settling,
                                .vibrates = device.shaker.has_value(),
                                .bandwidth = {device.bandwidth_x, device.bandwidth_y}};
   report.felt = measure(run.record, options);
-  report.has_relief = has_relief(bank);
+  report.has_relief = texture.has_relief, report.crossings_counted = texture.is_all;
   report.needed_seconds = needed_seconds(program, report.felt, report.seconds, settling);
   report.levels = levels_back(bank, report.felt, least_crossings);
   std::vector<LevelBack> own;
@@ -358,8 +388,10 @@ std::string felt_text(const FeltReport& report) {
     text += readable("  place        the hand ranged over {:.1f} mm, {:.1f} % of the time stuck\n",
                      1e3 * felt.position_range, 100 * felt.stuck);
   else
-    text += readable("  texture      {} crossings, {:.1f} % of the time stuck; the hand ranged over {:.1f} mm\n",
-                     felt.crossings, 100 * felt.stuck, 1e3 * felt.position_range);
+    text += readable("  texture      {} {:.1f} % of the time stuck; the hand ranged over {:.1f} mm\n",
+                     report.crossings_counted ? readable("{} crossings,", felt.crossings)
+                                              : "crossings not counted: other forces push too;",
+                     100 * felt.stuck, 1e3 * felt.position_range);
   text += levels_text(report);
   text += "  guards       " + shown(report.guards) + "\n";
   if (report.guards.restored > 0)
@@ -399,7 +431,7 @@ std::string felt_json(const FeltReport& report) {
   }
   if (felt.interaction) json["interaction"] = force_json(*felt.interaction);
   if (!felt.vibration) {
-    json["crossings"] = felt.crossings;
+    json["crossings"] = report.crossings_counted ? nlohmann::ordered_json(felt.crossings) : nullptr;
     json["alternations"] = felt.alternations;
     json["stuck"] = felt.stuck;
   }

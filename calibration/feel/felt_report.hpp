@@ -63,6 +63,9 @@ struct FeltReport {
   std::string crossing_motion;
   /// Whether the program has a relief at all: of another force, such as a vibration, the crossings are no texture's.
   bool has_relief = true;
+  /// Whether that relief is the whole force, so that the swings of the force are its flanks. Beside other forces they
+  /// are not, and the number of crossings is not told.
+  bool crossings_counted = true;
 };
 
 /// The least number of crossings that a texture needs to be read back.

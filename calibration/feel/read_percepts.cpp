@@ -58,8 +58,20 @@ Error without_level(const std::string& percept, std::string sentence) {
   return {.code = Code::not_measured, .sentence = std::move(sentence), .place = {.name = percept}};
 }
 
+/// The carrier's size as the whole force gives it over the whole patch, of which `describe` may count a part for this
+/// percept. What a factor or a limit changed, or the device cut, is no longer of the size that was solved or written.
+float whole_size(const PerceptRecord& record, float aimed, float described, const std::optional<DescribedTexture>& texture,
+                 const DeviceProfile& device) {
+  const bool is_texture = record.extractor == Extractor::lateral_force;
+  const float share = is_texture ? record.basis.share : 1;
+  const bool is_cut = record.unit == "N" && aimed > static_cast<float>(device.most()) * share;
+  if (record.basis.summand && !is_cut) return aimed;
+  return is_texture && record.alone && texture ? static_cast<float>(texture->force.amplitude) * share : described;
+}
+
 /// Reads level number `index` of a run in the size that `describe` reads.
-void read_as_described(FeltReport& report, std::size_t index, const DescribedPercept& told, const Bank& bank) {
+void read_as_described(FeltReport& report, std::size_t index, const DescribedPercept& told, const Bank& bank,
+                       const std::optional<DescribedTexture>& relief) {
   LevelBack& level = report.levels[index];
   const PerceptRecord& record = bank.program().description().percepts[level.percept];
   const auto described = static_cast<float>(told.amplitude);
@@ -67,10 +79,9 @@ void read_as_described(FeltReport& report, std::size_t index, const DescribedPer
     if (level.back) level.back = without_level(level.name, "`wale describe` reads none of it in this program");
     return;
   }
-  // What a factor or a limit changed is no longer of the size that was solved.
-  const float whole = told.changed ? described : level.predicted_amplitude;
+  const float whole = whole_size(record, level.predicted_amplitude, described, relief, report.device);
   const bool texture = record.extractor == Extractor::lateral_force;
-  if (texture && told.changed) report.predicted_amplitude = described / record.basis.share;
+  if (texture && !record.basis.summand) report.predicted_amplitude = whole / record.basis.share;
   float& shown = report.shown[index];
   if (!told.readable || !(shown > 0) || !(whole > 0)) {
     shown = 0;
@@ -106,7 +117,7 @@ void tell_read_percepts(FeltReport& report, const Bank& bank, const Declarations
     }
     report.at_least[i] = is_at_least(record.extractor, description.motion);
     if (!told->unknown) {
-      read_as_described(report, i, *told, bank);
+      read_as_described(report, i, *told, bank, description.texture);
     } else if (level.back) {
       const auto outside = outside_ranges(record, {.outside = told->outside});
       level.back = without_level(level.name, outside.empty() ? "what resists the hand is told by no one figure"

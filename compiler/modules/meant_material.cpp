@@ -92,6 +92,7 @@ std::string listed_near(const std::vector<NearMaterial>& materials) {
   for (const NearMaterial& near : materials) {
     const auto& [material, name, distance] = near;
     all += fmt::format("{}`{}` of `{}`", all.empty() ? "" : ", ", material->name, material->module);
+    if (name.empty()) continue;  // as the title of a material that has none
     if (name == material->title || std::ranges::find(material->called, name) != material->called.end())
       all += fmt::format(" (\"{}\")", name);
   }

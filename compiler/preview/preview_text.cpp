@@ -83,7 +83,9 @@ PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
         {percept.name, percept.unknown ? fmt::format("unknown, asked {:.2f}", percept.asked.value_or(0))
                        : otherwise     ? fmt::format("{:.2f}, asked {:.2f}", percept.level, *percept.asked)
                                        : fmt::format("{:.2f}", percept.level)});
-    others.push_back({percept.carrier, shown_quantity(percept.amplitude, notation_of(percept))});
+    // Of a level that is unknown, the size is that of no carrier that was read.
+    if (!percept.unknown)
+      others.push_back({percept.carrier, shown_quantity(percept.amplitude, notation_of(percept))});
     evidence.push_back(evidence_of(percept));
     const Percept* declared = declarations.percepts.find(percept.name);
     if (declared && declared->extractor == Extractor::lateral_force && !percept.unknown)

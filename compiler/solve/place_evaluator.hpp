@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,13 +13,19 @@
 
 namespace wale {
 
-/// Evaluates terms at places of the patch, with a hand at rest at time 0 and the parameters at their defaults.
+/// How a hand moves, m/s and m/s^2.
+struct EvenMotion {
+  glm::dvec2 velocity{0}, acceleration{0};
+};
+
+/// Evaluates terms at places of the patch at time 0, with the parameters at their defaults, of a hand at rest or in the
+/// same motion everywhere.
 class PlaceEvaluator {
  public:
   /// With `heights`, the slopes and peaks of heights are evaluated too, by differences in the place.
   PlaceEvaluator(const CheckedMaterial& material, const DeviceProfile& device, std::vector<TermId> roots,
-                 bool heights = false)
-      : terms_(material.terms), roots_(std::move(roots)) {
+                 bool heights = false, const EvenMotion& motion = {})
+      : terms_(material.terms), roots_(std::move(roots)), motion_(motion) {
     // As the finished program's, which is cut to the workspace.
     const double widest = device.widest_patch();
     const double width = std::min(material.patch ? (*material.patch)[0] : device.patch_width, widest);
@@ -161,12 +168,21 @@ class PlaceEvaluator {
       case Input::patch_half_height: return half_height_;
       case Input::patch_rim: return rim_;
       case Input::seconds_per_tick: return seconds_per_tick_;
+      case Input::velocity_x:
+      case Input::raw_velocity_x: return motion_.velocity.x;
+      case Input::velocity_y:
+      case Input::raw_velocity_y: return motion_.velocity.y;
+      case Input::acceleration_x:
+      case Input::raw_acceleration_x: return motion_.acceleration.x;
+      case Input::acceleration_y:
+      case Input::raw_acceleration_y: return motion_.acceleration.y;
       default: return 0;
     }
   }
 
   const Terms& terms_;
   std::vector<TermId> roots_, varying_;
+  EvenMotion motion_;
   std::vector<std::pair<TermId, PlaceEvaluator>> heights_;  ///< of each slope and peak
   std::vector<double> values_, sizes_;
   double half_width_ = 0, half_height_ = 0, rim_ = 0, seconds_per_tick_ = 0;

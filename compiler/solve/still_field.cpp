@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec2.hpp>
+#include <numbers>
 #include <vector>
 
 #include "compiler/solve/place_evaluator.hpp"
@@ -84,6 +86,75 @@ std::optional<Span> driving_away(const CheckedMaterial& material, const DevicePr
     if (drives_away(material, device, each.force))
       return each.signed_by_author ? std::nullopt : std::optional(each.span);
   return std::nullopt;
+}
+
+namespace {
+
+/// The mean power that what a motion adds to a force gives to the hand, in the motion's unit; nothing if it cannot be
+/// evaluated.
+std::optional<double> power_along(const CheckedMaterial& material, const DeviceProfile& device,
+                                  const WrittenForce& written, GivenBy what, double most) {
+  constexpr int directions = 8, side = 9;
+  const std::vector<TermId> roots{written.force[0], written.force[1]};
+  PlaceEvaluator still(material, device, roots, true);
+  if (!still.possible()) return std::nullopt;
+  double power = 0;
+  for (int turn = 0; turn < directions; ++turn) {
+    const double angle = 2 * std::numbers::pi * (turn + 0.3) / directions;
+    const glm::dvec2 along = most * glm::dvec2(std::cos(angle), std::sin(angle));
+    const EvenMotion motion = what == GivenBy::velocity ? EvenMotion{.velocity = along}
+                                                        : EvenMotion{.acceleration = along};
+    PlaceEvaluator moving(material, device, roots, true, motion);
+    for (int i = 0; i < side; ++i)
+      for (int j = 0; j < side; ++j) {
+        const double x = still.reach_x() * (2.0 * i + 0.9 - side) / side,
+                     y = still.reach_y() * (2.0 * j + 1.1 - side) / side;
+        still.at(x, y), moving.at(x, y);
+        power += (moving[0] - still[0]) * along.x + (moving[1] - still[1]) * along.y;
+      }
+  }
+  return power / (directions * side * side);
+}
+
+/// The largest work that a force does around a circle, either way round, J; nothing if it cannot be evaluated.
+std::optional<double> work_around(const CheckedMaterial& material, const DeviceProfile& device,
+                                  const WrittenForce& written) {
+  constexpr int side = 4, steps = 128;
+  PlaceEvaluator force(material, device, {written.force[0], written.force[1]}, true);
+  if (!force.possible()) return std::nullopt;
+  double most = 0;
+  const glm::dvec2 reach(force.reach_x(), force.reach_y());
+  for (const double share : {0.2, 0.05}) {
+    const double radius = share * std::min(reach.x, reach.y);
+    for (int i = 0; i < side; ++i)
+      for (int j = 0; j < side; ++j) {
+        const glm::dvec2 centre = (reach - radius) * glm::dvec2(2.0 * i + 0.9 - side, 2.0 * j + 1.1 - side) /
+                                  static_cast<double>(side);
+        double work = 0;
+        for (int step = 0; step < steps; ++step) {
+          const double angle = 2 * std::numbers::pi * step / steps;
+          force.at(centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle));
+          work += (force[1] * std::cos(angle) - force[0] * std::sin(angle)) * radius * 2 * std::numbers::pi / steps;
+        }
+        most = std::max(most, std::abs(work));
+      }
+  }
+  return most;
+}
+
+}  // namespace
+
+const WrittenForce* giving_energy(const CheckedMaterial& material, const DeviceProfile& device, GivenBy what,
+                                  double most) {
+  constexpr double rounding = 1e-6;  // W, J
+  const WrittenForce* found = nullptr;
+  double given = rounding;
+  for (const WrittenForce& each : material.forces) {
+    const auto here = what == GivenBy::place ? work_around(material, device, each)
+                                             : power_along(material, device, each, what, most);
+    if (here && *here > given) given = *here, found = &each;
+  }
+  return found;
 }
 
 bool has_no_curl(const CheckedMaterial& material, const DeviceProfile& device, double limit) {

@@ -60,6 +60,14 @@ Result<> can_be_measured(const MeasureOptions& options, long least_crossings) {
   return {};
 }
 
+/// Whether the force that `predicted_amplitude` tells is that which comes to the handle: a factor or a limit leaves
+/// another one.
+bool is_as_predicted(const Bank& bank) {
+  const auto& percepts = bank.program().description().percepts;
+  const auto texture = std::ranges::find(percepts, Extractor::lateral_force, &PerceptRecord::extractor);
+  return texture == percepts.end() || texture->basis.summand;
+}
+
 }  // namespace
 
 Result<FeltPatch> measure(const RunResult& run, const Patch& patch, const MeasureOptions& options,
@@ -74,7 +82,7 @@ Result<FeltPatch> measure(const RunResult& run, const Patch& patch, const Measur
   const double most = std::min(state->options.max_force, state->profile.most());
   MeasureOptions all = options;
   all.position_step = state->profile.position_step();
-  all.predicted_amplitude = std::min(predicted_amplitude(*bank), static_cast<float>(most));
+  all.predicted_amplitude = is_as_predicted(*bank) ? std::min(predicted_amplitude(*bank), static_cast<float>(most)) : 0;
   all.vibrates = run.record.vibrates;
   all.bandwidth = {state->profile.bandwidth_x, state->profile.bandwidth_y};
   all.change = *change;

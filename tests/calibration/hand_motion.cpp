@@ -234,6 +234,60 @@ TEST(FeltPercepts, AreReadThroughALimitAndAFactor) {
   EXPECT_NEAR(limited.levels[0].back->level, described(wall).at("hardness"), 0.02) << felt_text(limited);
 }
 
+// A hand goes over the same ribs whatever a factor makes of their force: on each period it crosses two flanks, and as
+// many as without the factor.
+TEST(FeltPercepts, TexturesAreCrossedAsOftenBehindAFactor) {
+  const auto text = [](const std::string& factor, const char* asked, const char* size) {
+    return asked + std::string("physical { force = ") + factor + "lateral(grating(x, period: 3 mm)" + size + ") }";
+  };
+  const char* asked = "perceptual { roughness 0.6 } ";
+  const double plain = static_cast<double>(told(text("", asked, ""), "lateral").felt.crossings);
+  ASSERT_GT(plain, 300);
+  for (const char* factor : {"0.5 * ", "0.2 * ", "2 * "}) {
+    const FeltReport report = told(text(factor, asked, ""), "lateral");
+    EXPECT_NEAR(static_cast<double>(report.felt.crossings), plain, 0.1 * plain) << factor;
+    ASSERT_TRUE(report.levels.at(0).back) << felt_text(report);
+  }
+  const FeltReport written = told(text("0.3 * ", "", ", amplitude: 4 N"), "lateral");
+  EXPECT_NEAR(static_cast<double>(written.felt.crossings), plain, 0.1 * plain);
+  const FeltReport limited = told("physical { force = lateral(grating(x, period: 3 mm), amplitude: 6 N) limit 1 N }", "lateral");
+  EXPECT_NEAR(static_cast<double>(limited.felt.crossings), plain, 0.1 * plain);
+}
+
+// The swings of a force that has other parts than the texture are not the texture's, so no number of them is told.
+TEST(FeltPercepts, CrossingsAreNotToldBesideOtherForces) {
+  const std::string ribs = "force ribs = lateral(grating(x, period: 3 mm), amplitude: 1 N)\n ";
+  const std::string wave = "force = vector(1 N * sin(2 pi * x / 4 mm), 0 N)";
+  for (const std::string& physics :
+       {ribs + "force drag = sticky(1 N)", ribs + "force drag = viscous(3 N s/m)", ribs + "force wall = firm(500 N/m)",
+        ribs + "force back = spring(80 N/m)", wave + " - 3 N s/m * velocity", wave + " - 80 N/m * hand",
+        wave + " + vector(0 N, 1 N)"}) {
+    const FeltReport report = told("physical { " + physics + " }", "lateral");
+    EXPECT_NE(felt_text(report).find("texture      crossings not counted: other forces push too; "), std::string::npos)
+        << physics << '\n' << felt_text(report);
+    EXPECT_NE(felt_json(report).find("\"crossings\": null"), std::string::npos) << physics;
+  }
+  for (const std::string& physics :
+       {wave, std::string("force a = lateral(grating(x, period: 3 mm), amplitude: 1 N)\n force b = lateral(grating(x, "
+                          "period: 12 mm), amplitude: 1 N)")}) {
+    const FeltReport report = told("physical { " + physics + " }", "lateral");
+    EXPECT_GT(report.felt.crossings, 100) << physics;
+    EXPECT_EQ(felt_text(report).find("not counted"), std::string::npos) << felt_text(report);
+  }
+}
+
+// The device cuts the force, and all that is left of it comes to the handle.
+TEST(FeltPercepts, AreDeliveredWholeWhereTheDeviceCutsThem) {
+  for (const char* amplitude : {"12 N", "40 N"}) {
+    const FeltReport report = told("physical { force = lateral(grating(x, period: 4 mm), amplitude: " +
+                                       std::string(amplitude) + ") }", "lateral");
+    EXPECT_NE(felt_text(report).find("delivered    10 of 10 N (100 %)\n"), std::string::npos) << felt_text(report);
+    ASSERT_TRUE(report.levels.at(0).back);
+    // Minsky 1995, figure 19: the level goes with the amplitude to the power 0.76, and 3.79 N is level 1.
+    EXPECT_NEAR(report.levels[0].back->level, std::pow(10 / 3.79, 0.76), 0.03);
+  }
+}
+
 // What `describe` does not read has no level, and what it reads is told, also beside percepts that were asked for.
 TEST(FeltPercepts, AreNoOthersThanThoseOfDescribe) {
   const FeltReport damper = told("physical { force = crisp(5 N s/m) }", "lateral");

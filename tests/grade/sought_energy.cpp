@@ -98,6 +98,29 @@ std::string said_of_energy(const std::string& physical) {
   return "";
 }
 
+// Only one of several forces gives energy, and the warning stands there, in whatever order they are written.
+TEST(SoughtEnergy, IsReportedAtTheForceThatGivesIt) {
+  const auto pointed_at = [](const std::string& said, const std::string& line) {
+    const std::size_t shown = said.find(line), carets = said.find("^^^");
+    return shown != std::string::npos && carets != std::string::npos &&
+           said.find('\n', shown) == said.rfind('\n', carets);
+  };
+  int reported = 0;
+  for (const std::string right : {"force back = -80 N/m * hand", "force drag = -1 N s/m * velocity",
+                                  "force ribs = lateral(grating(x, period: 3 mm), amplitude: 1 N)",
+                                  "force grip = sticky(0.3 N)"})
+    for (const std::string wrong : {"force oil = 3 N s/m * velocity", "force lump = 0.4 kg * acceleration",
+                                    "force turn = vector(-60 N/m * y, 60 N/m * x)"})
+      for (const bool before : {false, true}) {
+        const std::string said =
+            said_of_energy(before ? wrong + "\n" + right : right + "\n" + wrong);
+        if (said.empty()) continue;  // friction may take more than a light mass gives
+        ++reported;
+        EXPECT_TRUE(pointed_at(said, wrong)) << said;
+      }
+  EXPECT_GE(reported, 20);
+}
+
 std::string with_drag(const std::string& force, double drag) {
   return "force = " + force + " + viscous(" + std::to_string(drag) + " N s/m)";
 }

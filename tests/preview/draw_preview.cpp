@@ -243,6 +243,23 @@ TEST(Preview, HardnessIsReadAlsoBehindALimit) {
   EXPECT_EQ(text.evidence.find("physics only"), std::string::npos) << text.evidence;
 }
 
+/// A level that is unknown has no size either; what is known of the force stays.
+TEST(Preview, NothingIsSaidOfTheSizeOfAnUnknownLevel) {
+  const auto figures = [](const std::string& period) {
+    return preview_text(Bank(standard::material("material m { perceptual { roughness 0.2 } physical { force = "
+                                                "lateral(grating(x, period: " + period + ")) } }", "m")),
+                        common_modules()->declarations)
+        .figures;
+  };
+  const auto sizes = [](const std::vector<PreviewText::Figure>& all) {
+    return std::ranges::count(all, "lateral amplitude", &PreviewText::Figure::word);
+  };
+  const auto fine = figures("0.08 mm");
+  EXPECT_EQ(fine.at(0).value, "unknown, asked 0.20");
+  EXPECT_EQ(sizes(fine), 0);
+  EXPECT_EQ(sizes(figures("2 mm")), 1);
+}
+
 /// The picture is no surer than `describe`: what is assumed, and what is only a lower bound, is marked in both.
 TEST(Preview, IntervalsHaveTheMarksOfDescribe) {
   const auto& declarations = common_modules()->declarations;

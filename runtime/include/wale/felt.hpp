@@ -65,7 +65,8 @@ struct Felt {
   /// back. The range goes as far as the amplitude to either side, and a force below half of that has no swings.
   long alternations = 0;
   /// The alternations during which the hand keeps its direction: the flanks of a texture. A limit cycle at one place, a
-  /// spring and oil have none.
+  /// spring and oil have none. They are those of the whole force: where others push besides a texture, they are not the
+  /// texture's.
   long crossings = 0;
   double stuck = 0;  ///< fraction of the measured ticks within the patch; 0 when there are none
   FeltResponse response;
