@@ -4,9 +4,12 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
 
 #include "runtime/machine/parallel.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
@@ -28,6 +31,16 @@ struct MaterialReading {
   std::optional<Cues> cues;
   bool vibrates = false;
 };
+
+/// Adds the file to the names of materials that another file's has too.
+void tell_apart_by_file(std::vector<ComparedFile>& files) {
+  std::map<std::string, std::set<std::string>> in_files;
+  for (const ComparedFile& file : files)
+    for (const Cues& each : file.cues) in_files[each.material].insert(file.name.file);
+  for (ComparedFile& file : files)
+    for (Cues& each : file.cues)
+      if (in_files[each.material].size() > 1) each.material += fmt::format(" ({})", visible_text(file.name.file));
+}
 
 std::vector<std::string> materials_to_read(const ComparedFile& file) {
   const bool readable = file.opened && file.opened->module && !file.opened->diagnostics.has_errors();
@@ -74,6 +87,7 @@ std::vector<ComparedFile> read_cues(const std::vector<std::string>& names, const
   }
   for (ComparedFile& file : files)
     if (file.opened && file.opened->diagnostics.has_errors()) file.cues.clear();
+  tell_apart_by_file(files);
   return files;
 }
 

@@ -45,6 +45,13 @@ class Declared {
     return all;
   }
 
+  /// All diagnostics so far as a person reads them.
+  std::string said() const {
+    std::string all;
+    for (const auto& each : diagnostics_.all()) all += render_text(each, sources_, false);
+    return all;
+  }
+
  private:
   void refuse_errors() const {
     if (!diagnostics_.has_errors()) return;

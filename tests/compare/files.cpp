@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "compiler/compare/compare_files.hpp"
 #include "compiler/modules/load_modules.hpp"
 
@@ -26,6 +28,16 @@ std::vector<Cues> one_by_one(const std::vector<std::string>& names) {
       all.push_back(cues_of(Bank(*compile_opened(opened, {file}, each, opened.diagnostics)), known()));
   }
   return all;
+}
+
+// `denim` of two files is told apart by the file; what has a name of its own keeps it.
+TEST(ComparedFiles, AreNamedWhereTwoHaveAMaterialOfOneName) {
+  const std::string copy = testing::TempDir() + "another_denim.wale", denim = library + "fabric/denim.wale";
+  std::ofstream(copy) << "wale 1\nmaterial denim { perceptual { roughness 0.3 } }\n";
+  const auto files = read_cues({denim + ":denim", copy, library + "fluid/oil.wale:oil", copy}, {}, known());
+  EXPECT_EQ(files.at(0).cues.at(0).material, "denim (" + denim + ")");
+  EXPECT_EQ(files.at(1).cues.at(0).material, "denim (" + copy + ")");
+  EXPECT_EQ(files.at(2).cues.at(0).material, "oil");
 }
 
 TEST(ComparedFiles, AreReadAsOneAfterTheOther) {

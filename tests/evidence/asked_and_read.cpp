@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -169,6 +170,12 @@ TEST(AskedAndRead, ASpringLeavesAGratingAsItIs) {
 TEST(AskedAndRead, AFactorIsToldOnce) {
   const Made made("roughness 0.3", "    force felt = 2 * lateral(grating(x, period: 2.5 mm))");
   EXPECT_EQ(made.codes(), "W0414");
+  // The level that the doubled force has by Minsky's law, beside the one that was asked for.
+  char figure[8];
+  std::snprintf(figure, sizeof figure, "%.2g", level_of(2 * newton(0.3)));
+  EXPECT_NE(made.declared.said().find("roughness 0.3 is asked for, and the finished program reads " + std::string(figure)),
+            std::string::npos)
+      << made.declared.said();
   const Description description = made.description();
   EXPECT_NEAR(percept(description, "roughness").level, level_of(2 * newton(0.3)), 0.02);
   EXPECT_EQ(fate(description, "roughness").fate, Fate::approximated);
