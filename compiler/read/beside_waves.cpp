@@ -43,7 +43,8 @@ struct WithoutFine {
 };
 WithoutFine without_fine(const StillForces& part) {
   const std::size_t side = part.side / cells_a_mean_side;
-  WithoutFine found{{side, part.centre, part.size, cell_means(part.side, part.places), cell_means(part.side, part.forces)}};
+  WithoutFine found{
+      {side, part.centre, part.size, cell_means(part.side, part.places), cell_means(part.side, part.forces)}};
   constexpr double cells = cells_a_mean_side * cells_a_mean_side;
   found.noise = (mean_square(part.forces) - mean_square(found.means.forces)) / cells;
   return found;

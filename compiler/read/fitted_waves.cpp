@@ -21,7 +21,7 @@ constexpr double least_parted = 5e-4;                // of the whole mean square
 constexpr double hardly_any = 0.1;                   // of what waves leave, if one of them is parted ...
 constexpr double much_less = 0.5;                    // of what waves leave, if they are moved together
 constexpr std::size_t bins_together = 96;            // of waves that are found together ...
-constexpr double places_a_cell = 10;                 // 16, less than which finer waves leave by chance
+constexpr double times_less_in_means = 10;           // finer waves' square: 16 in the mean, and more by chance
 constexpr double fewest_together = 2.5;              // periods over the patch, of each
 constexpr double mostly_first = 0.9;                 // of its mean square, in its first harmonic
 constexpr double as_strong_as_the_strongest = 0.85;  // of its power
@@ -221,7 +221,7 @@ bool FittedWaves::take_off_together(const std::vector<glm::dvec2>& waves) {
 
 bool FittedWaves::hardly_any_slow_rest() const {
   const double even = mean_square(cell_means(whole_.side, found_.rest)), fine = mean_square(found_.rest) - even;
-  return even < negligible_rest * all_ + fine / places_a_cell;
+  return even < negligible_rest * all_ + fine / times_less_in_means;
 }
 
 void FittedWaves::fit_together(bool slow) {

@@ -28,8 +28,8 @@ class FittedWaves {
 
   /// Takes off one more wave and fits all anew. False if that leaves as much as before.
   bool take_off(glm::dvec2 waves, const Fundamental& fundamental);
-  /// Takes off all waves at once, from where they seem to be (periods over a metre), if nothing was found before and they
-  /// leave hardly anything but finer waves; otherwise it does nothing, and returns false.
+  /// Takes off all waves at once, from where they seem to be (periods over a metre), if nothing was found before and
+  /// they leave hardly anything but finer waves; otherwise it does nothing, and returns false.
   bool take_off_together(const std::vector<glm::dvec2>& waves);
   /// Keeps a wave that only holds in a window, whose forces without the rest these are.
   void keep_local(const StillForces& window, const std::vector<glm::dvec2>& forces, const Fundamental& fundamental);

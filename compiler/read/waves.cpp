@@ -228,7 +228,8 @@ class WaveSearch {
     const std::vector<glm::dvec2> first = spectrum.peaks(1, 1.4);
     if (first.empty() || glm::length(first.front()) * length_along(whole_.size, first.front()) > 2 * few_periods)
       return false;
-    const std::vector<glm::dvec2> places = some_of(whole_.places, places_of_few), some = some_of(found_.rest, places_of_few);
+    const std::vector<glm::dvec2> places = some_of(whole_.places, places_of_few),
+                                  some = some_of(found_.rest, places_of_few);
     const HarmonicFit fit = fit_harmonics(places, some, first, whole_.size, parts_of_a_wave);
     if (fit.left > (1 - least_explained) * mean_square(some)) return false;
     // Beside the first one the second is no peak.

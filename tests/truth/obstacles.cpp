@@ -104,7 +104,8 @@ Composition walls_beside_slow_and_fine(Chance& chance) {
   Composition made;
   const double orientation = any_orientation(chance);
   const auto wave = [&](double period, double way) {
-    made.push_wave({sine(), rounded(period, 6), way, rounded(chance.between(0, 1), 3), rounded(chance.octaves(0.3, 1.5), 3)});
+    made.push_wave({sine(), rounded(period, 6), way, rounded(chance.between(0, 1), 3),
+                    rounded(chance.octaves(0.3, 1.5), 3)});
   };
   wave(chance.between(0.02, 0.035), orientation);
   wave(chance.octaves(0.2e-3, 2e-3), chance.happens(0.6) ? orientation : any_orientation(chance));
