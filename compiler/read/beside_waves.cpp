@@ -19,8 +19,8 @@ constexpr double even_over_cells = 0.3;     // of the mean square
 constexpr double left_beside_both = 0.02;   // of what a line leaves, by wall and wave
 constexpr double few_harmonics = 0.3;       // ... or of a wave that jumps, by its first harmonics
 constexpr double left_by_a_jumping_wave = 0.05;  // ... and by its whole form, where it jumps within a part of it
-constexpr double times_noise_of_fine = 1.7;           // which means may hold, beside a finer texture
-constexpr std::size_t cells_a_mean_side = 4;       // of each of those means
+constexpr double times_noise_of_fine = 1.7;      // which means over cells may hold, beside a finer texture
+constexpr std::size_t cells_a_mean_side = 4;     // as `cell_means` has them
 constexpr std::size_t places_of_a_quarter = 2000, bins_of_a_wave = 96;
 
 /// A quarter of the patch, by its corner; all of a lattice's places that lie in it.
@@ -88,9 +88,7 @@ std::optional<std::vector<glm::dvec2>> left_by_waves_of(const StillForces& quart
 
 /// Whether walls and steps alone are all that waves leave.
 bool stand_alone(const StillForces& whole, const FoundWaves& waves) {
-  std::vector<glm::dvec2> forces = waves.rest;
-  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += waves.trend.at(whole.places[i]);
-  return find_obstacles(whole, forces).has_value();
+  return find_obstacles(whole, waves.without_waves(whole.places)).has_value();
 }
 
 }  // namespace

@@ -171,15 +171,20 @@ void FittedWaves::part_slow_waves() {
   if (!few) return;
   const std::vector<glm::dvec2> waves = may_be_waves();
   if (waves.size() < 2) return;
-  StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_together));
-  some.forces = rest_at(some.places, std::move(some.forces));
-  for (std::size_t i = 0; i < some.places.size(); ++i) some.forces[i] += found_.trend.at(some.places[i]);
-  for (const FoundWave& each : found_.waves) each.wave.add_to(some.places, some.forces, 1);
+  const StillForces some = to_fit_together();
   HarmonicFit fit = fit_harmonics(some.places, some.forces, waves, whole_.size, bins);
   // A few harmonics that are free to move fill any waveform a little better.
   const bool parts_one = waves.size() > found_.waves.size();
   if (fit.left > (parts_one ? hardly_any : much_less) * fit.left_there) return;
   replace_by(std::move(fit));
+}
+
+StillForces FittedWaves::to_fit_together() const {
+  StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_together));
+  some.forces = rest_at(some.places, std::move(some.forces));
+  for (std::size_t i = 0; i < some.places.size(); ++i) some.forces[i] += found_.trend.at(some.places[i]);
+  for (const FoundWave& each : found_.waves) each.wave.add_to(some.places, some.forces, 1);
+  return some;
 }
 
 bool FittedWaves::replace_by(HarmonicFit fit) {
@@ -197,9 +202,7 @@ bool FittedWaves::replace_by(HarmonicFit fit) {
 }
 
 bool FittedWaves::take_off_together(const std::vector<glm::dvec2>& waves) {
-  StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / places_together));
-  some.forces = rest_at(some.places, std::move(some.forces));
-  for (std::size_t i = 0; i < some.places.size(); ++i) some.forces[i] += found_.trend.at(some.places[i]);
+  const StillForces some = to_fit_together();
   HarmonicFit fit = fit_harmonics(some.places, some.forces, waves, whole_.size, bins_together);
   double all = 0;
   for (const FoldedWave& each : fit.waves) all += mean_square(each.profile);

@@ -69,6 +69,8 @@ class FittedWaves {
   static void tell_carrier(FoundWave& found);
   /// A wave that lay nearly where a part of a sum does looked like one until it was found itself.
   void drop_parts_that_are_gone();
+  /// Some places of the whole, with the forces that the waves and the line together are to tell.
+  StillForces to_fit_together() const;
   /// Replaces the waves and the line by these, fitted anew. False, with all as before, if they leave no less.
   bool replace_by(HarmonicFit fit);
   /// Whether the waves leave hardly more than what is finer than the means over small cells.

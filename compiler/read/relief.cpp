@@ -130,11 +130,7 @@ class ReliefReader {
   }
 
   /// The forces without waves: trends, features, noise.
-  std::vector<glm::dvec2> without_waves() const {
-    std::vector<glm::dvec2> forces = waves_.rest;
-    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += waves_.trend.at(whole_.places[i]);
-    return forces;
-  }
+  std::vector<glm::dvec2> without_waves() const { return waves_.without_waves(whole_.places); }
 
   void take_trend_off() {
     find_trend();

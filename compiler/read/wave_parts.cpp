@@ -119,6 +119,12 @@ void take_harmonic_off(FoldedWave& wave, std::size_t number) {
   }
 }
 
+std::vector<glm::dvec2> FoundWaves::without_waves(const std::vector<glm::dvec2>& places) const {
+  std::vector<glm::dvec2> forces = rest;
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += trend.at(places[i]);
+  return forces;
+}
+
 double FoundWaves::period(glm::dvec2 size) const {
   const glm::dvec2 strongest = waves.front().felt();
   constexpr int most = 5;

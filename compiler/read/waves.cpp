@@ -28,7 +28,6 @@ constexpr double same_period = 0.03;    // relative difference
 constexpr double coherent = 0.7;        // of the share in a small window, also in the whole
 constexpr double slowest_lattice = 4;   // periods over the patch
 constexpr double too_fine = 0.97;       // of the mean square: nothing is left to search in this window
-constexpr double too_fine_for_lattice = 0.9;  // of what waves leave
 constexpr double few_waves_left = 0.5;        // of the mean square, too fine for the window
 constexpr std::size_t places_of_few = 1500;
 constexpr std::size_t lattice_parts = 20;
@@ -246,8 +245,6 @@ class WaveSearch {
 
   bool find_lattice(const WindowSpectrum& spectrum) {
     if (mean_square(found_.rest) < 0.1 * fitted_.all()) return false;
-    // Two waves across each other are no lattice beside what is too fine to be seen yet.
-    if (found_.waves.size() >= 2 && spectrum.finer() > too_fine_for_lattice) return false;
     std::vector<glm::dvec2> peaks;
     for (const FoundWave& each : found_.waves) peaks.push_back(each.wave.waves);
     const StillForces left = thinned_by_chance(whole_, fitted_.rest_at(whole_.places, whole_.forces), lattice_places);

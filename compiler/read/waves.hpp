@@ -61,6 +61,8 @@ struct FoundWaves {
   std::vector<glm::dvec2> rest;  ///< N, at the places of the whole: what neither a wave nor the trend explains
   LinearForce trend;             ///< of the whole, beside the waves
 
+  /// N, at the places of the whole: `rest` and the trend, all that is no wave.
+  std::vector<glm::dvec2> without_waves(const std::vector<glm::dvec2>& places) const;
   /// m: after which the strongest wave and those along its direction repeat together, if that is a small multiple of
   /// their periods; otherwise the strongest wave's period.
   double period(glm::dvec2 size) const;

@@ -99,7 +99,7 @@ Composition walls_beside_slow_waves(Chance& chance) {
   return made;
 }
 
-/// A slow wave and a fine one, and a wall beside both, limited or not.
+/// A slow wave and a fine one, and a wall beside both.
 Composition walls_beside_slow_and_fine(Chance& chance) {
   Composition made;
   const double orientation = any_orientation(chance);
