@@ -2,7 +2,8 @@
 # file that is installed elsewhere leads to that place; one to a file that is not installed becomes plain text.
 set(pages README.md runtime/README.md runtime/C_INTERFACE.md runtime/record/RECORDING.md
           runtime/workspace/WORKSPACE_FILE.md schema/LANGUAGE.md schema/PATCH_PROGRAM.md schema/SECURITY.md
-          library/README.md library/std/README.md library/python/README.md calibration/README.md
+          library/README.md library/CURATORS_DAY.md library/CONTRIBUTING.md library/std/README.md
+          library/python/README.md calibration/README.md calibration/RESEARCHERS_AFTERNOON.md
           calibration/session/SESSION_LOG.md compiler/README.md compiler/cpp/README.md compiler/image/README.md
           examples/README.md examples/sandpaper/README.md examples/learn/README.md examples/learn/RECIPES.md
           examples/learn/FORCES.md)

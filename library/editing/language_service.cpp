@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "calibration/feel/trusted_declarations.hpp"
+#include "compiler/compare/compare.hpp"
+#include "compiler/compare/compare_files.hpp"
 #include "compiler/describe/describe.hpp"
 #include "compiler/diagnostics/told.hpp"
 #include "compiler/format/format.hpp"
@@ -65,6 +67,20 @@ std::optional<Program> compile_called(OpenedFile& opened, const FileRequest& req
   const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
   return compile_material(material, *opened.module, request.device, opened.sources, opened.source, *resolver,
                           opened.diagnostics);
+}
+
+ToldMaterial told_of(const Bank& bank, const Declarations& declarations) {
+  const Description description = describe(bank, declarations);
+  ToldMaterial told{.text = description_text(description)};
+  for (const DescribedPercept& each : description.percepts) {
+    ToldPercept percept{.name = each.name,
+                        .asked = each.asked,
+                        .evidence = evidence_word(each.evidence()),
+                        .why = why_not_measured(each)};
+    if (!each.unknown) percept.reads = each.level;
+    told.percepts.push_back(std::move(percept));
+  }
+  return told;
 }
 
 }  // namespace
@@ -190,17 +206,34 @@ Result<ToldMaterial> LanguageService::tell(const Program& program) const {
   SourceSet sources;
   const auto here = parts_->around(program, sources);
   if (!here) return here.error();
-  const Description description = describe(Bank(program), here->declarations());
-  ToldMaterial told{.text = description_text(description)};
-  for (const DescribedPercept& each : description.percepts) {
-    ToldPercept percept{.name = each.name,
-                        .asked = each.asked,
-                        .evidence = evidence_word(each.evidence()),
-                        .why = why_not_measured(each)};
-    if (!each.unknown) percept.reads = each.level;
-    told.percepts.push_back(std::move(percept));
+  return told_of(Bank(program), here->declarations());
+}
+
+Result<ToldMaterial> LanguageService::tell(const Program& program, std::span<const float> parameters,
+                                           PatchSize size) const {
+  SourceSet sources;
+  const auto here = parts_->around(program, sources);
+  if (!here) return here.error();
+  return told_of(Bank(program, parameters, size), here->declarations());
+}
+
+Result<std::string> LanguageService::compare(const PlacedProgram& a, const PlacedProgram& b) const {
+  SourceSet sources;
+  const auto here = parts_->around(a.program, sources);
+  if (!here) return here.error();
+  std::vector<ComparedFile> compared;
+  for (const PlacedProgram* each : {&a, &b}) {
+    ComparedFile& one = compared.emplace_back();
+    const std::string name = each->called.empty() ? each->program.description().material : each->called;
+    if (each->program.description().vibrates()) {
+      one.vibrates = name;
+      continue;
+    }
+    one.cues.push_back(cues_of(Bank(each->program, each->parameters, each->size), here->declarations()));
+    one.cues.back().material = name;
   }
-  return told;
+  if (const auto can = comparable(compared); !can) return can.error();
+  return comparison_text({{compared[0].cues[0], compared[1].cues[0]}, here->declarations()});
 }
 
 Result<std::vector<std::byte>> LanguageService::preview(const Program& program, std::span<const float> parameters,

@@ -1,10 +1,10 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <ostream>
 
 #include "schema/sentence.hpp"
+#include "wale/force_voice.hpp"
 #include "wale/recording.hpp"
 
 namespace wale {
@@ -40,25 +40,6 @@ void put(std::ostream& out, const WavHeader& header) {
 
 constexpr std::uint32_t wav_header_bytes = 58;
 
-/// Turns a tick's output into sound.
-class Voice {
- public:
-  explicit Voice(const DeviceProfile& device) : most_(device.most()), vibrates_(device.shaker.has_value()) {}
-
-  std::array<float, channels> operator()(Force force) {
-    if (!vibrates_) return {static_cast<float>(force.x / most_), static_cast<float>(force.y / most_)};
-    const auto sound = static_cast<float>(force.x / most_ * std::sin(2 * std::numbers::pi * phase_));
-    phase_ += static_cast<double>(force.y) / samples_per_second;
-    phase_ -= std::floor(phase_);
-    return {sound, sound};
-  }
-
- private:
-  double most_;
-  bool vibrates_;
-  double phase_ = 0;  // turns
-};
-
 }  // namespace
 
 Result<> write_wav(std::ostream& out, const Recording& recording) {
@@ -83,7 +64,7 @@ Result<> write_wav(std::ostream& out, const Recording& recording) {
   header.data_size = header.frames * frame_bytes;
   header.size = header.data_size + wav_header_bytes - 8;
   put(out, header);
-  Voice voice(device);
+  ForceVoice voice(device, samples_per_second);
   std::int64_t frame = 0;
   for (std::size_t i = 0; i < ticks; ++i) {
     const RecordedTick tick = recording.tick(i);

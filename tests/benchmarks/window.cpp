@@ -17,6 +17,7 @@ namespace sandpaper {
 namespace {
 
 constexpr double bar_open = 1, bar_animated = 60, bar_many = 30, bar_late = 1.1;
+constexpr int mouse_milliseconds = 8;  // between the reports of a mouse
 
 /// Counts the pictures of a widget.
 class Pictured : public QObject {
@@ -71,7 +72,7 @@ double pictures_a_second(MainWindow& window, double seconds, bool pans) {
   window.canvas().installEventFilter(&pictured);
   QTimer panning;
   QObject::connect(&panning, &QTimer::timeout, [&] { window.canvas().zoom(pictured.count % 2 ? 1.001 : 1 / 1.001); });
-  if (pans) panning.start(0);
+  if (pans) panning.start(mouse_milliseconds);
   run_for(seconds);
   return static_cast<double>(pictured.count) / seconds;
 }

@@ -22,11 +22,20 @@ constexpr int view_rests_milliseconds = 150;
 constexpr int small = 12;              // pixels: smaller patches are drawn plain
 constexpr int largest_mask = 2048;     // pixels
 constexpr double arrow_per_newton = 0.01;  // m
+constexpr float least_arrow = 0.005f;      // N
+constexpr double grid_strength = 0.27;     // of its lines, where the ground has the rest
+constexpr std::size_t most_covers = 4000000;  // pairs of patches of which one may cover the other's marks
+constexpr int live_milliseconds = 100;        // between pictures of a surface that remembers
+
+QColor mixed(QColor a, QColor b, double share) {
+  const auto part = [&](int of_a, int of_b) { return static_cast<int>(std::lround(of_a + share * (of_b - of_a))); };
+  return QColor(part(a.red(), b.red()), part(a.green(), b.green()), part(a.blue(), b.blue()));
+}
 
 }  // namespace
 
 Canvas::Canvas(Document& document, Feeling& feeling, Pictures& pictures, const Numbers& numbers, QWidget* parent)
-    : QWidget(parent), document_(document), feeling_(feeling), pictures_(pictures), numbers_(numbers) {
+    : QWidget(parent), document_(document), feeling_(feeling), pictures_(pictures), numbers_(numbers), marks_(feeling) {
   use_canvas_access();
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
@@ -41,6 +50,10 @@ Canvas::Canvas(Document& document, Feeling& feeling, Pictures& pictures, const N
   connect(&feeling_, &Feeling::device_changed, this, [this] {
     if (shows_all_) show_all();
     changed();
+  });
+  connect(&feeling_, &Feeling::forgot, this, [this] {
+    marks_.keep({});
+    pictures_.forget_remembered();
   });
   connect(&pictures_, &Pictures::drawn, this, &Canvas::changed);
   connect(&numbers_, &Numbers::renewed, this, &Canvas::changed);
@@ -69,7 +82,7 @@ void Canvas::tell_readers() {
 }
 
 void Canvas::changed() {
-  still_is_old_ = true;
+  still_is_old_ = marked_are_old_ = true;
   update();
 }
 
@@ -202,7 +215,8 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
   QColor plain = program && !is_blind ? colour_of(placed.patch.made_of) : QColor(190, 190, 190);
   const auto material = program ? nullptr : feeling_.material(placed.id);
   if (material) plain = QColor(230, 160, 160);
-  if (program)
+  if (program) image = pictures_.remembered(placed.id, *program, parameters_of(placed), glm::vec2(size_of(placed)), look_.surfaces);
+  if (program && image.isNull())
     image = pictures_.find(*program, parameters_of(placed), glm::vec2(size_of(placed)), placed.patch.outline, pixels,
                            look_.surfaces, plain, is_chosen ? 2 : 1);
   if (is_plain) {
@@ -274,13 +288,12 @@ void Canvas::draw_still() {
     double step = 0.001;
     for (int i = 0; step * scale_ < 8; ++i) step *= i % 2 == 0 ? 5 : 2;
     const glm::dvec2 from = to_metres({0.0, double(height())}), to = to_metres({double(width()), 0.0});
-    QColor faint = lines;
-    faint.setAlpha(70);
-    painter.setPen(faint);
+    // Opaque and on whole pixels: Qt hands long transparent lines to other threads, which takes longer than to draw them.
+    const QColor faint = mixed(ground, lines, grid_strength);
     for (double x = std::ceil(from.x / step) * step; x < to.x; x += step)
-      painter.drawLine(QPointF(to_pixels({x, 0}).x(), 0), QPointF(to_pixels({x, 0}).x(), height()));
+      painter.fillRect(QRect(static_cast<int>(to_pixels({x, 0}).x()), 0, 1, height()), faint);
     for (double y = std::ceil(from.y / step) * step; y < to.y; y += step)
-      painter.drawLine(QPointF(0, to_pixels({0, y}).y()), QPointF(width(), to_pixels({0, y}).y()));
+      painter.fillRect(QRect(0, static_cast<int>(to_pixels({0, y}).y()), width(), 1), faint);
   }
   const double reach = feeling_.profile().workspace_diameter / 2;
   painter.setPen(QPen(lines, 1.5));
@@ -298,97 +311,100 @@ void Canvas::draw_still() {
   still_is_old_ = false;
 }
 
-void Canvas::draw_marks(QPainter& painter, const Placed& placed) {
-  const auto snapshot = feeling_.snapshot(placed.id);
-  if (!snapshot) return;
-  const wale::Hand hand{.position = now_.position - glm::vec2(placed.patch.at),
-                        .velocity = now_.velocity,
-                        .workspace = now_.position,
-                        .time = now_.time};
-  const auto place = [&](float x, float y) { return to_pixels(placed.patch.at + glm::dvec2(x, y)); };
-  painter.setBrush(Qt::NoBrush);
-  for (const wale::ShownMark& mark : wale::show(snapshot->bank, snapshot->memory, hand)) {
-    const auto& v = mark.values;
-    if (!std::ranges::all_of(v, [](float each) { return std::isfinite(each) && std::abs(each) < 10; })) continue;
-    const QColor colour = QColor::fromRgb(mark.colour);
-    painter.setPen(QPen(colour, 2));
-    switch (mark.kind) {
-      case wale::MarkKind::point:
-        painter.setBrush(colour);
-        painter.drawEllipse(place(v[0], v[1]), std::max(1.5, v[2] / 2 * scale_), std::max(1.5, v[2] / 2 * scale_));
-        painter.setBrush(Qt::NoBrush);
-        break;
-      case wale::MarkKind::circle: painter.drawEllipse(place(v[0], v[1]), v[2] * scale_, v[2] * scale_); break;
-      case wale::MarkKind::box:
-        painter.save();
-        painter.translate(place(v[0], v[1]));
-        painter.rotate(-v[4] * 180 / 3.14159265358979);
-        painter.drawRect(QRectF(-v[2] / 2 * scale_, -v[3] / 2 * scale_, v[2] * scale_, v[3] * scale_));
-        painter.restore();
-        break;
-      case wale::MarkKind::line: painter.drawLine(place(v[0], v[1]), place(v[2], v[3])); break;
-      case wale::MarkKind::spring: {
-        const QPointF from = place(v[0], v[1]), way = place(v[2], v[3]) - from;
-        const double length = std::hypot(way.x(), way.y()), wide = v[4] / 2 * scale_;
-        const QPointF square = length > 0 ? QPointF(-way.y(), way.x()) / length * wide : QPointF();
-        QPolygonF coils{from};
-        for (int i = 1; i < 16; ++i) coils << from + way * i / 16.0 + (i % 2 ? square : -square);
-        painter.drawPolyline(coils << from + way);
-        break;
-      }
-      case wale::MarkKind::trajectory: {
-        path_.push_back({placed.patch.at.x + v[0], placed.patch.at.y + v[1]});
-        const auto most = static_cast<std::size_t>(std::clamp(v[2], 0.f, 30.f) * 60);
-        while (path_.size() > most) path_.pop_front();
-        QPolygonF way;
-        for (const QPointF& each : path_) way << to_pixels({each.x(), each.y()});
-        painter.drawPolyline(way);
-        break;
-      }
-    }
+void Canvas::find_marked() {
+  marked_are_old_ = false;
+  marked_.clear();
+  marks_.keep([&] {
+    std::vector<std::uint64_t> ids;
+    for (const PlacedRef& each : document_.contents().placed) ids.push_back(each->id);
+    return ids;
+  }());
+  if (!look_.marks || look_.surfaces == Look::blind) return;
+  std::vector<std::pair<PlacedRef, QRect>> boxes;  // of what may be seen
+  for (const PlacedRef& each : document_.contents().placed) {
+    if (!each->is_laid_out()) continue;
+    const QRect box = box_of(*each).toAlignedRect();
+    if (box.intersects(rect()) && (box.width() >= small || box.height() >= small)) boxes.emplace_back(each, box);
+  }
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const auto& [placed, box] = boxes[i];
+    if (!marks_.has(placed->id)) continue;
+    QRegion seen(box, placed->patch.shape == "ellipse" ? QRegion::Ellipse : QRegion::Rectangle);
+    if (boxes.size() * boxes.size() < most_covers)
+      for (std::size_t front = i + 1; front < boxes.size(); ++front)
+        if (boxes[front].second.intersects(box)) seen -= boxes[front].second;
+    if (!seen.isEmpty()) marked_.push_back({placed, seen});
   }
 }
 
-void Canvas::draw_cursor(QPainter& painter) const {
+void Canvas::add_cursor(std::vector<MovingShape>& shapes) const {
   const QPointF at = to_pixels(glm::dvec2(now_.position));
-  painter.setBrush(Qt::NoBrush);
+  const QPen line(Qt::black, 2);
+  const QColor light(255, 255, 255, 200);
+  const auto round = [&](QPointF middle, double radius, QPen pen, QBrush brush) {
+    MovingShape shape{.pen = std::move(pen), .brush = std::move(brush)};
+    shape.path.addEllipse(middle, radius, radius);
+    shapes.push_back(std::move(shape));
+  };
   switch (look_.cursor) {
     case Cursor::hidden: return;
-    case Cursor::drop_shadow:
-      painter.setPen(Qt::NoPen);
-      painter.setBrush(QColor(0, 0, 0, 90));
-      painter.drawEllipse(at + QPointF(4, 5), 9, 9);
-      [[fallthrough]];
-    case Cursor::ring:
-      painter.setBrush(QColor(255, 255, 255, 200));
-      painter.setPen(QPen(Qt::black, 2));
-      painter.drawEllipse(at, 7, 7);
-      break;
+    case Cursor::drop_shadow: round(at + QPointF(4, 5), 9, Qt::NoPen, QColor(0, 0, 0, 90)); [[fallthrough]];
+    case Cursor::ring: round(at, 7, line, light); break;
     case Cursor::square:
-      painter.setBrush(QColor(255, 255, 255, 200));
-      painter.setPen(QPen(Qt::black, 2));
-      painter.drawRect(QRectF(at.x() - 6, at.y() - 6, 12, 12));
+      shapes.push_back({.pen = line, .brush = light});
+      shapes.back().path.addRect(at.x() - 6, at.y() - 6, 12, 12);
   }
 }
 
-void Canvas::draw_moving(QPainter& painter) {
-  painter.setRenderHint(QPainter::Antialiasing);
-  if (feeling_.is_on() && look_.cursor_behind) draw_cursor(painter);
-  if (feeling_.is_on() && look_.marks && touched_)
-    if (const Placed* touched = document_.contents().find(*touched_)) draw_marks(painter, *touched);
-  if (feeling_.is_on()) {
-    if (!look_.cursor_behind) draw_cursor(painter);
-    const wale::Force force = now_.force;
-    if (look_.force && !feeling_.profile().shaker && std::hypot(force.x, force.y) > 0.005f) {
-      const QPointF from = to_pixels(glm::dvec2(now_.position));
-      const QPointF to = from + QPointF(force.x, -force.y) * arrow_per_newton * scale_;
-      painter.setPen(QPen(QColor(200, 30, 30), 3, Qt::SolidLine, Qt::RoundCap));
-      painter.drawLine(from, to);
-      const double angle = std::atan2(to.y() - from.y(), to.x() - from.x());
-      for (const double turn : {2.6, -2.6})
-        painter.drawLine(to, to + 8 * QPointF(std::cos(angle + turn), std::sin(angle + turn)));
+void Canvas::add_arrow(std::vector<MovingShape>& shapes) const {
+  const wale::Force force = now_.force;
+  if (!look_.force || feeling_.profile().shaker || std::hypot(force.x, force.y) <= least_arrow) return;
+  const QPointF from = to_pixels(glm::dvec2(now_.position));
+  const QPointF to = from + QPointF(force.x, -force.y) * arrow_per_newton * scale_;
+  MovingShape shape{.pen = QPen(QColor(200, 30, 30), 3, Qt::SolidLine, Qt::RoundCap)};
+  shape.path.moveTo(from);
+  shape.path.lineTo(to);
+  const double angle = std::atan2(to.y() - from.y(), to.x() - from.x());
+  for (const double turn : {2.6, -2.6}) {
+    shape.path.moveTo(to);
+    shape.path.lineTo(to + 8 * QPointF(std::cos(angle + turn), std::sin(angle + turn)));
+  }
+  shapes.push_back(std::move(shape));
+}
+
+QRegion Canvas::follow_moving() {
+  const bool is_on = feeling_.is_on();
+  if (!is_on && !was_on_ && !marked_are_old_) return {};
+  was_on_ = is_on;
+  if (marked_are_old_) find_marked();
+  std::vector<MovingShape> next;
+  if (is_on && look_.cursor_behind) add_cursor(next);
+  const auto to_pixels = [this](glm::dvec2 metres) { return this->to_pixels(metres); };
+  for (const auto& [placed, seen] : marked_) {
+    const bool is_touched = is_on && touched_ == placed->id;
+    for (MovingShape& each : marks_.shapes(*placed, glm::vec2(size_of(*placed)), now_, is_touched, to_pixels, scale_)) {
+      if (!is_touched) each.within = seen;
+      next.push_back(std::move(each));
     }
   }
+  if (is_on && !look_.cursor_behind) add_cursor(next);
+  if (is_on) add_arrow(next);
+  QRegion changed;
+  for (std::size_t i = 0; i < std::max(next.size(), moving_shapes_.size()); ++i) {
+    const MovingShape* before = i < moving_shapes_.size() ? &moving_shapes_[i] : nullptr;
+    const MovingShape* now = i < next.size() ? &next[i] : nullptr;
+    if (before && now && *before == *now) continue;
+    if (before) changed += before->region();
+    if (now) changed += now->region();
+  }
+  moving_shapes_ = std::move(next);
+  return changed;
+}
+
+void Canvas::draw_moving(QPainter& painter, const QRegion& where) {
+  painter.setRenderHint(QPainter::Antialiasing);
+  for (const MovingShape& each : moving_shapes_)
+    if (where.intersects(each.region())) each.draw(painter);
   if (drag_ == Drag::choose) {
     painter.setPen(QPen(palette().color(QPalette::Highlight), 1, Qt::DashLine));
     painter.setBrush(Qt::NoBrush);
@@ -406,27 +422,39 @@ void Canvas::draw_moving(QPainter& painter) {
   }
 }
 
-void Canvas::paintEvent(QPaintEvent*) {
+void Canvas::paintEvent(QPaintEvent* event) {
   if (still_is_old_ || still_.size() != size() * devicePixelRatioF()) draw_still();
+  if (marked_are_old_) follow_moving();  // all is painted now
   QPainter painter(this);
-  painter.drawPixmap(0, 0, still_);
-  draw_moving(painter);
+  painter.drawPixmap(0, 0, still_);  // as much of it as the event asks for
+  draw_moving(painter, event->region());
+}
+
+void Canvas::draw_remembered() {
+  if (!feeling_.is_on() || !touched_ || (last_live_.isValid() && last_live_.elapsed() < live_milliseconds)) return;
+  if (look_.surfaces != Look::relief && look_.surfaces != Look::depth) return;
+  const wale::Program* program = feeling_.program(*touched_);
+  const Placed* placed = document_.contents().find(*touched_);
+  if (!placed || !program || !surface_remembers(program->description())) return;
+  auto snapshot = feeling_.snapshot(*touched_);
+  if (!snapshot) return;
+  last_live_.start();
+  pictures_.draw_remembered(placed->id, *std::move(snapshot), parameters_of(*placed), placed->patch.outline,
+                            (box_of(*placed).size() * devicePixelRatioF()).toSize(), look_.surfaces,
+                            colour_of(placed->patch.made_of));
 }
 
 void Canvas::refresh() {
-  const wale::Now before = now_;
   now_ = feeling_.now();
   auto touched = feeling_.touched(now_);
   if (!feeling_.is_on() && mouse_)
     if (const Placed* under = patch_at(*mouse_)) touched = under->id;
   if (touched != touched_) {
     touched_ = touched;
-    path_.clear();
     emit touched_changed();
-    update();
-  } else if (feeling_.is_on() && (now_.position != before.position || now_.force != before.force)) {
-    update();
   }
+  draw_remembered();
+  if (const QRegion changed = follow_moving(); !changed.isEmpty()) update(changed);
 }
 
 }  // namespace sandpaper

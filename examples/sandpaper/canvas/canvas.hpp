@@ -1,15 +1,16 @@
 #pragma once
 
 #include <QCache>
+#include <QElapsedTimer>
 #include <QImage>
 #include <QPixmap>
 #include <QTimer>
 #include <QWidget>
-#include <deque>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <set>
 
+#include "canvas/marks.hpp"
 #include "document/document.hpp"
 #include "document/numbers.hpp"
 #include "feeling/feeling.hpp"
@@ -96,9 +97,12 @@ class Canvas : public QWidget {
   void refresh();      ///< reads the hand, 60 times a second
   void draw_still();   ///< all that does not move, into `still_`
   void draw_patch(QPainter& painter, const Placed& placed);
-  void draw_marks(QPainter& painter, const Placed& placed);
-  void draw_moving(QPainter& painter);
-  void draw_cursor(QPainter& painter) const;
+  void find_marked();  ///< the patches whose marks can be seen, and where
+  void add_cursor(std::vector<MovingShape>& shapes) const;
+  void add_arrow(std::vector<MovingShape>& shapes) const;
+  QRegion follow_moving();  ///< where what moves is another than before
+  void draw_moving(QPainter& painter, const QRegion& where);
+  void draw_remembered();  ///< the touched surface, if its program changes it
   QImage covered_part(const Placed& placed, QSize pixels);
   std::vector<float> parameters_of(const Placed& placed) const;
   void changed();
@@ -128,7 +132,15 @@ class Canvas : public QWidget {
   wale::Now now_;
   std::optional<std::uint64_t> touched_;
   std::optional<glm::dvec2> mouse_;  // m, while it is over the canvas
-  std::deque<QPointF> path_;         // of a trajectory mark, m
+  struct Marked {
+    PlacedRef placed;
+    QRegion seen;
+  };
+  Marks marks_;
+  std::vector<Marked> marked_;
+  bool marked_are_old_ = true, was_on_ = false;
+  std::vector<MovingShape> moving_shapes_;  // the marks, the cursor, and the force as an arrow
+  QElapsedTimer last_live_;
 
   Drag drag_ = Drag::nothing;
   QPointF pressed_at_, dragged_to_;

@@ -57,8 +57,8 @@ glm::dvec2 Canvas::snapped(glm::dvec2 metres) const {
 void Canvas::mousePressEvent(QMouseEvent* event) {
   setFocus(Qt::MouseFocusReason);
   pressed_at_ = dragged_to_ = event->position();
-  if (event->button() == Qt::MiddleButton ||
-      (event->button() == Qt::LeftButton && event->modifiers() & Qt::AltModifier)) {
+  const bool is_free = event->button() == Qt::LeftButton && event->modifiers() & Qt::AltModifier;
+  if (event->button() == Qt::MiddleButton || (is_free && (fixed_ || !patch_at(to_metres(event->position()))))) {
     drag_ = Drag::pan;
     centre_before_ = centre_;
     return;
@@ -200,10 +200,13 @@ void Canvas::keyPressEvent(QKeyEvent* event) {
       const auto& all = document_.contents().placed;
       if (event->key() == Qt::Key_Tab || all.empty() || fixed_) break;
       const bool back = event->key() == Qt::Key_P;
-      std::size_t at = back ? 0 : all.size() - 1;
+      std::size_t at = back ? 0 : all.size() - 1;  // behind it is the next
       for (std::size_t i = 0; i < all.size(); ++i)
-        if (document_.chosen().contains(all[i]->id)) at = i;
-      return document_.choose({all[(at + (back ? all.size() - 1 : 1)) % all.size()]->id});
+        if (const std::size_t one = back ? all.size() - 1 - i : i; document_.chosen().contains(all[one]->id)) at = one;
+      std::set<std::uint64_t> chosen;
+      if (event->modifiers() & Qt::ShiftModifier) chosen = document_.chosen();
+      chosen.insert(all[(at + (back ? all.size() - 1 : 1)) % all.size()]->id);
+      return document_.choose(chosen);
     }
     default: break;
   }

@@ -67,6 +67,18 @@ QRgb rgb(glm::vec3 colour, float brightness) {
 
 }  // namespace
 
+bool surface_remembers(const wale::PatchProgram& program) {
+  const unsigned first = program.first_state(), end = first + static_cast<unsigned>(program.states.size());
+  const auto is_state = [&](unsigned number) { return number >= first && number < end; };
+  const auto& picture = program.picture;
+  const auto& shown = picture.colour;
+  return is_state(picture.relief) || (shown && std::ranges::any_of(*shown, is_state)) ||
+         std::ranges::any_of(picture.code, [&](const wale::Instruction& each) {
+           return each.operation == static_cast<std::uint8_t>(wale::Operation::recall) || is_state(each.a) ||
+                  is_state(each.b) || is_state(each.c);
+         });
+}
+
 QColor colour_of(const std::string& made_of) {
   unsigned hash = 2166136261u;
   for (const unsigned char each : made_of.substr(0, made_of.find('('))) hash = (hash ^ each) * 16777619u;

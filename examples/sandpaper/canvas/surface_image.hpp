@@ -24,6 +24,9 @@ enum class Look {
 QImage surface_image(const wale::Bank& bank, const wale::Memory* memory, glm::vec2 size, const wale::Shape& shape,
                      QSize pixels, Look look, QColor plain);
 
+/// Whether what a program remembers can change its surface.
+bool surface_remembers(const wale::PatchProgram& program);
+
 /// A colour for a material that has none, always the same for the same name: `denim(roughness: 0.3)` has that of
 /// `denim`.
 QColor colour_of(const std::string& made_of);

@@ -8,10 +8,10 @@
 namespace sandpaper {
 namespace {
 
-QTextCharFormat format_of(wale::WordKind kind, bool is_dark) {
+QTextCharFormat format_of(wale::WordKind kind, bool on_dark) {
   QTextCharFormat format;
   const auto colour = [&](int light, int dark) {
-    format.setForeground(QColor::fromRgb(static_cast<QRgb>(is_dark ? dark : light)));
+    format.setForeground(QColor::fromRgb(static_cast<QRgb>(on_dark ? dark : light)));
   };
   switch (kind) {
     case wale::WordKind::comment: colour(0x6a737d, 0x9aa5b1); break;
@@ -30,6 +30,10 @@ QTextCharFormat format_of(wale::WordKind kind, bool is_dark) {
 }
 
 }  // namespace
+
+bool is_dark(const QPalette& palette) { return palette.color(QPalette::Base).lightness() < 128; }
+
+QColor error_colour(const QPalette& palette) { return is_dark(palette) ? QColor(255, 125, 115) : QColor(200, 30, 30); }
 
 Offsets::Offsets(const QString& text) {
   bytes_.reserve(static_cast<std::size_t>(text.size()) + 1);
@@ -76,13 +80,13 @@ void Highlighter::read() {
 
 void Highlighter::highlightBlock(const QString& text) {
   if (is_old_) read();
-  const bool is_dark = QApplication::palette().color(QPalette::Base).lightness() < 128;
+  const bool dark = is_dark(QApplication::palette());
   const int from = currentBlock().position(), to = from + static_cast<int>(text.size());
   auto each = std::ranges::lower_bound(words_, from, {}, [](const Word& word) { return word.begin + word.length; });
   bool in_comment = false;
   for (; each != words_.end() && each->begin < to; ++each) {
     setFormat(std::max(each->begin, from) - from,
-              std::min(each->begin + each->length, to) - std::max(each->begin, from), format_of(each->kind, is_dark));
+              std::min(each->begin + each->length, to) - std::max(each->begin, from), format_of(each->kind, dark));
     in_comment = each->kind == wale::WordKind::comment && each->begin + each->length > to;
   }
   setCurrentBlockState(in_comment ? 1 : 0);  // the lines of a block comment follow one another

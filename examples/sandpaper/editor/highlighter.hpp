@@ -1,10 +1,16 @@
 #pragma once
 
+#include <QPalette>
 #include <QSyntaxHighlighter>
 #include <vector>
 #include <wale/language_service.hpp>
 
 namespace sandpaper {
+
+/// Whether the window's colours are light on dark.
+bool is_dark(const QPalette& palette);
+/// The colour of errors, as text and as a line below it.
+QColor error_colour(const QPalette& palette);
 
 /// Colours a text by what its words are, in the light or the dark palette of the window.
 class Highlighter : public QSyntaxHighlighter {

@@ -96,7 +96,7 @@ void TextEditor::show_problems() {
     if (!each.error.mend.empty()) words += "; " + QString::fromStdString(each.error.mend);
     if (each.error.place.number) words = tr("line %1: %2").arg(*each.error.place.number).arg(words);
     auto* item = new QListWidgetItem((is_error ? tr("error, ") : tr("warning, ")) + words, problems_);
-    item->setForeground(is_error ? QColor(200, 30, 30) : palette().color(QPalette::Text));
+    item->setForeground(is_error ? error_colour(palette()) : palette().color(QPalette::Text));
   }
   problems_->setVisible(!problems.empty());
   problems_->setMaximumHeight(std::min(problems_->sizeHintForRow(0) * problems_->count() + 6, most_height));

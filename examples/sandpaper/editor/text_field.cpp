@@ -73,7 +73,7 @@ void TextField::set_problems(const std::vector<wale::Problem>& problems) {
         QTextCursor::KeepAnchor);
     selection.format.setUnderlineStyle(QTextCharFormat::WaveUnderline);
     selection.format.setUnderlineColor(
-        wale::severity_of(each.error.code) == wale::Severity::error ? QColor(Qt::red) : QColor(200, 140, 0));
+        wale::severity_of(each.error.code) == wale::Severity::error ? error_colour(palette()) : QColor(200, 140, 0));
     selections << selection;
   }
   setExtraSelections(selections);

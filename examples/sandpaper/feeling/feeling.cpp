@@ -54,9 +54,9 @@ void Feeling::open(const QString& spelling) {
   opening_ = std::thread([this, spelling, attempt] {
     auto device = std::make_shared<wale::Result<std::unique_ptr<wale::Device>>>(
         library_.open_device(spelling.toStdString(), {.ask = [this](const std::string& what) {
-          QMetaObject::invokeMethod(this, [this, what] { emit said(QString::fromStdString(what)); });
+          window_.post([this, what] { emit said(QString::fromStdString(what)); });
         }}));
-    QMetaObject::invokeMethod(this, [this, spelling, device, attempt] { take(spelling, std::move(*device), attempt); });
+    window_.post([this, spelling, device, attempt] { take(spelling, std::move(*device), attempt); });
   });
 }
 
@@ -70,6 +70,7 @@ void Feeling::take(QString spelling, wale::Result<std::unique_ptr<wale::Device>>
   stage_.reset();
   mouse_ = dynamic_cast<MouseHand*>(device->get());
   device_ = std::make_unique<Recentred>(*std::move(device));
+  heard_device_ = std::make_unique<HeardDevice>(*device_, heard_);
   spelling_ = std::move(spelling);
   profile_ = device_->profile();
   if (max_force_ <= 0 || max_force_ > profile_.force_newton) max_force_ = profile_.force_newton;
@@ -103,6 +104,7 @@ void Feeling::set_on(bool on) {
     emit said(problem);
   }
   on_ = on;
+  if (on) emit forgot();
   if (!on && is_recording()) end_recording(problem);
   emit on_changed();
 }
@@ -125,19 +127,24 @@ void Feeling::renew_stage() {
   wale::StageOptions options;
   if (profile_.force_newton > 0) options.max_force = max_force_;
   if (is_recording()) options.record = wale::RecordTo{.file = record_.toStdString(), .hand = {}};
-  stage_ = std::make_unique<wale::Stage>(*device_, options);
+  stage_ = std::make_unique<wale::Stage>(*heard_device_, options);
   for (auto& [id, felt] : felt_) felt.patch.reset(), felt.program.reset(), felt.material.reset();
   follow(Contents(contents_));
 }
 
-wale::PatchOptions Feeling::options(const Felt& felt) const {
-  const wale::LaidOutPatch& patch = felt.placed->patch;
-  wale::PatchSize size = felt.program->default_size();
+wale::PatchSize felt_size(const wale::LaidOutPatch& patch, const wale::Program& program) {
+  wale::PatchSize size = program.default_size();
   if (patch.size) size.width = static_cast<float>(patch.size->x), size.height = static_cast<float>(patch.size->y);
   else if (!patch.outline.is_rectangle() && patch.shape != "ellipse")
     size.width = patch.outline.size().x, size.height = patch.outline.size().y;
   size.rim =
       static_cast<float>(patch.rim.value_or(std::min(usual_rim, widest_rim * std::min(size.width, size.height))));
+  return size;
+}
+
+wale::PatchOptions Feeling::options(const Felt& felt) const {
+  const wale::LaidOutPatch& patch = felt.placed->patch;
+  const wale::PatchSize size = felt_size(patch, *felt.program);
   return {.at = glm::vec2(patch.at), .size = size, .layer = static_cast<float>(felt.layer), .shape = patch.outline};
 }
 

@@ -11,11 +11,16 @@
 #include <wale/stage.hpp>
 
 #include "document/placed.hpp"
+#include "feeling/hand_over.hpp"
+#include "feeling/heard_forces.hpp"
 #include "feeling/mouse_hand.hpp"
 #include "feeling/programs.hpp"
 #include "feeling/recentred.hpp"
 
 namespace sandpaper {
+
+/// The size and the rim with which a patch is felt.
+wale::PatchSize felt_size(const wale::LaidOutPatch& patch, const wale::Program& program);
 
 /// What is felt: the patches of the workspace on a stage, on a device. In the window's thread, except that the loop
 /// serves its ticks on one of its own. Force is off until it is asked for, and off again after each change of device.
@@ -62,6 +67,8 @@ class Feeling : public QObject {
   glm::dvec2 centre() const;
 
   wale::Now now() const;
+  /// The forces of the ticks, for an ear.
+  HeardForces& heard() { return heard_; }
   /// The patch that the hand is on.
   std::optional<std::uint64_t> touched(const wale::Now& now) const;
   /// The program of a patch as it is felt; nothing before it is known.
@@ -77,6 +84,8 @@ class Feeling : public QObject {
   void on_changed();
   void device_changed();
   void programs_changed();
+  /// A run begins: no program remembers anything.
+  void forgot();
   /// A recording is in its file; `problem` says why it may not be.
   void recorded(const QString& file, const QString& problem);
   /// Something that a person should know, in a sentence.
@@ -103,6 +112,8 @@ class Feeling : public QObject {
   QString spelling_;
   wale::DeviceProfile profile_;
   std::unique_ptr<Recentred> device_;
+  HeardForces heard_;
+  std::unique_ptr<HeardDevice> heard_device_;  // the same device, on the stage
   MouseHand* mouse_ = nullptr;
   double max_force_ = 0;
   bool on_ = false;
@@ -112,6 +123,7 @@ class Feeling : public QObject {
   std::map<std::uint64_t, Felt> felt_;
   std::map<std::uint64_t, std::uint64_t> by_patch_;  // ids of the document by those of the stage
   std::uint64_t attempt_ = 0;
+  HandOver window_;
   std::thread opening_;
 };
 

@@ -45,8 +45,7 @@ MaterialProgramRef Programs::find(const std::string& surroundings, const std::st
     wale::CompiledText compiled = language_.compile(text, options, material_name(made_of));
     auto program = std::make_shared<MaterialProgram>();
     program->program = std::move(compiled.program), program->problems = std::move(compiled.problems);
-    QMetaObject::invokeMethod(this,
-                              [this, key, made_of, program, generation] { keep(key, made_of, program, generation); });
+    window_.post([this, key, made_of, program, generation] { keep(key, made_of, program, generation); });
   });
   return nullptr;
 }

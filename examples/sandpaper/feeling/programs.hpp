@@ -8,6 +8,7 @@
 #include <vector>
 #include <wale/language_service.hpp>
 
+#include "feeling/hand_over.hpp"
 #include "feeling/work_thread.hpp"
 
 namespace sandpaper {
@@ -49,6 +50,7 @@ class Programs : public QObject {
   std::string device_;
   std::map<std::string, MaterialProgramRef> known_;  // null while it is being compiled
   std::uint64_t generation_ = 0;
+  HandOver window_;
   WorkThread thread_;  // the last member: its work uses the others
 };
 

@@ -3,6 +3,8 @@
 #include <QFontDatabase>
 #include <QHeaderView>
 #include <QVBoxLayout>
+#include <bit>
+#include <utility>
 
 namespace sandpaper {
 namespace {
@@ -11,6 +13,14 @@ constexpr std::size_t most_known = 500;
 
 QString level(const std::optional<double>& level) {
   return level ? QString::number(*level, 'f', 2) : QStringLiteral("–");
+}
+
+/// The same only for the same program, values and size.
+std::string key_of(const wale::PlacedProgram& patch) {
+  const auto bits = [](float each) { return std::to_string(std::bit_cast<std::uint32_t>(each)); };
+  std::string key = std::to_string(reinterpret_cast<std::uintptr_t>(&patch.program.decoded()));
+  for (const float each : patch.parameters) key += " " + bits(each);
+  return key + "@" + bits(patch.size.width) + " " + bits(patch.size.height) + " " + bits(patch.size.rim);
 }
 
 }  // namespace
@@ -39,43 +49,63 @@ DescriptionPanel::DescriptionPanel(const wale::LanguageService& language, QWidge
   layout->addWidget(text_);
 }
 
-void DescriptionPanel::show(const QString& name, const wale::Program* program, const QString& why_none) {
+void DescriptionPanel::show_none(const QString& name, const QString& why) {
   title_->setText(name);
-  if (!program) {
-    shown_ = nullptr;
-    percepts_->setRowCount(0);
-    text_->setPlainText(why_none);
-    return;
-  }
-  const void* key = &program->decoded();
+  shown_.clear();
+  program_ = nullptr;
+  is_reading_ = false;
+  percepts_->setRowCount(0);
+  text_->setPlainText(why);
+}
+
+void DescriptionPanel::show(const QString& name, const wale::PlacedProgram& patch) {
+  show_read(name, key_of(patch), &patch.program.decoded(), [&language = language_, patch] {
+    const auto told = language.tell(patch.program, patch.parameters, patch.size);
+    if (!told) return Told{.text = QString::fromStdString(wale::in_words(told.error())), .of = {patch.program}};
+    return Told{QString::fromStdString(told->text), told->percepts, {patch.program}, true};
+  });
+}
+
+void DescriptionPanel::show_pair(const QString& names, const wale::PlacedProgram& a, const wale::PlacedProgram& b) {
+  const std::string key = key_of(a) + "|" + key_of(b) + "|" + a.called + "|" + b.called;
+  show_read(names, key, &a.program.decoded(), [&language = language_, a, b] {
+    const auto compared = language.compare(a, b);
+    return Told{.text = QString::fromStdString(compared ? *compared : wale::in_words(compared.error())),
+                .of = {a.program, b.program}};
+  });
+}
+
+void DescriptionPanel::show_read(const QString& name, const std::string& key, const void* program,
+                                 std::function<Told()> read) {
+  title_->setText(name);
   if (key == shown_) return;
   shown_ = key;
-  if (known_.size() > most_known) known_.clear();
-  const auto [found, is_new] = known_.try_emplace(key, *program, nullptr);
-  if (found->second.second) return fill(found->second.second);
-  percepts_->setRowCount(0);
-  text_->setPlainText(tr("reading …"));
-  if (!is_new) return;
-  thread_.post(0, std::to_string(reinterpret_cast<std::uintptr_t>(key)), [this, key, program = *program] {
-    const Told told = std::make_shared<const wale::Result<wale::ToldMaterial>>(language_.tell(program));
-    QMetaObject::invokeMethod(this, [this, key, told] {
-      const auto waits = known_.find(key);
-      if (waits != known_.end()) waits->second.second = told;
-      if (key == shown_) fill(told);
+  if (const auto known = known_.find(key); known != known_.end()) {
+    program_ = program;
+    return fill(*known->second);
+  }
+  if (std::exchange(program_, program) != program) {
+    percepts_->setRowCount(0);
+    text_->setPlainText(tr("reading …"));
+  }
+  is_reading_ = true;
+  // Of what a moving slider asks for, only the newest is read.
+  thread_.post(0, "shown", [this, key, read = std::move(read)] {
+    const auto told = std::make_shared<const Told>(read());
+    window_.post([this, key, told] {
+      if (known_.size() > most_known) known_.clear();
+      known_[key] = told;
+      if (key == shown_) fill(*told);
     });
   });
 }
 
 void DescriptionPanel::fill(const Told& told) {
-  if (!*told) {
-    percepts_->setRowCount(0);
-    text_->setPlainText(QString::fromStdString(wale::in_words(told->error())));
-    return;
-  }
-  const wale::ToldMaterial& material = **told;
-  percepts_->setRowCount(static_cast<int>(material.percepts.size()));
+  is_reading_ = false;
+  percepts_->setVisible(!told.percepts.empty());
+  percepts_->setRowCount(static_cast<int>(told.percepts.size()));
   for (int row = 0; row < percepts_->rowCount(); ++row) {
-    const wale::ToldPercept& each = material.percepts[static_cast<std::size_t>(row)];
+    const wale::ToldPercept& each = told.percepts[static_cast<std::size_t>(row)];
     const QString why = QString::fromStdString(each.why);
     const QString columns[] = {QString::fromStdString(each.name), level(each.asked), level(each.reads),
                                QString::fromStdString(each.evidence)};
@@ -85,9 +115,7 @@ void DescriptionPanel::fill(const Told& told) {
       percepts_->setItem(row, column, item);
     }
   }
-  // The first line is the material's name, which the patch has here.
-  const QString text = QString::fromStdString(material.text);
-  text_->setPlainText(title_->text() + text.mid(text.indexOf('\n')));
+  text_->setPlainText(told.names_itself ? title_->text() + told.text.mid(told.text.indexOf('\n')) : told.text);
 }
 
 }  // namespace sandpaper

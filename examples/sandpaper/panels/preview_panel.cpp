@@ -76,13 +76,13 @@ PreviewPanel::PreviewPanel(const wale::LanguageService& language, QWidget* paren
   connect(&waiting_, &QTimer::timeout, this, &PreviewPanel::draw);
 }
 
-bool PreviewPanel::alike(const std::optional<Previewed>& a, const std::optional<Previewed>& b) {
+bool PreviewPanel::alike(const std::optional<wale::PlacedProgram>& a, const std::optional<wale::PlacedProgram>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return &a->program.decoded() == &b->program.decoded() && a->parameters == b->parameters &&
          a->size.width == b->size.width && a->size.height == b->size.height && a->size.rim == b->size.rim;
 }
 
-void PreviewPanel::show(const QString& name, std::optional<Previewed> what) {
+void PreviewPanel::show(const QString& name, std::optional<wale::PlacedProgram> what) {
   name_ = name;
   setAccessibleDescription(name);
   if (alike(what, wanted_)) return;
@@ -117,7 +117,7 @@ void PreviewPanel::draw() {
                             QImage::fromData(reinterpret_cast<const uchar*>(each.png.data()),
                                              static_cast<int>(each.png.size()))});
     const QString why = parts ? QString() : QString::fromStdString(wale::in_words(parts.error()));
-    QMetaObject::invokeMethod(this, [this, what, pictures, why] {
+    window_.post([this, what, pictures, why] {
       if (!alike(what, wanted_)) return;
       drawn_ = what;
       sheet_->show(pictures, why);

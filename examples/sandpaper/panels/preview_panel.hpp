@@ -8,16 +8,10 @@
 #include <vector>
 #include <wale/language_service.hpp>
 
+#include "feeling/hand_over.hpp"
 #include "feeling/work_thread.hpp"
 
 namespace sandpaper {
-
-/// A program with the values and the size with which it is felt.
-struct Previewed {
-  wale::Program program;
-  std::vector<float> parameters;  ///< SI
-  wale::PatchSize size;
-};
 
 /// A picture of the preview; a plot's title is in it, too.
 struct PreviewPicture {
@@ -55,7 +49,7 @@ class PreviewPanel : public QScrollArea {
   explicit PreviewPanel(const wale::LanguageService& language, QWidget* parent = nullptr);
 
   /// Shows what is felt of a patch, or nothing.
-  void show(const QString& name, std::optional<Previewed> what);
+  void show(const QString& name, std::optional<wale::PlacedProgram> what);
   bool is_busy() const { return waiting_.isActive() || thread_.waiting() > 0; }
   const std::vector<PreviewPicture>& pictures() const { return sheet_->pictures(); }
 
@@ -65,13 +59,14 @@ class PreviewPanel : public QScrollArea {
 
  private:
   void draw();
-  static bool alike(const std::optional<Previewed>& a, const std::optional<Previewed>& b);
+  static bool alike(const std::optional<wale::PlacedProgram>& a, const std::optional<wale::PlacedProgram>& b);
 
   const wale::LanguageService& language_;
   PreviewSheet* sheet_;
   QString name_;
-  std::optional<Previewed> wanted_, drawn_;
+  std::optional<wale::PlacedProgram> wanted_, drawn_;
   QTimer waiting_;
+  HandOver window_;
   WorkThread thread_;  // the last member: its work uses the others
 };
 

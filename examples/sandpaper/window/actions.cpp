@@ -248,6 +248,15 @@ void MainWindow::make_feel_menu() {
     }
   });
   menu->addSeparator();
+  add(menu, "compare", tr("&Compare the two chosen patches"), tr("Ctrl+Shift+D"), [this] {
+    auto* dock = findChild<QDockWidget*>("dock_description");
+    dock->show();
+    dock->raise();
+    dock->findChild<QPlainTextEdit*>()->setFocus();
+  });
+  QAction* hear = add_toggle(menu, "hear", tr("&Hear the force"), tr("Ctrl+Shift+H"), false,
+                             [this](bool on) { sound_.set_wished(on); });
+  connect(&sound_, &Sound::wished_changed, hear, &QAction::setChecked);
   add(menu, "say_touched", tr("&Say what is touched"), tr("Ctrl+T"), [this] {
     const auto touched = canvas_->touched();
     const Placed* placed = touched ? document_.contents().find(*touched) : nullptr;
@@ -280,8 +289,8 @@ void MainWindow::make_help_menu() {
   add(menu, "keys", tr("&Keys"), tr("F1"), [this] {
     announcement_->say(
         tr("Space or Esc takes all force away. On the canvas: arrows move by 1 mm (with Shift 10, with Ctrl 0.1), "
-           "N and P choose the next and the previous patch, the wheel zooms, the middle button pans, Alt moves "
-           "without snapping. In the text: Ctrl+Space proposes words, Ctrl+. mends."));
+           "N and P choose the next and the previous patch (with Shift besides), the wheel zooms, the middle button pans, Alt moves a "
+           "patch without snapping. In the text: Ctrl+Space proposes words, Ctrl+. mends."));
   });
   add(menu, "about", tr("&About"), {}, [this] {
     announcement_->say(tr("Sandpaper: a workspace for materials that are felt, after Margaret Minsky's of 1995."));

@@ -29,7 +29,7 @@ class Exchange : public QObject {
   /// The commands with file dialogs, in the File menu.
   void add_to(QMenu& menu, QWidget& window);
   /// What is felt of a patch.
-  Previewed previewed(const Placed& placed, const wale::Program& program) const;
+  wale::PlacedProgram previewed(const Placed& placed, const wale::Program& program) const;
   /// The patch whose preview, program and surface are exported: chosen or touched.
   void set_shown(const std::function<std::optional<std::uint64_t>()>& shown) { shown_ = shown; }
 

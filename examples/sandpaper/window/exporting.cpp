@@ -168,12 +168,8 @@ void Exchange::export_picture(const QString& file) {
   emit said(told(save_bytes(file, bytes), file));
 }
 
-Previewed Exchange::previewed(const Placed& placed, const wale::Program& program) const {
-  const glm::dvec2 size = canvas_.size_of(placed);
-  const double rim = placed.patch.rim.value_or(program.default_size().rim);
-  return {program,
-          parameters_of(placed, program),
-          {static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(rim)}};
+wale::PlacedProgram Exchange::previewed(const Placed& placed, const wale::Program& program) const {
+  return {program, parameters_of(placed, program), felt_size(placed.patch, program), placed.patch.name};
 }
 
 void Exchange::export_preview(const QString& file) {

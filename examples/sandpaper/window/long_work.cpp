@@ -45,12 +45,12 @@ bool LongWork::begin(const QString& what, const std::function<QString(const Prog
   const Progress progress = [this, cancelled, shown](double share) {
     const int percent = static_cast<int>(std::lround(100 * share));
     if (shown->exchange(percent) != percent)
-      QMetaObject::invokeMethod(this, [this, percent] { bar_->setValue(percent); });
+      window_.post([this, percent] { bar_->setValue(percent); });
     return !*cancelled;
   };
   thread_->post(0, "work", [this, work, progress, cancelled] {
     const QString words = work(progress);
-    QMetaObject::invokeMethod(this, [this, words, cancelled] {
+    window_.post([this, words, cancelled] {
       busy_ = false;
       hide();
       emit ended(*cancelled ? tr("Cancelled: nothing is written") : words);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "feeling/hand_over.hpp"
 #include "feeling/work_thread.hpp"
 
 namespace sandpaper {
@@ -37,6 +38,7 @@ class LongWork : public QFrame {
   QProgressBar* bar_;
   bool busy_ = false;
   std::shared_ptr<std::atomic<bool>> cancelled_;
+  HandOver window_;
   std::unique_ptr<WorkThread> thread_;
 };
 

@@ -34,6 +34,7 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
       numbers_(document_),
       programs_(language),
       feeling_(library, programs_),
+      sound_(feeling_.heard()),
       presenting_(library, document_, numbers_, feeling_),
       catalogue_(wale::library_catalogue()),
       autosave_(document_),
@@ -75,21 +76,28 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   connect(&document_, &Document::contents_changed, this, [this] {
     feeling_.follow(presenting_.felt());
     update_actions();
-    update_preview();
+    update_description();
     advising_.start(before_advice);
   });
   advising_.setSingleShot(true);
   connect(&advising_, &QTimer::timeout, this, &MainWindow::seek_advice);
   connect(&document_, &Document::file_changed, this, &MainWindow::update_title);
-  connect(&document_, &Document::chosen_changed, this, &MainWindow::update_actions);
+  connect(&document_, &Document::chosen_changed, this, [this] {
+    update_actions();
+    update_description();
+  });
   connect(&document_, &Document::refused, announcement_, &Announcement::say);
   autosave_.set_typed([this] { return editor_->typed(); });
   connect(editor_, &TextEditor::typing, &autosave_, &Autosave::changed);
   connect(&autosave_, &Autosave::failed, announcement_, &Announcement::say);
   connect(&document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::update_title);
   connect(&feeling_, &Feeling::said, announcement_, &Announcement::say);
-  connect(&feeling_, &Feeling::on_changed, this, &MainWindow::update_safety);
-  connect(&feeling_, &Feeling::device_changed, this, &MainWindow::update_safety);
+  for (auto signal : {&Feeling::on_changed, &Feeling::device_changed})
+    connect(&feeling_, signal, this, [this] {
+      update_safety();
+      sound_.follow(feeling_.is_on(), feeling_.profile());
+    });
+  connect(&sound_, &Sound::said, announcement_, &Announcement::say);
   connect(&feeling_, &Feeling::programs_changed, this, &MainWindow::update_description);
   connect(canvas_, &Canvas::touched_changed, this, &MainWindow::touched_changed);
   connect(canvas_, &Canvas::hovered, this, [this](glm::dvec2 at) {
@@ -240,22 +248,40 @@ void MainWindow::update_actions() {
   for (const char* name : {"align_left", "align_right", "align_top", "align_bottom", "align_x", "align_y"})
     if (QAction* each = action(name)) each->setEnabled(many);
   if (QAction* rename = action("rename")) rename->setEnabled(document_.chosen().size() == 1);
+  if (QAction* compare = action("compare")) compare->setEnabled(document_.chosen().size() == 2);
 }
 
 void MainWindow::update_description() {
   update_preview();
+  if (const auto pair = chosen_pair()) {
+    const auto& [a, b] = *pair;
+    return description_->show_pair(tr("%1 and %2").arg(QString::fromStdString(a.called), QString::fromStdString(b.called)),
+                                   a, b);
+  }
   const auto shown = sliders_->shown();
   const Placed* placed = shown ? document_.contents().find(*shown) : nullptr;
-  if (!placed) return description_->show(tr("Choose or touch a patch."), nullptr);
+  if (!placed) return description_->show_none(tr("Choose or touch a patch; of two chosen ones, their differences."), {});
+  const QString name = QString::fromStdString(placed->patch.name + " = " + placed->patch.made_of);
+  if (const wale::Program* program = feeling_.program(placed->id))
+    return description_->show(name, exchange_->previewed(*placed, *program));
   const auto material = feeling_.material(placed->id);
-  QString why = tr("compiling …");
-  if (material && !material->program) {
-    why.clear();
+  QString why = material ? QString() : tr("compiling …");
+  if (material)
     for (const wale::Problem& each : material->problems)
       why += QString::fromStdString(wale::in_words(each.error)) + "\n";
+  description_->show_none(name, why);
+}
+
+std::optional<std::pair<wale::PlacedProgram, wale::PlacedProgram>> MainWindow::chosen_pair() const {
+  if (document_.chosen().size() != 2) return std::nullopt;
+  std::vector<wale::PlacedProgram> two;
+  for (const auto id : document_.chosen()) {
+    const Placed* placed = document_.contents().find(id);
+    const wale::Program* program = placed ? feeling_.program(id) : nullptr;
+    if (program) two.push_back(exchange_->previewed(*placed, *program));
   }
-  description_->show(QString::fromStdString(placed->patch.name + " = " + placed->compiled_from),
-                     feeling_.program(placed->id), why);
+  if (two.size() != 2) return std::nullopt;
+  return std::pair(two[0], two[1]);
 }
 
 void MainWindow::update_preview() {
@@ -327,7 +353,7 @@ void MainWindow::seek_advice() {
       .name = document_.file().isEmpty() ? "untitled.wale" : document_.file().toStdString()};
   advisor_.post(0, "advice", [this, text, options] {
     auto problems = language_.legibility(text, options);
-    QMetaObject::invokeMethod(this, [this, text, problems] { document_.set_advice({text, problems}); });
+    advice_.post([this, text, problems] { document_.set_advice({text, problems}); });
   });
 }
 

@@ -11,6 +11,7 @@
 #include "document/document.hpp"
 #include "editor/text_editor.hpp"
 #include "feeling/feeling.hpp"
+#include "feeling/sound.hpp"
 #include "panels/description_panel.hpp"
 #include "panels/pages_panel.hpp"
 #include "panels/palette_panel.hpp"
@@ -79,6 +80,8 @@ class MainWindow : public QMainWindow {
   void update_safety();
   void update_actions();
   void update_description();
+  /// The two chosen patches as they are felt; nothing unless there are two.
+  std::optional<std::pair<wale::PlacedProgram, wale::PlacedProgram>> chosen_pair() const;
   void update_preview();
   void touched_changed();
   void announce(const wale::Error& error);
@@ -105,6 +108,7 @@ class MainWindow : public QMainWindow {
   Numbers numbers_;
   Programs programs_;
   Feeling feeling_;
+  Sound sound_;
   Presenting presenting_;
   Pictures pictures_;
   std::unique_ptr<wale::Catalogue> catalogue_;
@@ -135,6 +139,7 @@ class MainWindow : public QMainWindow {
   qint64 last_typed_ = 0;
   long lost_ = 0;  // ticks of this run without a device
   bool closes_anyway_ = false;
+  HandOver advice_;
   WorkThread advisor_;  // the last member: its work uses the others
 };
 

@@ -138,6 +138,14 @@ struct ToldMaterial {
   std::string text;  ///< what `wale describe` prints, several lines
 };
 
+/// A program with the values and the size with which it is felt.
+struct PlacedProgram {
+  Program program;
+  std::vector<float> parameters;  ///< SI, in the order of its description
+  PatchSize size;
+  std::string called = {};  ///< as a comparison calls it; empty: by the program's name
+};
+
 /// A picture of a material, or a plot of its force.
 struct PreviewPart {
   std::string name;   ///< "surface" or "field"; "height", "force", "velocity", "hand", "time", "spectrum"; each once
@@ -148,7 +156,7 @@ struct PreviewPart {
 /// What an editor of Wale texts needs. The answers are those of the command line.
 ///
 /// All calls are safe from any thread, also at the same time; none is for a real-time thread. They need a stack of 8
-/// MB. `check`, `words` and `proposals` take some milliseconds for a usual file, `compile` and `tell` up to a second.
+/// MB. `check` and `proposals` take some milliseconds for a usual file, `compile`, `tell` and `compare` up to a second.
 class LanguageService {
  public:
   explicit LanguageService(const LibraryOptions& options = {});
@@ -175,6 +183,12 @@ class LanguageService {
   /// Reads what a program feels like. Without a percept that the author asked for, the program's force is read too,
   /// which takes longer. Error: `unknown_device` if nothing declares the program's device.
   Result<ToldMaterial> tell(const Program& program) const;
+  /// The same with these parameters (SI, in the order of its description) in a patch of this size.
+  Result<ToldMaterial> tell(const Program& program, std::span<const float> parameters, PatchSize size) const;
+
+  /// Which differences between two programs people notice, cue by cue, as `wale compare` prints it, several lines. Takes
+  /// as long as reading both. Errors: `unknown_device`; `other_device` if they are not built for one device that pushes.
+  Result<std::string> compare(const PlacedProgram& a, const PlacedProgram& b) const;
 
   /// The page that `wale preview` draws of a program with these parameters (SI, in the order of its description) in a
   /// patch of this size: relief or field, profile, force, and the spectrum of the force on a stroking hand. The bytes
