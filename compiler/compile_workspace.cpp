@@ -113,6 +113,36 @@ PatchSize size_of(const CheckedPatch& patch, const Program& program) {
   return size;
 }
 
+/// What the compiler says of the material of a patch, at the patch: its author can change that, and not a file of the
+/// library that the material is in.
+Diagnostic of_patch(Diagnostic told, const CheckedPatch& patch, const Program* program, SourceId source) {
+  if (told.code == Code::cut_patch && program) {
+    const bool has_own_size = !std::holds_alternative<RectangleOutline>(patch.outline) &&
+                              !std::holds_alternative<EllipseOutline>(patch.outline);
+    const PatchSize size = program->default_size();
+    told.help = has_own_size ? std::string("the rest cannot be felt there; make its shape smaller")
+                             : typeable("the rest cannot be felt there; `size {:.4g} mm, {:.4g} mm` fits",
+                                        1e3 * size.width, 1e3 * size.height);
+  }
+  if (told.span.source == source) return told;
+  told.message = fmt::format("`{}`, made of `{}`: {}", patch.name, patch.made_of, told.message);
+  told.span = patch.span;
+  told.label.clear(), told.secondary.clear(), told.fixes.clear();
+  if (told.code == Code::beyond_soft_range) told.help = "make the patch larger, or take another material";
+  return told;
+}
+
+/// A rim that leaves nothing of a patch whose material or device gives the size; the others were checked before.
+bool leaves_something(const CheckedPatch& patch, const PatchSize& size, Diagnostics& diagnostics) {
+  const double most = 0.5 * std::min(size.width, size.height);
+  if (patch.size || !patch.rim || *patch.rim <= most * (1 + 1e-6)) return true;
+  diagnostics.report(Advice(typeable("give at most `rim {:.4g} mm`", 1e3 * most))
+                         .about(Code::value_out_of_range, patch.span,
+                                readable("a rim of {:.4g} mm leaves nothing of `{}`, whose shorter side is {:.4g} mm",
+                                         1e3 * *patch.rim, patch.name, 2e3 * most)));
+  return false;
+}
+
 glm::vec2 point_of(const Point& at) { return {static_cast<float>(at[0]), static_cast<float>(at[1])}; }
 
 }  // namespace
@@ -143,17 +173,22 @@ std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& 
     const auto size = patch.size.value_or(std::array{0.0, 0.0});
     const auto [program, is_new] = known.try_emplace({patch.made_of, size[0], size[1]});
     if (is_new) {
-      Diagnostics of_patch;
+      Diagnostics said;
       CheckedMaterial material = *patch.material;
       material.name = patch.name, material.span = patch.span;
       if (patch.size) material.patch = patch.size, material.patch_span = patch.size_span;
-      auto compiled = compile_material(material, module, device, sources, source, resolver, of_patch);
-      for (const Diagnostic& each : of_patch.all()) diagnostics.report(each);
+      auto compiled = compile_material(material, module, device, sources, source, resolver, said);
       if (compiled) program->second = std::make_shared<const Program>(*std::move(compiled));
+      for (const Diagnostic& each : said.all())
+        diagnostics.report(of_patch(each, patch, program->second.get(), source));
     }
     good = good && program->second;
     if (!program->second) continue;
     const PatchSize laid_size = size_of(patch, *program->second);
+    if (!leaves_something(patch, laid_size, diagnostics)) {
+      good = false;
+      continue;
+    }
     auto shape = shape_of(patch.outline, laid_size);
     if (!shape) {
       diagnostics.report(

@@ -196,7 +196,9 @@ Result<std::uint64_t> SessionLog::append(const SessionEvent& event) {
 }
 
 std::uint64_t program_hash(const Program& program) {
-  return Fnv1a<std::uint64_t>().take_all(write_patch_program(program.description())).hash();
+  PatchProgram felt = program.description();
+  felt.places = {};
+  return Fnv1a<std::uint64_t>().take_all(write_patch_program(felt)).hash();
 }
 
 }  // namespace wale

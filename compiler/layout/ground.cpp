@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "compiler/areas/edge_distances.hpp"
 
@@ -15,6 +16,7 @@ constexpr double most_steps = 1000;     // in a row
 
 Ground::Ground(const std::vector<LaidPatch>& laid, double radius)
     : laid_(laid),
+      radius_(radius),
       step_(std::max(finest_step, 2 * radius / most_steps)),
       half_(static_cast<int>(std::ceil(radius / step_))),
       side_(2 * half_ + 1) {
@@ -74,12 +76,18 @@ void Ground::each_way(const Visit& visit) const {
     }
 }
 
-std::set<std::pair<int, int>> Ground::neighbours() const {
-  std::set<std::pair<int, int>> all;
-  each_way([&](int here, int there, int between, glm::dvec2, glm::dvec2) {
-    if (between * step_ <= rim(here) + rim(there)) all.insert(std::minmax(here, there));
+std::map<std::pair<int, int>, std::vector<Ground::Crossing>> Ground::neighbours() const {
+  std::map<std::pair<int, int>, std::vector<Crossing>> all;
+  each_way([&](int here, int there, int between, glm::dvec2 last, glm::dvec2 first) {
+    if (between * step_ > rim(here) + rim(there)) return;
+    all[std::minmax(here, there)].push_back(here < there ? Crossing{last, first} : Crossing{first, last});
   });
   return all;
+}
+
+bool Ground::is_slit(std::size_t patch) const {
+  const auto& at = laid_[patch].patch->at;
+  return covered_[patch] == 0 && std::hypot(at[0], at[1]) < radius_;
 }
 
 std::map<std::pair<int, int>, double> Ground::gaps() const {

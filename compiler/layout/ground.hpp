@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -17,12 +16,18 @@ class Ground {
   /// so wide that there would be more than a thousand in a row.
   Ground(const std::vector<LaidPatch>& laid, double radius);
 
+  /// Whether a patch within the device's reach is too narrow for a square, and so in none of these answers.
+  bool is_slit(std::size_t patch) const;
   /// Whether a patch that the device reaches lies wholly behind others.
   bool is_hidden(std::size_t patch) const { return covered_[patch] > 0 && seen_[patch] == 0; }
 
+  /// Where a hand goes from one patch to another: the last place of `a` and the first of `b`, m.
+  struct Crossing {
+    glm::dvec2 of_a, of_b;
+  };
   /// Patches, a < b, with places from which the way to the other is no longer than the rims of both, and those that
-  /// overlap.
-  std::set<std::pair<int, int>> neighbours() const;
+  /// overlap; with these places.
+  std::map<std::pair<int, int>, std::vector<Crossing>> neighbours() const;
 
   /// The shortest way over nothing between two patches, a < b, m: along x or y, where no third patch lies between.
   /// Without those that touch.
@@ -52,6 +57,7 @@ class Ground {
   void each_way(const Visit& visit) const;
 
   const std::vector<LaidPatch>& laid_;
+  double radius_;    // m
   double step_;      // m
   int half_, side_;  // squares
   std::vector<int> felt_;

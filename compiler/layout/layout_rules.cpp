@@ -47,7 +47,7 @@ LayoutFigures layout_figures(const std::vector<LaidPatch>& laid, const Ground& g
   const auto gaps = ground.gaps();
   for (const auto& [both, gap] : gaps)
     if (differ(both)) figures.gap = std::min(figures.gap.value_or(gap), gap);
-  for (const auto& both : ground.neighbours())
+  for (const auto& [both, crossings] : ground.neighbours())
     if (differ(both) && !gaps.contains(both)) figures.gap = 0;
   return figures;
 }

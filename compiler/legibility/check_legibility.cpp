@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "compiler/compare/compare.hpp"
+#include "compiler/declarations/discrimination.hpp"
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/layout/ground.hpp"
+#include "compiler/legibility/border.hpp"
 #include "compiler/legibility/check_count.hpp"
 #include "compiler/legibility/check_sizes.hpp"
 #include "compiler/text/readable.hpp"
@@ -21,21 +24,33 @@ void warn_of_hidden(const LaidPatch& patch, Diagnostics& diagnostics) {
                  fmt::format("`{}` is never felt: it lies behind later patches", patch.patch->name)));
 }
 
+/// Whether the box of a patch lies in that of another, so that no gap can be between them.
+bool lies_within(const LaidPatch& inner, const LaidPatch& outer) {
+  const auto &at = inner.patch->at, &of = outer.patch->at;
+  return std::abs(at[0] - of[0]) + 0.5 * inner.size.width <= 0.5 * outer.size.width &&
+         std::abs(at[1] - of[1]) + 0.5 * inner.size.height <= 0.5 * outer.size.height;
+}
+
 void check_neighbours(const std::vector<LaidPatch>& laid, const Ground& ground, const Comparer& comparer,
-                      ReadCues& cues, Diagnostics& diagnostics) {
-  for (const auto& [a, b] : ground.neighbours()) {
-    const LaidPatch &one = laid[static_cast<std::size_t>(a)], &other = laid[static_cast<std::size_t>(b)];
+                      const Discrimination& of_force, ReadCues& cues, Diagnostics& diagnostics) {
+  for (const auto& [both, crossings] : ground.neighbours()) {
+    const LaidPatch &one = laid[static_cast<std::size_t>(both.first)],
+                    &other = laid[static_cast<std::size_t>(both.second)];
     if (one.patch->made_of == other.patch->made_of) continue;  // one surface of several parts
     const Distance distance = comparer.distance(cues.of(one), cues.of(other));
     if (distance.verdict != Verdict::alike) continue;
+    const double step = border_step(one, cues.of(one), other, cues.of(other), crossings);
+    if (of_force.distance(step, 0).value_or(0) >= 1) continue;  // the border itself is felt
+    const bool is_inside = lies_within(one, other) || lies_within(other, one);
     diagnostics.report(
-        Advice(fmt::format("give one of them another level or material, or leave {:.2g} mm between them",
-                           1e3 * (one.size.rim + other.size.rim) + 1))
+        Advice("give one of them another level or material" +
+               (is_inside ? std::string()
+                          : readable(", or leave {:.2g} mm between them", 1e3 * (one.size.rim + other.size.rim) + 1)))
             .about(
                 Code::indistinct_neighbours, other.patch->span,
                 readable("people would not tell `{}` from `{}` beside it: they differ by {:.2g} of a just noticeable "
                          "difference",
-                         other.patch->name, one.patch->name, distance.noticeable)));
+                         other.patch->name, one.patch->name, std::floor(100 * distance.noticeable) / 100)));
   }
 }
 
@@ -69,7 +84,7 @@ void check_legibility(const CheckedWorkspace& workspace, const std::vector<LaidP
   if (declared->profile.shaker) return;  // cues are forces
   ReadCues cues(declarations);
   const Comparer comparer(declarations, device);
-  check_neighbours(laid, ground, comparer, cues, diagnostics);
+  check_neighbours(laid, ground, comparer, Discrimination(declarations, "amplitude", device, 1), cues, diagnostics);
   check_sizes(laid, ground, declarations, declared->profile, cues, diagnostics);
   check_count(workspace, laid, comparer, declarations, device, cues, diagnostics);
 }

@@ -45,7 +45,7 @@ NarrowestFelt::Reason NarrowestFelt::for_patch(const Cues& cues, double rim) con
   if (const auto& period = cues[CueKind::period])
     reason =
         stronger(std::move(reason),
-                 {*period + 2 * rim, readable("between its rims, of {:.2g} mm each, is less than one period of its "
+                 {*period + 2 * rim, readable("between its rims, of {:.2g} mm each, there is less than one period of its "
                                               "texture, {:.3g} mm",
                                               1e3 * rim, 1e3 * *period)});
   return reason;
@@ -67,7 +67,7 @@ void check_sizes(const std::vector<LaidPatch>& laid, const Ground& ground, const
   const auto widths = ground.widths();
   for (std::size_t i = 0; i < laid.size(); ++i) {
     const LaidPatch& patch = laid[i];
-    if (!(widths[i] > 0)) continue;  // hidden, or beyond reach
+    if (!(widths[i] > 0) && !ground.is_slit(i)) continue;  // hidden, or beyond reach
     const double shorter = std::min<double>(patch.size.width, patch.size.height);
     const double width = std::min(widths[i] + ground.square(), shorter);
     const auto reason = narrowest.for_patch(cues.of_material(patch), patch.size.rim);

@@ -350,11 +350,15 @@ class Solver {
       const auto length = constant_value(*open_terms_, period.length, &material_.parameters);
       const double widest = std::max(solved_.patch_width, solved_.patch_height);
       constexpr double patches = 4;  // even half a period of it is not felt any more
+      constexpr double metres_by_mistake = 0.5;  // m
       if (length && *length > patches * widest && said.emplace(period.span.source, period.span.begin).second)
         report(Code::beyond_soft_range, period.span,
-               readable("a period of {:.4g} m is {:.0f} times as long as the patch ({:.0f} mm), so nothing repeats",
-                        *length, *length / widest, 1e3 * widest),
-               Advice(typeable("for millimetres write `{:.4g} mm`", *length))
+               readable("a period of {} is {:.0f} times as long as the patch ({:.2g} mm), so nothing repeats",
+                        *length < 1 ? readable("{:.4g} mm", 1e3 * *length) : readable("{:.4g} m", *length),
+                        *length / widest, 1e3 * widest),
+               // Who writes metres may mean millimetres; a few centimetres are meant.
+               Advice(*length < metres_by_mistake ? std::string("make it shorter, or the patch larger")
+                                                  : typeable("for millimetres write `{:.4g} mm`", *length))
                    .fact("period", 1e3 * *length, "mm")
                    .fact("most", 1e3 * patches * widest, "mm"));
       if (!length || *length >= 2 * step || !said.emplace(period.span.source, period.span.begin).second) continue;

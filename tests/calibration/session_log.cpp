@@ -312,15 +312,25 @@ TEST(SessionLog, OnAFullDiskEndsWithTheLineBefore) {
   EXPECT_EQ(record->entries.size(), 3u);
 }
 
-TEST(SessionLog, NamesAProgramByTheHashOfItsFile) {
+TEST(SessionLog, NamesAProgramByTheHashOfWhatItDoes) {
   const Library library;
-  const auto compiled = library.compile("wale 1\nmaterial m { physical { force = vector(1 N * sin(x / 1 mm), 0 N) } }");
+  const std::string material = "material m { physical { force = vector(1 N * sin(x / 1 mm), 0 N) } }";
+  const auto compiled = library.compile("wale 1\n" + material);
   ASSERT_TRUE(compiled) << in_words(compiled.error());
   // FNV-1a as its authors describe it.
   std::uint64_t hash = 14695981039346656037u;
-  for (const std::byte each : write_patch_program(compiled->program.description()))
+  PatchProgram program = compiled->program.description();
+  program.places = {};
+  for (const std::byte each : write_patch_program(program))
     hash = (hash ^ static_cast<std::uint8_t>(each)) * 1099511628211u;
   EXPECT_EQ(program_hash(compiled->program), hash);
+  // Another line in the file is no other program; another size of the force is.
+  const auto lower = library.compile("wale 1\n\n\n// moved\n" + material);
+  ASSERT_TRUE(lower);
+  EXPECT_EQ(program_hash(lower->program), hash);
+  const auto other = library.compile("wale 1\nmaterial m { physical { force = vector(1.1 N * sin(x / 1 mm), 0 N) } }");
+  ASSERT_TRUE(other);
+  EXPECT_NE(program_hash(other->program), hash);
 }
 
 }  // namespace

@@ -1,4 +1,8 @@
 // A session as a designer has one, through the real window.
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <QAccessible>
 #include <QDir>
 #include <QDockWidget>
@@ -303,6 +307,23 @@ TEST_F(DrivenWindow, AKilledProcessLosesNothing) {
   EXPECT_EQ(window->document().file(), QFileInfo(file).absoluteFilePath());
   EXPECT_TRUE(window->isWindowModified());
   EXPECT_FALSE(kept.exists("999999999.json"));
+}
+
+TEST_F(DrivenWindow, AProcessThatIsDeadAndStillListedHasLeftItsWork) {
+  const QDir kept(qEnvironmentVariable("XDG_DATA_HOME") + "/wale/sandpaper");
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  siginfo_t ended;
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT), 0);  // nobody has asked for its status
+  ASSERT_EQ(kill(child, 0), 0);
+  const QString name = kept.filePath(QString::number(child));
+  std::ofstream((name + ".lock").toStdString());
+  std::ofstream((name + "-1.json").toStdString()) << R"({"file": "", "text": "wale 1\n\nworkspace left {}\n"})";
+  begin();
+  EXPECT_TRUE(announced().contains("kept")) << announced().toStdString();
+  QFile::remove(name + "-1.json");
+  QFile::remove(name + ".lock");
+  waitpid(child, nullptr, 0);
 }
 
 TEST_F(DrivenWindow, WhatIsTypedWithoutAPauseIsKeptToo) {

@@ -214,7 +214,8 @@ Result<SessionRecord> open_session_log(const std::string& path);
 /// One line of a log without the newline. Error: `malformed_value`, as for `SessionLog::append`.
 Result<std::string> session_line(const SessionEntry& entry);
 
-/// FNV-1a, 64 bits, of a program's bytes as a `.wpp` file has them: the same as in a recording.
+/// FNV-1a, 64 bits, of a program's bytes as a `.wpp` file has them, without the lines of the source that its code comes
+/// from: the same while the file is changed elsewhere. A recording's hashes count these lines, too.
 std::uint64_t program_hash(const Program& program);
 
 }  // namespace wale

@@ -25,6 +25,7 @@ constexpr double arrow_per_newton = 0.01;  // m
 constexpr float least_arrow = 0.005f;      // N
 constexpr double grid_strength = 0.27;     // of its lines, where the ground has the rest
 constexpr std::size_t most_covers = 4000000;  // pairs of patches of which one may cover the other's marks
+constexpr std::size_t most_small_numbers = 200;  // more would lie on each other
 constexpr int live_milliseconds = 100;        // between pictures of a surface that remembers
 
 QColor mixed(QColor a, QColor b, double share) {
@@ -207,7 +208,7 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
     painter.fillRect(box.toAlignedRect(), is_chosen  ? palette().color(QPalette::Highlight)
                                           : program && !is_blind ? colour_of(placed.patch.made_of)
                                                                  : QColor(Qt::gray));
-    return;
+    return draw_label(painter, placed, box);
   }
   const bool is_plain = placed.patch.outline.is_rectangle();
   const QSize pixels = (box.size() * devicePixelRatioF()).toSize();
@@ -245,7 +246,7 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
                      : document_.is_stale() ? tr("an error in the text")
                                             : tr("an error in its material"));
   }
-  if (!is_blind || is_chosen) {
+  {
     painter.setPen(QPen(is_chosen ? palette().color(QPalette::Highlight) : QColor(0, 0, 0, 110), is_chosen ? 2 : 1));
     painter.setBrush(Qt::NoBrush);
     if (is_plain) painter.drawRect(box);
@@ -258,17 +259,32 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
     painter.setPen(QPen(QColor(200, 60, 0), 2, Qt::DashLine));
     painter.drawRect(box.adjusted(-2, -2, 2, 2));
   }
-  if (look_.names && box.width() > 30 && box.height() > 14) {
-    const QString label = label_of(placed) + (placed.locked ? QStringLiteral(" 🔒") : QString());
-    QRectF place(box.left() + 3, box.top() + 2, box.width() - 6, fontMetrics().height() + 2);
-    if (!is_plain) place.moveCenter(to_pixels(placed.patch.at + inner_place(placed.patch.outline, size_of(placed))));
-    const int alignment = (is_plain ? Qt::AlignLeft : Qt::AlignHCenter) | Qt::AlignVCenter;
-    const QRectF text = painter.boundingRect(place, alignment, label).adjusted(-2, 0, 2, 0);
-    painter.fillRect(text.intersected(place.adjusted(-2, 0, 2, 0)), QColor(255, 255, 255, 190));
-    painter.setPen(Qt::black);
-    painter.drawText(place, alignment,
-                     fontMetrics().elidedText(label, Qt::ElideRight, static_cast<int>(place.width())));
+  draw_label(painter, placed, box);
+}
+
+void Canvas::draw_label(QPainter& painter, const Placed& placed, const QRectF& box) {
+  const auto [place, text] = label_place(placed, box);
+  if (text.isEmpty()) return;
+  painter.fillRect(place, QColor(255, 255, 255, 190));
+  painter.setPen(Qt::black);
+  painter.drawText(place, Qt::AlignCenter, text);
+}
+
+std::pair<QRectF, QString> Canvas::label_place(const Placed& placed, const QRectF& box) const {
+  if (!look_.names) return {};
+  if (box.width() <= 30 || box.height() <= 14) {
+    // A participant needs a number for each; it has its place below a small one.
+    if (!look_.random_numbers || document_.contents().placed.size() > most_small_numbers) return {};
+    const QString number = label_of(placed);
+    const QSizeF size(fontMetrics().horizontalAdvance(number) + 4, fontMetrics().height() + 2);
+    return {QRectF(box.center().x() - size.width() / 2, box.bottom() + 1, size.width(), size.height()), number};
   }
+  const QString whole = placed.locked && !fixed_ ? tr("%1 (locked)").arg(label_of(placed)) : label_of(placed);
+  const QString text = fontMetrics().elidedText(whole, Qt::ElideRight, static_cast<int>(box.width() - 6));
+  QRectF place(box.left() + 1, box.top() + 2, fontMetrics().horizontalAdvance(text) + 4, fontMetrics().height() + 2);
+  if (!placed.patch.outline.is_rectangle())
+    place.moveCenter(to_pixels(placed.patch.at + inner_place(placed.patch.outline, size_of(placed))));
+  return {place, text};
 }
 
 void Canvas::draw_still() {
@@ -333,6 +349,7 @@ void Canvas::find_marked() {
     if (boxes.size() * boxes.size() < most_covers)
       for (std::size_t front = i + 1; front < boxes.size(); ++front)
         if (boxes[front].second.intersects(box)) seen -= boxes[front].second;
+    seen -= label_place(*placed, box_of(*placed)).first.toAlignedRect();
     if (!seen.isEmpty()) marked_.push_back({placed, seen});
   }
 }

@@ -97,6 +97,9 @@ class Canvas : public QWidget {
   void refresh();      ///< reads the hand, 60 times a second
   void draw_still();   ///< all that does not move, into `still_`
   void draw_patch(QPainter& painter, const Placed& placed);
+  void draw_label(QPainter& painter, const Placed& placed, const QRectF& box);
+  /// Where a patch's name is written in its box, and as much of it as fits there; an empty text if it is not.
+  std::pair<QRectF, QString> label_place(const Placed& placed, const QRectF& box) const;
   void find_marked();  ///< the patches whose marks can be seen, and where
   void add_cursor(std::vector<MovingShape>& shapes) const;
   void add_arrow(std::vector<MovingShape>& shapes) const;

@@ -1,5 +1,7 @@
 #include "canvas/canvas_access.hpp"
 
+#include "document/counted.hpp"
+
 #include <QAccessible>
 #include <algorithm>
 #include <cmath>
@@ -122,7 +124,7 @@ QString CanvasAccess::text(QAccessible::Text kind) const {
   if (kind == QAccessible::Description) {
     const auto touched = canvas_.touched();
     const Placed* on = touched ? document().contents().find(*touched) : nullptr;
-    return Canvas::tr("%n patch(es)", nullptr, childCount()) +
+    return counted(childCount(), "patch", "patches") +
            (on ? Canvas::tr(", the hand is on %1").arg(canvas_.label_of(*on)) : QString());
   }
   return QAccessibleWidget::text(kind);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "document/counted.hpp"
 #include "document/saving.hpp"
 
 namespace sandpaper {
@@ -47,6 +48,13 @@ wale::Error unreadable(const QFile& file) {
   return {.code = wale::Code::unreadable_file,
           .sentence = file.errorString().toStdString(),
           .place = {.name = file.fileName().toStdString()}};
+}
+
+wale::Error no_text(const QString& path) {
+  return {.code = wale::Code::unreadable_file,
+          .sentence = "this is no text in UTF-8, as a Wale file is",
+          .place = {.name = path.toStdString()},
+          .mend = "drop a picture or a file of the thesis onto a workspace, or import it"};
 }
 
 }  // namespace
@@ -129,7 +137,9 @@ wale::Result<> Document::open(const QString& path, const QString& workspace) {
                        .place = {.name = path.toStdString()}};
   const std::string text = file.readAll().toStdString();
   if (file.error() != QFile::NoError) return unreadable(file);
+  if (const auto bytes = QByteArray::fromStdString(text); !bytes.isValidUtf8() || bytes.contains('\0')) return no_text(path);
   emit unloading();
+  on_disk_ = text;
   file_ = QFileInfo(path).absoluteFilePath();
   load(text, workspace);
   emit loaded();
@@ -153,6 +163,8 @@ void Document::load(const std::string& text, const QString& workspace) {
 void Document::restore(const QString& file, const std::string& text) {
   emit unloading();
   file_ = file;
+  QFile kept(file);
+  on_disk_ = kept.open(QIODevice::ReadOnly) ? kept.readAll().toStdString() : std::string();
   load(text, {});
   saved_draft_.reset();
   undo_.resetClean();
@@ -161,8 +173,29 @@ void Document::restore(const QString& file, const std::string& text) {
   emit problems_changed();
 }
 
+bool Document::is_changed_elsewhere() const {
+  QFile file(file_);
+  if (file_.isEmpty() || !file.open(QIODevice::ReadOnly)) return false;
+  return file.size() > largest_text || file.readAll().toStdString() != on_disk_;
+}
+
+wale::Result<> Document::take_over() {
+  QFile file(file_);
+  if (!file.open(QIODevice::ReadOnly) || file.size() > largest_text) return unreadable(file);
+  const QByteArray bytes = file.readAll();
+  if (!bytes.isValidUtf8() || bytes.contains('\0')) return no_text(file_);
+  on_disk_ = bytes.toStdString();
+  set_text(on_disk_, tr("Take over what another program wrote"));
+  if (draft_) saved_draft_ = draft_;
+  else undo_.setClean();
+  emit file_changed();
+  return {};
+}
+
 wale::Result<> Document::save(const QString& path) {
-  if (const auto saved = save_bytes(path, QByteArray::fromStdString(text())); !saved) return saved;
+  const std::string written = text();
+  if (const auto saved = save_bytes(path, QByteArray::fromStdString(written)); !saved) return saved;
+  on_disk_ = written;
   file_ = QFileInfo(path).absoluteFilePath();
   undo_.setClean();
   saved_draft_ = draft_;
@@ -215,7 +248,7 @@ bool Document::show_workspace(const QString& name) {
       other.id = next_id_++;
       each = std::make_shared<const Placed>(std::move(other));
     }
-  change(tr("Show %1").arg(name), std::move(next));
+  take(std::move(next));  // nothing of the file has changed; an undo goes back to where its edit was
   return true;
 }
 
@@ -291,7 +324,7 @@ void Document::remove(const std::set<std::uint64_t>& ids) {
     return ids.contains(each->id) && each->is_changeable() && !each->locked;
   });
   if (next.placed.size() == contents_.placed.size()) return;
-  change(tr("Delete %n patch(es)", nullptr, static_cast<int>(contents_.placed.size() - next.placed.size())),
+  change(tr("Delete %1").arg(counted(static_cast<qsizetype>(contents_.placed.size() - next.placed.size()), "patch", "patches")),
          std::move(next));
 }
 

@@ -47,6 +47,11 @@ class Document : public QObject {
   /// it is what is saved, while the contents stay those of the last text without errors.
   void set_text(const std::string& text, const QString& what);
   /// Whether closing now would lose something.
+  /// Whether the file's bytes are others than this document has read or written last: another program has changed it.
+  /// A file that is gone was not changed.
+  bool is_changed_elsewhere() const;
+  /// Takes over what another program has written, as one step of undo.
+  wale::Result<> take_over();
   bool is_modified() const { return draft_ ? draft_ != saved_draft_ : !undo_.isClean(); }
   /// Whether there is a draft. Then nothing else may change the contents.
   bool is_stale() const { return draft_.has_value(); }
@@ -64,7 +69,7 @@ class Document : public QObject {
   const Advice& advice() const { return advice_; }
   void set_advice(Advice advice);
 
-  /// Lays out another workspace of the file, as one step of undo. False if there is none of that name.
+  /// Lays out another workspace of the file, which is no step of undo. False if there is none of that name.
   bool show_workspace(const QString& name);
 
   // Edits, which do nothing while there is a draft but emit `refused`; each is one step of undo, named `what` ("Move
@@ -104,6 +109,7 @@ class Document : public QObject {
   QUndoStack undo_;
   Contents contents_;
   std::optional<std::string> draft_, saved_draft_;
+  std::string on_disk_;  // what was read or written last
   QString file_;
   QStringList workspaces_;
   std::vector<wale::Problem> problems_;

@@ -98,7 +98,7 @@ std::string with_paths(const std::string& text, const std::string& folder) {
 }
 
 WithRecipe with_recipe(const wale::LanguageService& language, const Contents& contents, const std::string& recipe,
-                       glm::dvec2 at) {
+                       glm::dvec2 at, const std::string& workspace) {
   const wale::CompileOptions options{.name = contents.file.empty() ? "untitled.wale" : contents.file};
   const std::vector<std::string> theirs = language.check(contents.surroundings(), options).materials;
   std::set<std::string> taken(theirs.begin(), theirs.end());
@@ -118,7 +118,8 @@ WithRecipe with_recipe(const wale::LanguageService& language, const Contents& co
   next.head += declarations_of(text, checked.layouts, contents.surroundings());
   std::vector<wale::LaidOutPatch> patches;
   if (!checked.layouts.empty()) {
-    patches = checked.layouts.front().patches;
+    const auto wanted = std::ranges::find(checked.layouts, workspace, &wale::Layout::name);
+    patches = (wanted == checked.layouts.end() ? checked.layouts.front() : *wanted).patches;
   } else if (!checked.materials.empty()) {
     static const std::regex sized(R"(\n\s*patch\s+[\d.])");
     wale::LaidOutPatch patch{.name = checked.materials.front(), .made_of = checked.materials.front()};

@@ -22,9 +22,9 @@ std::vector<std::string> recipes_of(const std::string& page, const std::string& 
 std::string with_paths(const std::string& text, const std::string& folder);
 
 /// Puts the declarations of a recipe, a whole file, in front of the workspace of `contents`, and patches of it with
-/// `at` as their middle: those of its first workspace, or one of its first material. A material whose name is taken
+/// `at` as their middle: those of the workspace that is called so (empty: of the first), or one of its first material. A material whose name is taken
 /// gets a new one. What comes out may have errors if the recipe has, or if its functions have names that are taken.
 WithRecipe with_recipe(const wale::LanguageService& language, const Contents& contents, const std::string& recipe,
-                       glm::dvec2 at);
+                       glm::dvec2 at, const std::string& workspace = {});
 
 }  // namespace sandpaper

@@ -187,7 +187,7 @@ void TextField::keyPressEvent(QKeyEvent* event) {
     }
   if (event->key() == Qt::Key_Space && event->modifiers() == Qt::ControlModifier) return complete(true);
   if (event->key() == Qt::Key_Period && event->modifiers() == Qt::ControlModifier) {
-    mend();
+    if (!mend()) emit problem_at_cursor(problems_.empty() ? tr("There is nothing to mend") : tr("No mend is known for what is wrong"));
     return;
   }
   if (event->key() == Qt::Key_Tab && event->modifiers() == Qt::NoModifier) {

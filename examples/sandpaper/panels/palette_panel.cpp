@@ -151,7 +151,7 @@ PalettePanel::PalettePanel(const wale::Catalogue& catalogue, Programs& programs,
   layout->addWidget(words_);
   layout->addWidget(kind_);
   layout->addWidget(list_);
-  auto* place = new QPushButton(tr("&Place on the workspace"));
+  auto* place = new QPushButton(tr("Place on the workspace"));
   place->setAccessibleName(tr("Place on the workspace"));
   place->setObjectName("place");
   layout->addWidget(place);

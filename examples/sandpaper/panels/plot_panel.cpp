@@ -72,6 +72,15 @@ void PlotPanel::paintEvent(QPaintEvent*) {
     }
     painter.setPen(palette().color(QPalette::Text));
     painter.drawText(box.adjusted(4, 2, -4, -2), Qt::AlignTop | Qt::AlignLeft, rows[i].name);
+    if (rows[i].of[1]) {  // which line is which
+      int at = 4 + painter.fontMetrics().horizontalAdvance(rows[i].name + "   ");
+      for (int axis = 0; axis < 2; ++axis) {
+        painter.setPen(colours[axis]);
+        painter.drawText(box.adjusted(at, 2, -4, -2), Qt::AlignTop | Qt::AlignLeft, axis == 0 ? "x" : "y");
+        at += painter.fontMetrics().horizontalAdvance("y   ");
+      }
+      painter.setPen(palette().color(QPalette::Text));
+    }
     painter.drawText(box.adjusted(4, 2, -4, -2), Qt::AlignTop | Qt::AlignRight, QString("±%1").arg(most));
   }
 }

@@ -68,7 +68,7 @@ void SliderPanel::rebuild() {
   program_ = program ? &program->decoded() : nullptr;
   if (!placed) {
     title_->setText(document_.chosen().size() > 1
-                        ? tr("%n patches are chosen", nullptr, static_cast<int>(document_.chosen().size()))
+                        ? tr("%1 patches are chosen").arg(document_.chosen().size())
                         : tr("Touch or choose a patch to see its sliders."));
   } else if (!program) {
     const auto material = feeling_.material(placed->id);

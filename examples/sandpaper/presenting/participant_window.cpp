@@ -1,8 +1,14 @@
 #include "presenting/participant_window.hpp"
 
+#include <QScreen>
 #include <QShowEvent>
 
 namespace sandpaper {
+namespace {
+
+constexpr int usual_side = 800;  // pixels
+
+}  // namespace
 
 ParticipantWindow::ParticipantWindow(Document& document, Feeling& feeling, Pictures& pictures, const Numbers& numbers,
                                      Sorting& sorting, QWidget* parent)
@@ -16,7 +22,8 @@ ParticipantWindow::ParticipantWindow(Document& document, Feeling& feeling, Pictu
   canvas_->set_fixed(true);
   addWidget(canvas_);
   addWidget(page_);
-  resize(800, 800);
+  const QSize room = 0.8 * screen()->availableSize();
+  resize(QSize(usual_side, usual_side).boundedTo(room));
   set_look({});
   connect(&sorting, &Sorting::changed, this, [this, &sorting] {
     QWidget* shown = sorting.runs() ? static_cast<QWidget*>(page_) : canvas_;

@@ -1,4 +1,5 @@
 #include "presenting/presenting.hpp"
+#include "document/counted.hpp"
 
 #include <QApplication>
 #include <algorithm>
@@ -254,7 +255,7 @@ void Presenting::shuffle_places(const SizeOf& size_of) {
     if (each->is_laid_out()) order.items.push_back({each->patch.name, "", each->patch.at});
   if (!session_.log(order)) return;
   document_.change(tr("Shuffle"), std::move(shuffled.contents));
-  QString words = tr("%n patch(es) have new places, from seed %1", nullptr, shuffled.moved).arg(seed);
+  QString words = tr("New places for %1, from seed %2").arg(counted(shuffled.moved, "patch", "patches")).arg(seed);
   if (shuffled.overlap.value_or(0) > 0) words += tr("; there is not room for all side by side");
   emit said(words);
 }
@@ -306,9 +307,9 @@ void Presenting::start_if_ready() {
     return;
   }
   emit felt_changed();
-  emit said(session_.runs() ? tr("%n key(s) to sort", nullptr, static_cast<int>(sorting_.keys().size()))
-                            : tr("%n key(s) to sort. There is no session: nothing is logged", nullptr,
-                                 static_cast<int>(sorting_.keys().size())));
+  const QString keys = counted(static_cast<qsizetype>(sorting_.keys().size()), "key", "keys");
+  emit said(session_.runs() ? tr("%1 to sort").arg(keys)
+                            : tr("%1 to sort. There is no session: nothing is logged").arg(keys));
 }
 
 void Presenting::finish_sorting() {
@@ -335,9 +336,10 @@ void Presenting::finish_sorting() {
   next.tail += "\n\n" + groups_text(groups) + "\n";
   document_.change(tr("Save groups %1").arg(QString::fromStdString(groups.name)), std::move(next));
   emit felt_changed();
-  QString words = tr("Sorted into %n group(s), %1", nullptr, static_cast<int>(groups.groups.size()))
-                      .arg(QString::fromStdString(groups.name));
-  if (alone > 0) words += tr("; %n key(s) lay alone", nullptr, static_cast<int>(alone));
+  QString words = tr("Sorted into %1, %2")
+                      .arg(counted(static_cast<qsizetype>(groups.groups.size()), "group", "groups"),
+                           QString::fromStdString(groups.name));
+  if (alone > 0) words += tr("; %1 lay alone").arg(counted(static_cast<qsizetype>(alone), "key", "keys"));
   emit said(words);
 }
 

@@ -12,6 +12,7 @@
 #include <QUrl>
 
 #include "document/arranging.hpp"
+#include "document/counted.hpp"
 #include "window/main_window.hpp"
 
 namespace sandpaper {
@@ -141,7 +142,7 @@ void MainWindow::make_edit_menu() {
   }
   add(menu, "fit", tr("Fit into the device's &reach"), tr("Ctrl+R"), [this, size_of] {
     const int moved = fit(document_, feeling_.profile().workspace_diameter, size_of);
-    announcement_->say(moved == 0 ? tr("Nothing had to be moved") : tr("%n patch(es) moved", nullptr, moved));
+    announcement_->say(moved == 0 ? tr("Nothing had to be moved") : tr("%1 moved").arg(counted(moved, "patch", "patches")));
   });
   QMenu* shape = menu->addMenu(tr("&Shape"));
   add(shape, "rectangle", tr("&Rectangle"), {}, [this] {
@@ -275,7 +276,7 @@ void MainWindow::make_feel_menu() {
     device_->clear();
     for (const auto& [spelling, name] : feeling_.choices()) device_->addItem(name, spelling);
     update_safety();
-    announcement_->say(tr("%n device(s) can be chosen", nullptr, device_->count()));
+    announcement_->say(tr("%1 can be chosen").arg(counted(device_->count(), "device", "devices")));
   });
 }
 

@@ -1,6 +1,7 @@
 #include "window/announcement.hpp"
 
 #include <QAccessible>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <algorithm>
 
@@ -11,8 +12,10 @@ constexpr int least_milliseconds = 6000, for_each_letter = 70;
 
 }  // namespace
 
-Announcement::Announcement(QWidget* parent) : QFrame(parent), words_(new QLabel), button_(new QToolButton) {
+Announcement::Announcement(QWidget* over) : QFrame(over), words_(new QLabel), button_(new QToolButton) {
   setFrameShape(QFrame::StyledPanel);
+  setAutoFillBackground(true);
+  over->installEventFilter(this);
   words_->setWordWrap(true);
   words_->setTextFormat(Qt::PlainText);
   words_->setObjectName("announcement");
@@ -35,6 +38,17 @@ Announcement::Announcement(QWidget* parent) : QFrame(parent), words_(new QLabel)
   hide();
 }
 
+bool Announcement::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == parent() && event->type() == QEvent::Resize) take_place();
+  return QFrame::eventFilter(watched, event);
+}
+
+void Announcement::take_place() {
+  const int width = parentWidget()->width();
+  layout()->activate();
+  setGeometry(0, 0, width, std::max(sizeHint().height(), layout()->heightForWidth(width)));
+}
+
 void Announcement::say(const QString& words) {
   offer(words, {}, {});
   timer_.start(std::max(least_milliseconds, for_each_letter * static_cast<int>(words.size())));
@@ -47,7 +61,9 @@ void Announcement::offer(const QString& words, const QString& button, const std:
   words_->setAccessibleName(words);
   button_->setText(button);
   button_->setVisible(!button.isEmpty());
+  take_place();
   show();
+  raise();
   if (quiet_) return;
   QAccessibleEvent alert(words_, QAccessible::Alert);
   QAccessible::updateAccessibility(&alert);

@@ -14,7 +14,8 @@ class Announcement : public QFrame {
   Q_OBJECT
 
  public:
-  explicit Announcement(QWidget* parent = nullptr);
+  /// Lies over the top of a widget, which stays where it is: what a hand feels there would move under it.
+  explicit Announcement(QWidget* over);
 
   void say(const QString& words);
   /// With a button that does something about it; then the line stays.
@@ -26,7 +27,12 @@ class Announcement : public QFrame {
  signals:
   void read_out(const QString& words);  ///< screen readers are told
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
+  void take_place();
+
   QLabel* words_;
   QToolButton* button_;
   QTimer timer_;

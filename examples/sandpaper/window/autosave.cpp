@@ -1,6 +1,9 @@
 #include "window/autosave.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <QCoreApplication>
 #include <QDateTime>
@@ -27,12 +30,45 @@ QString next_path() {
   return folder() + QString("/%1-%2.json").arg(QCoreApplication::applicationPid()).arg(++windows);
 }
 
-bool is_alive(qint64 process) { return process > 0 && (kill(static_cast<pid_t>(process), 0) == 0 || errno == EPERM); }
+/// A process keeps this file locked as long as it lives. (A killed one can be seen for a while longer by its number,
+/// and another process can get that.)
+QString lock_of(qint64 process) { return folder() + QString("/%1.lock").arg(process); }
+
+/// Held by this process until it ends.
+class Lock {
+ public:
+  Lock() : path_(lock_of(QCoreApplication::applicationPid()).toLocal8Bit()) {
+    QDir().mkpath(folder());
+    file_ = open(path_.constData(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (file_ >= 0) flock(file_, LOCK_EX | LOCK_NB);
+  }
+  ~Lock() {
+    if (file_ < 0) return;
+    unlink(path_.constData());
+    close(file_);
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  QByteArray path_;
+  int file_ = -1;
+};
+
+bool is_alive(qint64 process) {
+  if (process <= 0) return false;
+  const int file = open(lock_of(process).toLocal8Bit().constData(), O_RDWR | O_CLOEXEC);
+  if (file < 0) return kill(static_cast<pid_t>(process), 0) == 0 || errno == EPERM;  // of an older version
+  const bool is_free = flock(file, LOCK_EX | LOCK_NB) == 0;
+  close(file);
+  return !is_free;
+}
 
 }  // namespace
 
 Autosave::Autosave(Document& document, QObject* parent)
     : QObject(parent), document_(document), path_(next_path()) {
+  static const Lock alive;
   timer_.setSingleShot(true);
   timer_.setInterval(after_change);
   connect(&timer_, &QTimer::timeout, this, &Autosave::save_now);
@@ -75,7 +111,8 @@ void Autosave::save_now() {
 
 std::optional<Autosave::Left> Autosave::left_behind() {
   for (const QFileInfo& each : QDir(folder()).entryInfoList({"*.json"}, QDir::Files, QDir::Time)) {
-    if (is_alive(each.completeBaseName().section('-', 0, 0).toLongLong())) continue;
+    const qint64 process = each.completeBaseName().section('-', 0, 0).toLongLong();
+    if (is_alive(process)) continue;
     QFile file(each.filePath());
     if (!file.open(QIODevice::ReadOnly)) continue;
     const QJsonObject kept = QJsonDocument::fromJson(file.readAll()).object();
@@ -88,6 +125,9 @@ std::optional<Autosave::Left> Autosave::left_behind() {
   return std::nullopt;
 }
 
-void Autosave::forget(const Left& left) { QFile::remove(left.kept_in); }
+void Autosave::forget(const Left& left) {
+  QFile::remove(left.kept_in);
+  QFile::remove(lock_of(QFileInfo(left.kept_in).completeBaseName().section('-', 0, 0).toLongLong()));
+}
 
 }  // namespace sandpaper

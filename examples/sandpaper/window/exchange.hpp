@@ -37,7 +37,9 @@ class Exchange : public QObject {
   void import_files(QStringList files, bool waves = false);
   /// Puts the first workspace of a Wale file, and all that it declares, into the open one: one step of undo. Names that
   /// are taken get new ones.
+  /// Asks which workspace of a file is to be merged, if it has several.
   void merge(const QString& file);
+  void merge(const QString& file, std::size_t which);
 
   void export_picture(const QString& file);
   /// The page of `wale preview` of the shown patch, in the format that the ending says.

@@ -5,6 +5,7 @@
 #include <QSettings>
 #include <algorithm>
 
+#include "document/counted.hpp"
 #include "document/recipe.hpp"
 #include "window/main_window.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 
 const char* const wale_files = QT_TRANSLATE_NOOP("sandpaper", "Wale files (*.wale)");
 const QStringList of_1995 = {"depth", "shade", "wave", "movie", "shuffle"};  // names of the thesis's files end so
+const QStringList of_pictures = {"png", "jpg", "jpeg", "tif", "tiff", "bmp", "exr", "hdr", "webp", "gif"};
 constexpr double beside = 0.01;                                              // m, from one dropped picture to the next
 const char* const trusted_key = "felt_when_opened";
 
@@ -21,18 +23,17 @@ const char* const trusted_key = "felt_when_opened";
 bool MainWindow::save() {
   editor_->commit();
   if (document_.file().isEmpty()) return save_as();
-  if (const auto saved = document_.save(document_.file()); !saved) {
-    announce(saved.error());
+  if (document_.is_changed_elsewhere()) {
+    announcement_->offer(
+        tr("%1 was changed by another program, and is not saved: that would be lost. Save as (Ctrl+Shift+S) keeps both.")
+            .arg(document_.title()),
+        tr("Save over it"), [this] { write(document_.file()); });
     return false;
   }
-  announcement_->say(tr("Saved %1").arg(document_.file()));
-  return true;
+  return write(document_.file());
 }
 
-bool MainWindow::save_as() {
-  QString file = QFileDialog::getSaveFileName(this, tr("Save the workspace"), document_.file(), tr(wale_files));
-  if (file.isEmpty()) return false;
-  if (!file.endsWith(".wale")) file += ".wale";
+bool MainWindow::write(const QString& file) {
   if (const auto saved = document_.save(file); !saved) {
     announce(saved.error());
     return false;
@@ -40,6 +41,31 @@ bool MainWindow::save_as() {
   announcement_->say(tr("Saved %1").arg(document_.file()));
   return true;
 }
+
+void MainWindow::watch() {
+  if (!watched_.files().isEmpty()) watched_.removePaths(watched_.files());
+  if (!document_.file().isEmpty()) watched_.addPath(document_.file());
+}
+
+void MainWindow::follow_file() {
+  watch();  // a program that writes a new file in its place has ended the watch
+  if (!document_.is_changed_elsewhere()) return;
+  editor_->commit();
+  if (document_.is_modified())
+    return announcement_->say(
+        tr("%1 was changed by another program, too. Here it stays as it is; saving will ask.").arg(document_.title()));
+  if (const auto taken = document_.take_over(); !taken) return announce(taken.error());
+  announcement_->say(tr("%1 was changed by another program, and is shown as it is now.").arg(document_.title()));
+}
+
+bool MainWindow::save_as() {
+  QString file = QFileDialog::getSaveFileName(this, tr("Save the workspace"), document_.file(), tr(wale_files));
+  if (file.isEmpty()) return false;
+  if (!file.endsWith(".wale")) file += ".wale";
+  return write(file);
+}
+
+bool MainWindow::is_picture(const QString& file) { return of_pictures.contains(QFileInfo(file).suffix().toLower()); }
 
 void MainWindow::when_saved(const QString& what, const std::function<void()>& then) {
   if (!document_.is_modified()) return then();
@@ -115,7 +141,7 @@ void MainWindow::place_pictures(const QStringList& files, glm::dvec2 at, double 
     return announcement_->say(tr("The text has errors: mend them first, then this can be placed"));
   document_.undo_stack().beginMacro(files.size() == 1
                                         ? tr("Import %1").arg(QFileInfo(files.front()).fileName())
-                                        : tr("Import %n picture(s)", nullptr, static_cast<int>(files.size())));
+                                        : tr("Import %1").arg(counted(files.size(), "picture", "pictures")));
   std::set<std::uint64_t> ids;
   for (const QString& each : files) {
     ids.insert(place_picture(each, at, scale));

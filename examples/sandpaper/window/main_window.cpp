@@ -17,6 +17,7 @@ namespace sandpaper {
 namespace {
 
 constexpr int before_advice = 800;     // ms without a change
+constexpr int while_written = 300;     // ms after another program wrote into the file
 constexpr qint64 while_typing = 1000;  // ms: a space that comes sooner after another key belongs to the text
 
 bool takes_text(QWidget* widget) {
@@ -39,7 +40,8 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
       catalogue_(wale::library_catalogue()),
       autosave_(document_),
       canvas_(new Canvas(document_, feeling_, pictures_, numbers_)),
-      announcement_(new Announcement),
+      pages_of_work_(new QStackedWidget),
+      announcement_(new Announcement(pages_of_work_)),
       question_(new Question),
       work_(new LongWork),
       description_(new DescriptionPanel(language)),
@@ -50,12 +52,10 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   auto* layout = new QVBoxLayout(middle);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
-  layout->addWidget(announcement_);
   layout->addWidget(question_);
   layout->addWidget(work_);
   exchange_ = new Exchange(library_, language_, document_, feeling_, *canvas_, *editor_, *question_, *work_);
   exchange_->setParent(this);
-  pages_of_work_ = new QStackedWidget;
   pages_of_work_->addWidget(canvas_);
   layout->addWidget(pages_of_work_, 1);
   setCentralWidget(middle);
@@ -81,7 +81,14 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   });
   advising_.setSingleShot(true);
   connect(&advising_, &QTimer::timeout, this, &MainWindow::seek_advice);
-  connect(&document_, &Document::file_changed, this, &MainWindow::update_title);
+  connect(&document_, &Document::file_changed, this, [this] {
+    update_title();
+    watch();
+  });
+  written_elsewhere_.setSingleShot(true);
+  written_elsewhere_.setInterval(while_written);
+  connect(&watched_, &QFileSystemWatcher::fileChanged, &written_elsewhere_, qOverload<>(&QTimer::start));
+  connect(&written_elsewhere_, &QTimer::timeout, this, &MainWindow::follow_file);
   connect(&document_, &Document::chosen_changed, this, [this] {
     update_actions();
     update_description();
@@ -90,6 +97,7 @@ MainWindow::MainWindow(const wale::Library& library, const wale::LanguageService
   autosave_.set_typed([this] { return editor_->typed(); });
   connect(editor_, &TextEditor::typing, &autosave_, &Autosave::changed);
   connect(&autosave_, &Autosave::failed, announcement_, &Announcement::say);
+  connect(&document_.undo_stack(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
   connect(&document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::update_title);
   connect(&feeling_, &Feeling::said, announcement_, &Announcement::say);
   for (auto signal : {&Feeling::on_changed, &Feeling::device_changed})
@@ -144,6 +152,8 @@ MainWindow::~MainWindow() {
   qDeleteAll(findChildren<QDockWidget*>());
   delete takeCentralWidget();
 }
+
+QString MainWindow::no_force() { return tr("All force is taken away."); }
 
 void MainWindow::make_panels() {
   palette_ = new PalettePanel(*catalogue_, programs_, pictures_);
@@ -213,6 +223,7 @@ void MainWindow::make_safety_bar() {
 
 void MainWindow::update_safety() {
   const bool on = feeling_.is_on();
+  if (on && announcement_->text() == no_force()) announcement_->hide();
   force_button_->setText(on ? tr("Take all force away (Space)") : tr("Feel it (Ctrl+Space)"));
   force_button_->setAccessibleName(on ? tr("Take all force away") : tr("Feel it"));
   QPalette colours = palette();
@@ -232,10 +243,13 @@ void MainWindow::update_safety() {
 }
 
 void MainWindow::update_title() {
-  setWindowTitle(tr("%1[*] — Sandpaper").arg(document_.title()));
+  setWindowTitle((document_.is_stale() ? tr("%1[*] — its text has errors — Sandpaper") : tr("%1[*] — Sandpaper"))
+                     .arg(document_.title()));
   setWindowModified(document_.is_modified());
   if (document_.is_stale())
-    statusBar()->showMessage(tr("The text has errors: what is felt is the last version without"));
+    statusBar()->showMessage(document_.contents().placed.empty()
+                                 ? tr("The text has errors, and there is no version without")
+                                 : tr("The text has errors: what is felt is the last version without"));
   else if (statusBar()->currentMessage().startsWith(tr("The text has errors")))
     statusBar()->clearMessage();
 }
@@ -359,6 +373,10 @@ void MainWindow::seek_advice() {
 
 bool MainWindow::open(const QString& file) {
   feeling_.set_on(false);
+  if (is_picture(file)) {  // as if it were dropped
+    take_dropped({file}, {0, 0});
+    return true;
+  }
   if (const auto opened = document_.open(file); !opened) {
     announce(opened.error());
     return false;
@@ -394,8 +412,8 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
   if (takes_text(widget)) last_typed_ = now;
   if (feeling_.is_on() && ((is_space && !belongs_to_text) || key->key() == Qt::Key_Escape)) {
     feeling_.set_on(false);
-    announcement_->say(tr("All force is taken away."));
-    return !takes_text(widget);
+    announcement_->say(no_force());
+    return is_space || !takes_text(widget);  // a space that takes force away is not typed, too
   }
   return QMainWindow::eventFilter(watched, event);
 }

@@ -2,6 +2,7 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFileSystemWatcher>
 #include <QMainWindow>
 #include <QPushButton>
 #include <wale/catalogue.hpp>
@@ -78,6 +79,7 @@ class MainWindow : public QMainWindow {
   void make_safety_bar();
   void update_title();
   void update_safety();
+  static QString no_force();
   void update_actions();
   void update_description();
   /// The two chosen patches as they are felt; nothing unless there are two.
@@ -92,6 +94,11 @@ class MainWindow : public QMainWindow {
   // files.cpp
   bool save();
   bool save_as();
+  bool write(const QString& file);
+  /// Notices what another program writes into the file.
+  void watch();
+  void follow_file();
+  static bool is_picture(const QString& file);
   /// Goes on at once if nothing is unsaved; else offers to save first, without a box.
   void when_saved(const QString& what, const std::function<void()>& then);
   void open_asked();
@@ -115,6 +122,7 @@ class MainWindow : public QMainWindow {
   Autosave autosave_;
 
   Canvas* canvas_;
+  QStackedWidget* pages_of_work_;  // the canvas, or the sorting table
   Announcement* announcement_;
   Question* question_;
   LongWork* work_;
@@ -129,13 +137,14 @@ class MainWindow : public QMainWindow {
   QComboBox* device_ = nullptr;
   QDoubleSpinBox* limit_ = nullptr;
   QLabel* place_ = nullptr;
-  QStackedWidget* pages_of_work_ = nullptr;  // the canvas, or the sorting table
   SortingPage* sorting_page_ = nullptr;
   SessionPanel* session_panel_ = nullptr;
   QByteArray panels_before_;  // which were open before a sort in this window
   ParticipantWindow* participant_ = nullptr;
   Exchange* exchange_ = nullptr;
   QTimer plotting_, advising_;
+  QFileSystemWatcher watched_;
+  QTimer written_elsewhere_;  // until whoever writes is done
   qint64 last_typed_ = 0;
   long lost_ = 0;  // ticks of this run without a device
   bool closes_anyway_ = false;

@@ -1,5 +1,6 @@
 #include "window/question.hpp"
 
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QKeyEvent>
@@ -8,6 +9,24 @@
 #include <algorithm>
 
 namespace sandpaper {
+namespace {
+
+QWidget* number_of(const Question::Field& field) {
+  auto* number = new QDoubleSpinBox;
+  number->setDecimals(field.decimals);
+  number->setRange(field.least, field.most);
+  number->setValue(field.value);
+  number->setSuffix(field.unit.isEmpty() ? QString() : " " + field.unit);
+  return number;
+}
+
+QWidget* choice_of(const Question::Field& field) {
+  auto* choice = new QComboBox;
+  choice->addItems(field.choices);
+  return choice;
+}
+
+}  // namespace
 
 Question::Question(QWidget* parent)
     : QFrame(parent), words_(new QLabel), row_(new QHBoxLayout), button_(new QPushButton) {
@@ -49,13 +68,9 @@ void Question::ask(const QString& words, const std::vector<Field>& fields, const
   int at = 0;
   for (const Field& field : fields) {
     auto* label = new QLabel(field.label);
-    auto* number = new QDoubleSpinBox;
+    QWidget* number = field.choices.isEmpty() ? number_of(field) : choice_of(field);
     number->setObjectName(QString("question_%1").arg(numbers_.size()));
-    number->setDecimals(field.decimals);
-    number->setRange(field.least, field.most);
-    number->setValue(field.value);
-    number->setSuffix(field.unit.isEmpty() ? QString() : " " + field.unit);
-    number->setAccessibleName(field.label);
+    number->setAccessibleName(QString(field.label).remove('&'));
     label->setBuddy(number);
     row_->insertWidget(at++, label);
     row_->insertWidget(at++, number);
@@ -64,17 +79,20 @@ void Question::ask(const QString& words, const std::vector<Field>& fields, const
   show();
   if (!numbers_.empty()) {
     numbers_.front()->setFocus();
-    numbers_.front()->selectAll();
+    if (auto* number = qobject_cast<QDoubleSpinBox*>(numbers_.front())) number->selectAll();
   }
 }
 
 void Question::answer() {
   if (isHidden()) return;
   std::vector<double> values;
-  for (QDoubleSpinBox* each : numbers_) {
-    each->interpretText();
-    values.push_back(each->value());
-  }
+  for (QWidget* each : numbers_)
+    if (auto* number = qobject_cast<QDoubleSpinBox*>(each)) {
+      number->interpretText();
+      values.push_back(number->value());
+    } else {
+      values.push_back(qobject_cast<QComboBox*>(each)->currentIndex());
+    }
   hide();
   const auto answered = answered_;  // it may ask the next question
   if (answered) answered(values);

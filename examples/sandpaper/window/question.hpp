@@ -6,7 +6,6 @@
 #include <functional>
 #include <vector>
 
-class QDoubleSpinBox;
 class QHBoxLayout;
 
 namespace sandpaper {
@@ -20,6 +19,7 @@ class Question : public QFrame {
     QString label, unit;  ///< "width", "mm"
     double value = 0, least = 0, most = 0;
     int decimals = 2;
+    QStringList choices = {};  ///< one of these, by its number from 0, instead
   };
 
   explicit Question(QWidget* parent = nullptr);
@@ -38,7 +38,7 @@ class Question : public QFrame {
   QHBoxLayout* row_;
   QPushButton* button_;
   std::vector<QWidget*> labels_;
-  std::vector<QDoubleSpinBox*> numbers_;
+  std::vector<QWidget*> numbers_;  // fields of numbers and of choices
   std::function<void(const std::vector<double>&)> answered_;
 };
 
