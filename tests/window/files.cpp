@@ -174,6 +174,7 @@ workspace empty {}
 movie both { frames theirs, empty }
 )");
   exchange().merge(other);
+  window->findChild<Question*>("question")->answer();  // the first of two
   EXPECT_TRUE(announced().startsWith("Merged theirs")) << announced().toStdString();
   EXPECT_EQ(contents().placed.size(), 5u);
   EXPECT_EQ(placed("board").patch.made_of, "ridges");

@@ -53,8 +53,8 @@ wale::Error unreadable(const QFile& file) {
 wale::Error no_text(const QString& path) {
   return {.code = wale::Code::unreadable_file,
           .sentence = "this is no text in UTF-8, as a Wale file is",
-          .place = {.name = path.toStdString()},
-          .mend = "drop a picture or a file of the thesis onto a workspace, or import it"};
+          .mend = "drop a picture or a file of the thesis onto a workspace, or import it",
+          .place = {.name = path.toStdString()}};
 }
 
 }  // namespace
