@@ -131,7 +131,8 @@ PalettePanel::PalettePanel(const wale::Catalogue& catalogue, Programs& programs,
       model_(new PaletteModel(catalogue, programs, pictures, this)),
       words_(new QLineEdit),
       kind_(new QComboBox),
-      list_(new QListView) {
+      list_(new QListView),
+      nothing_(new QLabel(tr("No material is called so. Fewer words, or all kinds, may find one."))) {
   words_->setPlaceholderText(tr("Search the library"));
   words_->setClearButtonEnabled(true);
   words_->setAccessibleName(tr("Search the library"));
@@ -151,6 +152,10 @@ PalettePanel::PalettePanel(const wale::Catalogue& catalogue, Programs& programs,
   layout->addWidget(words_);
   layout->addWidget(kind_);
   layout->addWidget(list_);
+  nothing_->setWordWrap(true);
+  nothing_->setObjectName("nothing_found");
+  nothing_->hide();
+  layout->addWidget(nothing_);
   auto* place = new QPushButton(tr("Place on the workspace"));
   place->setAccessibleName(tr("Place on the workspace"));
   place->setObjectName("place");
@@ -171,7 +176,9 @@ PalettePanel::PalettePanel(const wale::Catalogue& catalogue, Programs& programs,
 
 void PalettePanel::search() {
   model_->search(words_->text(), kind_->currentData().toString());
-  if (model_->rowCount() > 0) list_->setCurrentIndex(model_->index(0));  // the best answer
+  const bool found = model_->rowCount() > 0;
+  if (found) list_->setCurrentIndex(model_->index(0));  // the best answer
+  nothing_->setVisible(!found);
 }
 
 void PalettePanel::set_touched(const QString& made_of) {

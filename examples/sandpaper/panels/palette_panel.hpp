@@ -2,6 +2,7 @@
 
 #include <QAbstractListModel>
 #include <QComboBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QListView>
 #include <QWidget>
@@ -63,6 +64,7 @@ class PalettePanel : public QWidget {
   QLineEdit* words_;
   QComboBox* kind_;
   QListView* list_;
+  QLabel* nothing_;
 };
 
 }  // namespace sandpaper
