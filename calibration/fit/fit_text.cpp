@@ -72,21 +72,27 @@ void add_magnitudes(std::string& text, const MagnitudeAnalysis& analysis, FitMod
 
 std::string threshold_text(const ObserverThreshold& each) {
   if (!each.refused.empty()) return "none: " + each.refused;
+  if (!(each.interval.low > 0) && !std::isfinite(each.interval.high))
+    return readable("{:.4g}, not bounded by the answers", each.value);
+  if (!(each.interval.low > 0)) return readable("{:.4g}, 95 % below {:.4g}", each.value, each.interval.high);
+  if (!std::isfinite(each.interval.high)) return readable("{:.4g}, 95 % above {:.4g}", each.value, each.interval.low);
   return readable("{:.4g}, 95 % {:.4g} to {:.4g}", each.value, each.interval.low, each.interval.high);
 }
 
 void add_thresholds(std::string& text, const StudyFit& fit) {
   text += fmt::format("  {:<14} {}\n", "model",
                       fit.task == "two_interval"
-                          ? "Weibull function by maximum likelihood, guess rate 0.5, lapse rate 0 to 0.1"
-                          : "d' in proportion to the difference, weighted least squares");
+                          ? "d' = (difference / threshold) ^ exponent of two intervals, maximum likelihood"
+                          : fit.task == "one_interval"
+                                ? "d' = (difference / threshold) ^ exponent with a criterion, maximum likelihood"
+                                : "d' = (difference / threshold) ^ exponent of a difference beyond a criterion, maximum "
+                                  "likelihood");
   for (const ThresholdFit& each : fit.thresholds) {
     text += fmt::format("  {:<14} {}; {}\n", each.standard.empty() ? "threshold" : visible_text(each.standard),
                         threshold_text(each.all), each.how);
-    if (each.function)
-      text += readable("    all answers: width {:.3g}, lapse rate {:.2g}, deviance {:.3g} of {} sizes, {} trials\n",
-                       each.function->function.width, each.function->function.lapse, each.function->deviance,
-                       each.function->levels, each.function->trials);
+    text += readable("    of the curve without lapses; {}: exponent {:.3g}, lapse rate {:.2g} (of 0 to 0.1); {} sizes\n",
+                     each.observers.size() == 1 ? "the observer's" : "common to the observers", each.law.exponent,
+                     each.law.lapse, each.levels.size());
     for (const ObserverThreshold& own : each.observers)
       text += fmt::format("    {:<20} {}\n", visible_text(own.observer), threshold_text(own));
   }
@@ -216,7 +222,8 @@ std::string fit_json(const Study& study, const StudyFit& fit, const FitRequest& 
     json["files"].push_back({{"path", each.path}, {"form", each.form}, {"hash", fmt::format("{:016x}", each.hash)}});
   if (fit.magnitudes) json["magnitudes"] = json_of(*fit.magnitudes, request.model);
   for (const ThresholdFit& each : fit.thresholds) {
-    Json one = {{"standard", each.standard}, {"threshold", json_of(each.all)}, {"how", each.how}};
+    Json one = {{"standard", each.standard}, {"threshold", json_of(each.all)}, {"how", each.how},
+                {"exponent", each.law.exponent},  {"lapse", each.law.lapse}};
     for (const ObserverThreshold& own : each.observers) one["observers"].push_back(json_of(own));
     json["thresholds"].push_back(std::move(one));
   }
