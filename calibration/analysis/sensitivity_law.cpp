@@ -114,6 +114,23 @@ class OneObserver {
     return found;
   }
 
+  /// The likelihoods of thresholds at the places of a grid, with the best criterion for each.
+  void along(const std::vector<double>& grid, double exponent, double lapse, std::vector<double>& result) const {
+    result.resize(grid.size());
+    Own near;
+    for (std::size_t g = grid.size(); g-- > 0;) {  // from where least is felt, so that the criterion is that of catches
+      if (!has_criterion(decision_)) {
+        result[g] = log_likelihood(grid[g], exponent, lapse, 0);
+        continue;
+      }
+      near.log = grid[g];
+      if (!std::isfinite(near.log_likelihood)) near.log_likelihood = at(grid[g], exponent, lapse, &near.criterion);
+      if (const auto found = scored(near, exponent, lapse, true)) near = *found;
+      else near.log_likelihood = at(grid[g], exponent, lapse, &near.criterion);
+      result[g] = near.log_likelihood;
+    }
+  }
+
   /// The likelihood if nothing is felt.
   double nothing_felt(double lapse) const {
     std::size_t yes = answers_.false_alarms, trials = answers_.noises;
@@ -126,7 +143,7 @@ class OneObserver {
  private:
   /// Fisher's scoring: the slope of the likelihood over its expected curvature, by steps that gain. Nothing if it leaves
   /// the range of thresholds or does not come to rest.
-  std::optional<Own> scored(const Own& from, double exponent, double lapse) const {
+  std::optional<Own> scored(const Own& from, double exponent, double lapse, bool criterion_only = false) const {
     Own now = from;
     now.log_likelihood = log_likelihood(now.log, exponent, lapse, now.criterion);
     const bool two = has_criterion(decision_);
@@ -147,7 +164,10 @@ class OneObserver {
       }
       if (two && answers_.noises > 0) add(0, 0, answers_.false_alarms, answers_.noises);
       double step[2] = {};
-      if (two) {
+      if (criterion_only) {
+        if (!(c[2] > 0)) return std::nullopt;
+        step[1] = g[1] / c[2];
+      } else if (two) {
         const double determinant = c[0] * c[2] - c[1] * c[1];
         if (!(determinant > 1e-12 * c[0] * c[2])) return std::nullopt;
         step[0] = (c[2] * g[0] - c[1] * g[1]) / determinant, step[1] = (c[0] * g[1] - c[1] * g[0]) / determinant;
@@ -203,6 +223,46 @@ struct Shared {
   double exponent = 1, lapse = 0, log_likelihood = -HUGE_VAL;
 };
 
+class SensitivityFitter;
+
+/// Observers whose thresholds' logarithms are spread normally. To estimate exponent and lapse rate with a threshold for
+/// each observer instead would make the exponent too large, and much so with the few answers of an adaptive track
+/// (Neyman and Scott 1948): thresholds are integrated over.
+class Population {
+ public:
+  /// exponent's logarithm, lapse rate, mean and logarithm of the spread of the thresholds' logarithms
+  using Place = std::array<double, 4>;
+
+  Population(const SensitivityFitter& fitter, const std::vector<bool>& chosen);
+  Shared best();
+  /// Of each chosen observer, in their order.
+  std::vector<double> log_likelihoods(const Place& at);
+  const Place& place() const { return place_; }
+  /// Which of the four are estimated and away from the ends of their range.
+  std::vector<std::size_t> inner() const;
+  static constexpr Place steps = {0.02, 0.001, 0.01, 0.02};
+
+ private:
+  double sum(const Place& at);
+
+  const SensitivityFitter* fitter_;
+  std::vector<const OneObserver*> observers_;
+  std::vector<double> grid_;
+  void along_choices(double exponent, double lapse);
+
+  std::vector<std::vector<double>> along_;  ///< of each observer at the grid, for `known_`
+  std::vector<double> sizes_;               ///< logarithms of all sizes, rising
+  struct Counts {
+    std::size_t size;
+    double right, wrong;
+  };
+  std::vector<std::vector<Counts>> counts_;  ///< of each observer
+  std::array<double, 2> known_ = {HUGE_VAL, HUGE_VAL};
+  Place place_{};
+};
+
+constexpr double least_spread = 0.03, most_spread = 3;
+
 class SensitivityFitter {
  public:
   SensitivityFitter(const std::vector<ObserverAnswers>& observers, const SensitivityOptions& options)
@@ -212,22 +272,20 @@ class SensitivityFitter {
     if (!options.exponent && std::ranges::all_of(observers_, few)) options_.exponent = 1, held_ = true;
   }
 
+  const SensitivityOptions& options() const { return options_; }
   bool exponent_is_held() const { return held_; }
   const std::vector<OneObserver>& observers() const { return observers_; }
 
   /// The best exponent and lapse rate for the observers whose entry in `chosen` is set.
-  Shared shared(const std::vector<bool>& chosen) const {
-    std::vector<Own> own(observers_.size());
-    const auto sum = [&](double exponent, double lapse) {
-      double all = 0;
-      for (std::size_t i = 0; i < observers_.size(); ++i) {
-        if (!chosen[i]) continue;
-        own[i] = observers_[i].best(exponent, lapse, &own[i]);
-        all += own[i].log_likelihood;
-      }
-      return all;
-    };
-    return over_shared(sum);
+  Shared shared(const std::vector<bool>& chosen, std::optional<Population>* keep = nullptr) const;
+
+  Shared shared_by_one(std::size_t first) const {
+    if (options_.exponent && options_.lapse) return {*options_.exponent, *options_.lapse, 0};
+    Own own;
+    return over_shared([&](double exponent, double lapse) {
+      own = observers_[first].best(exponent, lapse, &own);
+      return own.log_likelihood;
+    });
   }
 
   /// The greatest of a likelihood over exponent and lapse rate.
@@ -354,6 +412,139 @@ class SensitivityFitter {
   std::vector<OneObserver> observers_;
 };
 
+Shared SensitivityFitter::shared(const std::vector<bool>& chosen, std::optional<Population>* keep) const {
+  if (std::ranges::count(chosen, true) == 1)
+    return shared_by_one(static_cast<std::size_t>(std::ranges::find(chosen, true) - chosen.begin()));
+  Population population(*this, chosen);
+  const Shared shared = population.best();
+  if (keep != nullptr) *keep = std::move(population);
+  return shared;
+}
+
+Population::Population(const SensitivityFitter& fitter, const std::vector<bool>& chosen) : fitter_(&fitter) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (!chosen[i]) continue;
+    observers_.push_back(&fitter.observers()[i]);
+    low = std::min(low, observers_.back()->low()), high = std::max(high, observers_.back()->high());
+  }
+  // Finer than an observer's likelihood is wide, which is some 3 over the root of the trials.
+  std::size_t most = 1;
+  for (const OneObserver* each : observers_) {
+    std::size_t trials = 0;
+    for (const Level& level : each->answers().levels) trials += level.trials;
+    most = std::max(most, trials);
+  }
+  constexpr double reach = 2;
+  const double step = std::clamp(1.2 / std::sqrt(static_cast<double>(most)), 0.01, 0.1);
+  const auto count = static_cast<int>(std::min(800.0, std::ceil((high - low + 2 * reach) / step)));
+  for (int i = 0; i <= count; ++i) grid_.push_back(low - reach + (high - low + 2 * reach) * i / count);
+  along_.resize(observers_.size());
+  if (has_criterion(fitter.options().decision)) return;
+  for (const OneObserver* each : observers_)
+    for (const Level& level : each->answers().levels) sizes_.push_back(std::log(level.size));
+  std::ranges::sort(sizes_);
+  sizes_.erase(std::unique(sizes_.begin(), sizes_.end()), sizes_.end());
+  for (const OneObserver* each : observers_) {
+    std::vector<Counts>& counts = counts_.emplace_back();
+    for (const Level& level : each->answers().levels)
+      counts.push_back({static_cast<std::size_t>(std::ranges::lower_bound(sizes_, std::log(level.size)) - sizes_.begin()),
+                        static_cast<double>(level.right), static_cast<double>(level.trials - level.right)});
+  }
+}
+
+/// Without a criterion, the chances are the same for all observers and computed once.
+void Population::along_choices(double exponent, double lapse) {
+  for (auto& along : along_) along.assign(grid_.size(), 0);
+  std::vector<double> right(sizes_.size()), wrong(sizes_.size());
+  for (std::size_t g = 0; g < grid_.size(); ++g) {
+    for (std::size_t i = 0; i < sizes_.size(); ++i) {
+      const double d = std::exp(std::clamp(exponent * (sizes_[i] - grid_[g]), -50.0, 5.0));
+      const double p = std::clamp(lapse + (1 - 2 * lapse) * chance_of(Decision::interval_choice, d, 0), 1e-12, 1 - 1e-12);
+      right[i] = std::log(p), wrong[i] = std::log1p(-p);
+    }
+    for (std::size_t k = 0; k < counts_.size(); ++k)
+      for (const Counts& each : counts_[k]) along_[k][g] += each.right * right[each.size] + each.wrong * wrong[each.size];
+  }
+}
+
+std::vector<double> Population::log_likelihoods(const Place& at) {
+  if (known_[0] != at[0] || known_[1] != at[1]) {
+    known_ = {at[0], at[1]};
+    if (!counts_.empty()) along_choices(std::exp(at[0]), at[1]);
+    else
+      for (std::size_t i = 0; i < observers_.size(); ++i) observers_[i]->along(grid_, std::exp(at[0]), at[1], along_[i]);
+  }
+  const double spread = std::exp(at[3]);
+  std::vector<double> weights;
+  double all = 0;
+  for (const double each : grid_) weights.push_back(std::exp(-std::pow((each - at[2]) / spread, 2) / 2)), all += weights.back();
+  std::vector<double> result;
+  for (const auto& along : along_) {
+    const double most = *std::ranges::max_element(along);
+    double sum = 0;
+    for (std::size_t g = 0; g < grid_.size(); ++g) sum += weights[g] * std::exp(along[g] - most);
+    result.push_back(most + std::log(sum / all));
+  }
+  return result;
+}
+
+double Population::sum(const Place& at) {
+  double sum = 0;
+  for (const double each : log_likelihoods(at)) sum += each;
+  return sum;
+}
+
+Shared Population::best() {
+  const SensitivityOptions& options = fitter_->options();
+  Shared best;
+  const auto from = [&](double exponent, double lapse) {
+    double mean = 0, squares = 0;
+    const auto n = static_cast<double>(observers_.size());
+    for (const OneObserver* each : observers_) {
+      const double log = std::clamp(each->best(exponent, lapse).log, grid_.front() + 1, grid_.back() - 1);
+      mean += log / n, squares += log * log / n;
+    }
+    const double spread = std::clamp(std::sqrt(std::max(squares - mean * mean, 0.0)), 0.1, 1.0);
+    std::vector<double> start = {mean, std::log(spread)}, steps = {0.1, 0.3};
+    if (!options.exponent) start.push_back(std::log(exponent)), steps.push_back(0.3);
+    // A squared sine, so that the rate 0 can be reached.
+    if (!options.lapse) start.push_back(std::asin(std::sqrt(lapse / options.most_lapse))), steps.push_back(0.3);
+    const auto read = [&](const VectorXd& at) {
+      Eigen::Index i = 2;
+      Place place{0, 0, std::clamp(at(0), grid_.front(), grid_.back()),
+                  std::clamp(at(1), std::log(least_spread), std::log(most_spread))};
+      place[0] = options.exponent ? std::log(*options.exponent)
+                                  : std::clamp(at(i++), std::log(least_exponent), std::log(most_exponent));
+      place[1] = options.lapse ? *options.lapse : options.most_lapse * std::pow(std::sin(at(i++)), 2);
+      return place;
+    };
+    const auto count = static_cast<Eigen::Index>(start.size());
+    const Minimum found =
+        minimise([&](const VectorXd& at) { return -sum(read(at)); }, Eigen::Map<VectorXd>(start.data(), count),
+                 Eigen::Map<VectorXd>(steps.data(), count), 1e-6, 800);
+    if (-found.value <= best.log_likelihood) return;
+    place_ = read(found.at);
+    best = {std::exp(place_[0]), place_[1], -found.value};
+  };
+  for (const double exponent : options.exponent ? std::vector<double>{*options.exponent} : std::vector<double>{1, 2.5})
+    from(exponent, options.lapse.value_or(0.2 * options.most_lapse));
+  return best;
+}
+
+std::vector<std::size_t> Population::inner() const {
+  const SensitivityOptions& options = fitter_->options();
+  const auto is_inside = [](double value, double low, double high, double step) {
+    return value > low + 1.5 * step && value < high - 1.5 * step;
+  };
+  std::vector<std::size_t> result;
+  if (!options.exponent && is_inside(place_[0], std::log(least_exponent), std::log(most_exponent), steps[0])) result.push_back(0);
+  if (!options.lapse && is_inside(place_[1], 0, options.most_lapse, steps[1])) result.push_back(1);
+  result.push_back(2);
+  if (is_inside(place_[3], std::log(least_spread), std::log(most_spread), steps[3])) result.push_back(3);
+  return result;
+}
+
 Result<> require_sound(const std::vector<ObserverAnswers>& observers) {
   for (const ObserverAnswers& each : observers) {
     if (each.false_alarms > each.noises) return refusal(Code::malformed_value, "more answers are counted than were given", "");
@@ -373,7 +564,7 @@ struct MeanLog {
   double mean = 0, error = 0;
 };
 MeanLog mean_log_of(const SensitivityFitter& fitter, const std::vector<bool>& chosen, const Shared& shared,
-                    const SensitivityOptions& options) {
+                    Population& population) {
   std::vector<std::size_t> who;
   for (std::size_t i = 0; i < chosen.size(); ++i)
     if (chosen[i]) who.push_back(i);
@@ -382,44 +573,50 @@ MeanLog mean_log_of(const SensitivityFitter& fitter, const std::vector<bool>& ch
   for (const std::size_t i : who) middle.push_back(fitter.observers()[i].best(shared.exponent, shared.lapse));
   MeanLog result;
   for (const Own& each : middle) result.mean += each.log / n;
-  // A parameter at the end of its range is no estimate whose scatter could be told.
-  constexpr double of_exponent = 0.02, of_lapse = 0.001;
-  std::vector<std::array<double, 2>> ways;
-  if (!options.exponent && !fitter.exponent_is_held() && shared.exponent > 1.05 * least_exponent &&
-      shared.exponent < 0.95 * most_exponent)
-    ways.push_back({of_exponent, 0});
-  if (!options.lapse && shared.lapse > 1.5 * of_lapse && shared.lapse < options.most_lapse - 1.5 * of_lapse)
-    ways.push_back({0, of_lapse});
-  const auto count = static_cast<Eigen::Index>(ways.size());
-  const auto at = [&](std::size_t k, const std::array<double, 2>& by) {
-    return fitter.observers()[who[k]].best(shared.exponent * std::exp(by[0]), shared.lapse + by[1], &middle[k]);
+  const auto moved = [&](std::initializer_list<std::pair<std::size_t, double>> by) {
+    Population::Place place = population.place();
+    for (const auto& [i, times] : by) place[i] += times * Population::steps[i];
+    return place;
   };
-  Eigen::MatrixXd slopes(static_cast<Eigen::Index>(who.size()), count), curvature = Eigen::MatrixXd::Zero(count, count);
+  const std::vector<std::size_t> inner = population.inner();
+  const auto count = static_cast<Eigen::Index>(inner.size());
+  Eigen::MatrixXd slopes(static_cast<Eigen::Index>(who.size()), count), curvature(count, count);
   VectorXd moves = VectorXd::Zero(count);  // of the mean
+  const auto total = [&](const Population::Place& at) {
+    double sum = 0;
+    for (const double each : population.log_likelihoods(at)) sum += each;
+    return sum;
+  };
+  const double here = total(population.place());
   for (Eigen::Index a = 0; a < count; ++a) {
-    const auto& way = ways[static_cast<std::size_t>(a)];
+    const std::size_t i = inner[static_cast<std::size_t>(a)];
+    const auto up = population.log_likelihoods(moved({{i, 1}})), down = population.log_likelihoods(moved({{i, -1}}));
+    curvature(a, a) = 2 * here;
     for (std::size_t k = 0; k < who.size(); ++k) {
-      const Own up = at(k, way), down = at(k, {-way[0], -way[1]});
-      slopes(static_cast<Eigen::Index>(k), a) = (up.log_likelihood - down.log_likelihood) / 2;
-      moves(a) += (up.log - down.log) / 2 / n;
-      curvature(a, a) -= up.log_likelihood + down.log_likelihood - 2 * middle[k].log_likelihood;
+      slopes(static_cast<Eigen::Index>(k), a) = (up[k] - down[k]) / 2;
+      curvature(a, a) -= up[k] + down[k];
+    }
+    if (i < 2)
+      for (std::size_t k = 0; k < who.size(); ++k) {
+        const auto log_at = [&](double times) {
+          const auto place = moved({{i, times}});
+          return fitter.observers()[who[k]].best(std::exp(place[0]), place[1], &middle[k]).log;
+        };
+        moves(a) += (log_at(1) - log_at(-1)) / 2 / n;
+      }
+    for (Eigen::Index b = 0; b < a; ++b) {
+      const std::size_t j = inner[static_cast<std::size_t>(b)];
+      curvature(a, b) = curvature(b, a) = -(total(moved({{i, 1}, {j, 1}})) - total(moved({{i, 1}, {j, -1}})) -
+                                            total(moved({{i, -1}, {j, 1}})) + total(moved({{i, -1}, {j, -1}}))) / 4;
     }
   }
-  if (count == 2)
-    for (std::size_t k = 0; k < who.size(); ++k) {
-      const auto both = [&](double e, double l) { return at(k, {e * of_exponent, l * of_lapse}).log_likelihood; };
-      curvature(0, 1) -= (both(1, 1) - both(1, -1) - both(-1, 1) + both(-1, -1)) / 4;
-      curvature(1, 0) = curvature(0, 1);
-    }
   VectorXd pull = VectorXd::Zero(count);
-  if (count > 0) {
-    const Eigen::LDLT<Eigen::MatrixXd> solver(curvature);
-    if (solver.info() == Eigen::Success && solver.isPositive()) pull = solver.solve(moves);
-  }
+  const Eigen::LDLT<Eigen::MatrixXd> solver(curvature);
+  if (solver.info() == Eigen::Success && solver.isPositive()) pull = solver.solve(moves);
   double squares = 0;
   for (std::size_t k = 0; k < who.size(); ++k) {
-    double influence = (middle[k].log - result.mean) / n;
-    if (count > 0) influence += slopes.row(static_cast<Eigen::Index>(k)).dot(pull);
+    const double influence =
+        (middle[k].log - result.mean) / n + slopes.row(static_cast<Eigen::Index>(k)).dot(pull);
     squares += influence * influence;
   }
   result.error = std::sqrt(squares * n / (n - 1));
@@ -448,7 +645,8 @@ Result<SensitivityFit> fit_sensitivity(const std::vector<ObserverAnswers>& obser
   if (observers.empty()) return refusal("there are no answers", "");
   const SensitivityFitter fitter(observers, options);
   std::vector<bool> chosen(observers.size(), true);
-  Shared shared = fitter.shared(chosen);
+  std::optional<Population> population;
+  Shared shared = fitter.shared(chosen, &population);
   SensitivityFit fit;
   // Those without a threshold have no part in the exponent and the lapse rate either; without them, others may lack one.
   for (;;) {
@@ -461,7 +659,7 @@ Result<SensitivityFit> fit_sensitivity(const std::vector<ObserverAnswers>& obser
     const auto count = std::ranges::count(chosen, true);
     if (count == 0) return *fit.observers.front().refused;
     if (!dropped) break;
-    shared = fitter.shared(chosen);
+    shared = fitter.shared(chosen, &population);
   }
   fit.exponent = shared.exponent, fit.lapse = shared.lapse, fit.log_likelihood = shared.log_likelihood;
   fit.exponent_is_held = fitter.exponent_is_held();
@@ -475,7 +673,7 @@ Result<SensitivityFit> fit_sensitivity(const std::vector<ObserverAnswers>& obser
   }
   const auto count = static_cast<std::size_t>(std::ranges::count(chosen, true));
   if (count < 2) return fit;
-  const MeanLog mean = mean_log_of(fitter, chosen, shared, options);
+  const MeanLog mean = mean_log_of(fitter, chosen, shared, *population);
   const double reach = t_quantile(0.975, static_cast<double>(count) - 1) * mean.error;
   fit.mean = SensitivityFit::Mean{std::exp(mean.mean), {std::exp(mean.mean - reach), std::exp(mean.mean + reach)}, count};
   return fit;
