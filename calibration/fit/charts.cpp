@@ -72,7 +72,8 @@ std::vector<Chart> of_magnitudes(const StudyFit& fit, FitModel model) {
                   .x_name = "observers in the order of their exponents",
                   .y_name = "exponent"};
   std::vector<double> exponents;
-  for (const ObserverLaw& each : analysis.observers) exponents.push_back(each.exponent);
+  for (const ObserverLaw& each : analysis.observers)
+    if (std::isfinite(each.exponent)) exponents.push_back(each.exponent);
   std::ranges::sort(exponents);
   ChartSeries own{.colour = style::force};
   for (std::size_t i = 0; i < exponents.size(); ++i) own.points.push_back({static_cast<double>(i + 1), exponents[i]});

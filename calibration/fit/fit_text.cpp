@@ -66,8 +66,11 @@ void add_magnitudes(std::string& text, const MagnitudeAnalysis& analysis, FitMod
                          analysis.lack_of_fit->chi_squared, analysis.lack_of_fit->freedom, analysis.lack_of_fit->p));
   text += "  observers:\n";
   for (const ObserverLaw& each : analysis.observers)
-    text += readable("    {:<20} exponent {:.3g} (s.e. {:.2g}), {} answers\n", visible_text(each.observer),
-                     each.exponent, each.error, each.answers);
+    text += fmt::format("    {:<20} {}{}, {}\n", visible_text(each.observer),
+                        std::isfinite(each.exponent) ? readable("exponent {:.3g}", each.exponent)
+                                                     : std::string("no exponent: answers about one size"),
+                        std::isfinite(each.error) ? readable(" (s.e. {:.2g})", each.error) : std::string(),
+                        readable("{} answer{}", each.answers, each.answers == 1 ? "" : "s"));
 }
 
 std::string threshold_text(const ObserverThreshold& each) {
@@ -181,7 +184,9 @@ Json json_of(const MagnitudeAnalysis& analysis, FitModel model) {
   }
   json["observers"] = Json::array();
   for (const ObserverLaw& each : analysis.observers)
-    json["observers"].push_back({{"observer", each.observer}, {"exponent", each.exponent}, {"answers", each.answers}});
+    json["observers"].push_back({{"observer", each.observer},
+                                 {"exponent", std::isfinite(each.exponent) ? Json(each.exponent) : Json(nullptr)},
+                                 {"answers", each.answers}});
   return json;
 }
 
