@@ -328,7 +328,7 @@ Result<MeansRegression> regress_means(const Trials& trials, const std::string& s
   for (std::size_t i = 0; i < values->values.size(); ++i)
     if (!(values->values[i] > 0))
       return Error{.code = Code::malformed_value,
-                   .sentence = "a " + size + " of zero or below has no logarithm",
+                   .sentence = "the " + size + " is zero or below, which has no logarithm",
                    .mend = "leave such trials out by rule",
                    .place = trials.place(i)};
   MeansRegression result;

@@ -15,6 +15,8 @@ using namespace analysis;
 using Json = nlohmann::ordered_json;
 
 std::string interval_text(const Coefficient& each) {
+  if (!std::isfinite(each.low()) || !std::isfinite(each.high()))
+    return readable("{:.4g}, not bounded: too few answers tell its error", each.value);
   return readable("{:.4g}, 95 % {:.4g} to {:.4g} (s.e. {:.3g}, {:.4g} degrees of freedom)", each.value, each.low(),
                   each.high(), each.error, each.freedom);
 }
@@ -105,6 +107,9 @@ void add_thresholds(std::string& text, const StudyFit& fit) {
 }
 
 void add_confidence(std::string& text, const ConfidenceAnalysis& analysis) {
+  text += fmt::format("  {:<14} ratings from 0 to 100, linear in the sizes; mean of the observers' own regressions; ± is one "
+                      "standard deviation of single ratings\n",
+                      "model");
   text += readable(
       "  {:<14} {:.3g}, standard deviation {:.3g}; {:.3g} % of ratings at least 80, {:.3g} % of stimuli above 80\n",
       "ratings", analysis.mean, analysis.deviation, 100 * analysis.at_least_80, 100 * analysis.above_80);
@@ -113,7 +118,8 @@ void add_confidence(std::string& text, const ConfidenceAnalysis& analysis) {
                      analysis.between_runs->low, analysis.between_runs->high, analysis.between_runs->pairs);
   if (analysis.regression)
     for (const Coefficient& each : analysis.regression->coefficients)
-      text += fmt::format("  {:<14} {}\n", each.name, interval_text(each));
+      text += fmt::format("  {:<14} {}{}\n", each.name, interval_text(each),
+                          each.name == "constant" ? ", in points of the rating" : ", points for each 1 of its unit");
   if (!analysis.regression_refused.empty()) text += "  no regression: " + analysis.regression_refused + "\n";
   for (const RatedStimulus& each : analysis.stimuli)
     text += readable("    {:<32} {:.3g} ± {:.3g}, {} ratings\n", visible_text(each.name), each.mean, each.deviation,
@@ -194,9 +200,9 @@ Json json_of(const MagnitudeAnalysis& analysis, FitModel model) {
 
 std::string fit_text(const Study& study, const StudyFit& fit, const FitRequest& request) {
   std::string text =
-      readable("{}: {}, {} trials of {} observers in {} file{}\n",
+      readable("{}: {}, {} trials of {} observer{} in {} file{}\n",
                study.experiment.empty() ? "study" : visible_text(study.experiment), fit.task, fit.trials.size(),
-               fit.trials.observers.size(), study.files.size(), study.files.size() == 1 ? "" : "s");
+               fit.trials.observers.size(), fit.trials.observers.size() == 1 ? "" : "s", study.files.size(), study.files.size() == 1 ? "" : "s");
   if (fit.magnitudes) add_magnitudes(text, *fit.magnitudes, request.model);
   if (!fit.thresholds.empty()) add_thresholds(text, fit);
   if (fit.confidence) add_confidence(text, *fit.confidence);
@@ -257,7 +263,8 @@ std::string fit_json(const Study& study, const StudyFit& fit, const FitRequest& 
   json["notes"] = fit.notes;
   if (fit.magnitudes)
     for (const std::string& note : fit.magnitudes->notes) json["notes"].push_back(note);
-  json["record"] = record;
+  json["record"] = fit.no_record.empty() ? Json(record) : Json(nullptr);
+  if (!fit.no_record.empty()) json["no_record"] = fit.no_record;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -67,6 +67,7 @@ struct SortingFit {
 struct StudyFit {
   std::string task, evidence;  ///< the grade: "simulated", "measured", "estimated"
   std::string evidence_reason;
+  std::string no_record;  ///< why a map or rule of these trials would say nothing; empty if it says something
   analysis::Trials trials;
   std::vector<std::string> notes;
   std::optional<analysis::MagnitudeAnalysis> magnitudes;
