@@ -161,6 +161,9 @@ TEST(Detection, MovesPerfectRatesAndSaysSo) {
   ASSERT_TRUE(perfect);
   EXPECT_FALSE(perfect->corrected.empty());
   EXPECT_NEAR(perfect->d_prime, 2 * 1.981, 0.01);  // z(20.5 / 21)
+  // Answers that are all "no" tell nothing apart, however many there are of each kind.
+  EXPECT_NEAR(sensitivity_of(Decision::yes_no, {0, 20, 0, 100})->d_prime, 0, 1e-9);
+  EXPECT_NEAR(sensitivity_of(Decision::yes_no, {100, 100, 20, 20})->d_prime, 0, 1e-9);
   EXPECT_FALSE(sensitivity_of(Decision::yes_no, {5, 4, 0, 4}));
   EXPECT_FALSE(sensitivity_of(Decision::yes_no, {1, 4, 0, 0}));
   EXPECT_FALSE(sensitivity_of(Decision::interval_choice, {1, 4, 0, 0}, 1));
