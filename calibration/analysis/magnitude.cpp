@@ -140,7 +140,7 @@ class MagnitudeAnalyst {
     if (auto equalised = regress_means(trials_, size->name, true)) analysis_.equalised = std::move(*equalised);
     analysis_.observers = laws_of_observers(trials_, *size);
     const auto own = std::ranges::count_if(analysis_.observers, [](const auto& each) { return std::isfinite(each.exponent); });
-    if (own < 2)
+    if (own == 0 || (own < 2 && analysis_.observers.size() > 1))
       return Error{.code = Code::not_measured,
                    .sentence = std::to_string(own) + " of " + std::to_string(analysis_.observers.size()) +
                                " observers answered about two sizes or more, so nothing tells how people differ",
