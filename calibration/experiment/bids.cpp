@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -96,15 +95,10 @@ Result<std::vector<BidsFile>> beh_files(const TrialTable& table, int run) {
   const auto name = entities(table, run);
   if (!name) return name.error();
   std::string text;
-  // The recordings are no files of the data set, whose motion is in files of its own.
-  const auto stays = [&](std::size_t column) { return table.columns[column].name != "stim_file"; };
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    if (stays(i)) text += (text.empty() ? "" : "\t") + table.columns[i].name;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) text += (i == 0 ? "" : "\t") + table.columns[i].name;
   text += "\n";
   for (const auto& row : table.rows) {
-    bool first = true;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      if (stays(i)) text += (std::exchange(first, false) ? "" : "\t") + cell_of(row[i]);
+    for (std::size_t i = 0; i < row.size(); ++i) text += (i == 0 ? "" : "\t") + cell_of(row[i]);
     text += "\n";
   }
   Json sidecar = {{"TaskName", bids_label(table.task)}, {"TaskDescription", table.task_description}};
@@ -113,7 +107,6 @@ Result<std::vector<BidsFile>> beh_files(const TrialTable& table, int run) {
   sidecar["WaleDevice"] = table.device;
   sidecar["WaleGrade"] = table.grade;
   for (const TrialColumn& each : table.columns) {
-    if (each.name == "stim_file") continue;
     Json column = {{"Description", each.description}};
     if (!each.units.empty()) column["Units"] = each.units;
     if (!each.levels.empty()) {
