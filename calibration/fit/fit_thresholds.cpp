@@ -272,7 +272,8 @@ class ThresholdAnalyst {
       result.observers.push_back(std::move(threshold));
     }
     const std::string of = name.empty() ? "" : name + ": ";
-    if (fit && fit->mean) {
+    // A mean of the fewer would speak of those who happened to fit.
+    if (fit && fit->mean && 2 * without.size() <= own.size()) {
       result.law = {decision_, fit->mean->threshold, fit->exponent, fit->lapse, 0};
       result.all = {"all", fit->mean->threshold, fit->mean->interval, {}};
       result.how = fmt::format("geometric mean of {} observers, t on {} degrees of freedom", fit->mean->observers,
@@ -281,7 +282,8 @@ class ThresholdAnalyst {
         std::string names;
         for (std::size_t i = 0; i < without.size() && i < 5; ++i) names += (i == 0 ? "" : ", ") + without[i];
         if (without.size() > 5) names += fmt::format(" and {} more", without.size() - 5);
-        result.how += fmt::format("; {} of {} observers are left out", without.size(), own.size());
+        result.how += fmt::format("; {} of {} observers {} left out", without.size(), own.size(),
+                                  without.size() == 1 ? "is" : "are");
         fit_.notes.push_back(fmt::format(
             "{}{} {} no threshold of their own, by the rule that a threshold needs answers that depend on the size "
             "beyond chance (likelihood ratio 3.84) and bound it: the mean and its interval speak of the other {}",
@@ -316,6 +318,8 @@ class ThresholdAnalyst {
       fit_.notes.push_back(of + "the threshold lies outside of the sizes that were presented");
     if (!(result.all.interval.low > 0) || !std::isfinite(result.all.interval.high))
       fit_.notes.push_back(of + "the answers do not bound the threshold on both sides");
+    if (!(fit && fit->exponent_is_held) && (result.law.exponent > 9.5 || result.law.exponent < 0.21))
+      fit_.notes.push_back(of + "the exponent is at the end of its range, 0.2 to 10: the answers do not tell it");
     if (result.law.lapse > 0.098)
       fit_.notes.push_back(of + "the lapse rate is at its upper limit: people may not have done the task");
     fit_.thresholds.push_back(std::move(result));

@@ -216,7 +216,7 @@ class StudyReader {
       const auto before = std::as_const(design_).find(key);
       const bool has = here != fields.end(), had = before != std::as_const(design_).end();
       if (has == had && (!has || *here == *before)) continue;
-      return other_design(path, fmt::format("the {} of this session is not that of `{}`", words, visible_text(design_path_)));
+      return other_design(path, fmt::format("this session differs from `{}` in its {}", visible_text(design_path_), words));
     }
     if (fields.value("text", std::string()) != design_.value("text", std::string()))
       study_.notes.push_back(fmt::format("{}: the text of the design is not that of {}; task, questions, method and "

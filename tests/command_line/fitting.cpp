@@ -342,7 +342,7 @@ TEST(Fitting, SessionsOfTwoDesignsAreNotPooled) {
   const std::string asked = run("asked", replaced(design, "modulus free", "modulus 10"));
   const Outcome refused = fit({first, asked}, {});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(contains(refused.err, "of this session is not that of")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "this session differs from")) << refused.err;
   const Outcome noted = fit({first, run("noted", design + "\n// a remark\n")}, {});
   EXPECT_TRUE(contains(noted.out, "the text of the design is not that of")) << noted.out << noted.err;
 }
