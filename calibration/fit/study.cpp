@@ -134,7 +134,7 @@ class StudyReader {
         if (study_.design_file.empty()) study_.design_file = begin->file;
       } else if (const auto* program = std::get_if<SessionProgram>(&entry.event)) {
         study_.programs.insert(program->hash);
-        if (const auto same = is_felt_alike(path, *program); !same) return same;
+        note_felt(path, *program);
       } else if (std::holds_alternative<SessionResumed>(entry.event)) {
         ++resumed;
       } else if (const auto* other = std::get_if<SessionOther>(&entry.event); other && other->event == "design") {
@@ -228,12 +228,14 @@ class StudyReader {
     return {};
   }
 
-  /// Stimuli of one name were the same program, on one device.
-  Result<> is_felt_alike(const std::string& path, const SessionProgram& program) {
+  /// Notes stimuli of one name that were other programs, which a change of the design's text makes too.
+  void note_felt(const std::string& path, const SessionProgram& program) {
     const auto [known, is_new] = felt_.try_emplace(program.patch, program.hash, path);
-    if (is_new || known->second.first == program.hash || known->second.second == path) return {};
-    return other_design(path, fmt::format("`{}` was another program in this session than in `{}`",
-                                          visible_text(program.patch), visible_text(known->second.second)));
+    if (is_new || known->second.first == program.hash || known->second.second == path || noted_ == path) return;
+    noted_ = path;
+    study_.notes.push_back(fmt::format("{}: `{}` was another program than in {}: look whether both felt alike",
+                                       visible_text(path), visible_text(program.patch),
+                                       visible_text(known->second.second)));
   }
 
   Error other_design(const std::string& path, std::string sentence) const {
@@ -322,7 +324,7 @@ class StudyReader {
   std::unordered_map<std::string, std::size_t> stimulus_rows_;
   std::set<std::string> versions_;
   nlohmann::json design_;                                             ///< of the first log
-  std::string design_path_;
+  std::string design_path_, noted_;
   std::map<std::string, std::pair<std::uint64_t, std::string>> felt_;  ///< by stimulus: its program, and where first
   Study study_;
 };
