@@ -56,6 +56,37 @@ std::optional<RunCorrelation> correlation_of_runs(const Trials& trials) {
   return result;
 }
 
+/// Puts the mean of the observers' own regressions, with t of their scatter, in place of coefficients whose errors rest
+/// on the stimuli: many stimuli tell nothing of other people.
+void rest_on_observers(const Trials& trials, const Design& design, Regression& regression, std::vector<std::string>& notes) {
+  const std::size_t people = trials.observers.size();
+  std::vector<Moments> own(regression.coefficients.size());
+  for (std::size_t observer = 0; observer < people; ++observer) {
+    std::vector<Moments> of_stimuli(trials.stimuli);
+    for (std::size_t i = 0; i < trials.size(); ++i)
+      if (trials.observer[i] == observer) of_stimuli[trials.stimulus[i]].add(trials.answer[i]);
+    std::vector<Eigen::Index> rated;
+    for (std::size_t s = 0; s < trials.stimuli; ++s)
+      if (of_stimuli[s].n > 0) rated.push_back(static_cast<Eigen::Index>(s));
+    Design rows{design.names, design.columns(rated, Eigen::all)};
+    Eigen::VectorXd y(static_cast<Eigen::Index>(rated.size()));
+    for (std::size_t k = 0; k < rated.size(); ++k)
+      y(static_cast<Eigen::Index>(k)) = of_stimuli[static_cast<std::size_t>(rated[k])].mean;
+    const auto fitted = fit_least_squares(rows, y);
+    if (!fitted || people < 2) {
+      notes.push_back("the errors of the regression rest on the stimuli's means, and say nothing of other people, since "
+                      "not each of two observers or more has a regression of their own");
+      return;
+    }
+    for (std::size_t k = 0; k < own.size(); ++k) own[k].add(fitted->coefficients[k].value);
+  }
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    regression.coefficients[k].value = own[k].mean;
+    regression.coefficients[k].error = own[k].deviation() / std::sqrt(own[k].n);
+    regression.coefficients[k].freedom = own[k].n - 1;
+  }
+}
+
 }  // namespace
 
 std::optional<double> correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -128,7 +159,10 @@ Result<ConfidenceAnalysis> analyse_confidence(const Trials& trials) {
         design.columns(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(k) + 1) = trials.sizes[k].values[first[s]];
     }
     for (const SizeValues& each : trials.sizes) design.names.push_back(each.name);
-    if (auto regression = fit_least_squares(design, y)) result.regression = std::move(*regression);
+    if (auto regression = fit_least_squares(design, y)) {
+      result.regression = std::move(*regression);
+      rest_on_observers(trials, design, *result.regression, result.notes);
+    }
     else result.regression_refused = regression.error().sentence;
   }
   if (trials.runs.size() > 2) result.notes.push_back("the correlation is between the first two of " + std::to_string(trials.runs.size()) + " runs");

@@ -52,7 +52,9 @@ struct ConfidenceAnalysis {
   double at_least_80 = 0, full = 0;    ///< shares of ratings of 80 and more, and of 100
   double above_80 = 0;                 ///< share of stimuli whose mean is above 80
   std::optional<RunCorrelation> between_runs;  ///< nothing with fewer than two runs, or if all ratings are the same
-  std::optional<Regression> regression;        ///< of the stimuli's means on their sizes
+  /// Of ratings on the sizes of the stimuli: means of the observers' own coefficients, t on one degree of freedom less;
+  /// of the stimuli's means where not each has their own, as a note then says.
+  std::optional<Regression> regression;
   std::string regression_refused;              ///< why there is none, if sizes were given
   std::vector<std::string> notes;
 };

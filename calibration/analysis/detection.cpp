@@ -13,15 +13,14 @@ namespace {
 
 double density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
 
-/// A share of answers; one of 0 or 1 is moved by half an answer, as the log-linear rule does (Hautus 1995).
+/// A share of answers; with `move`, by that part of an answer, and twice the part of a trial.
 struct Share {
   double value = 0, variance = 0;
-  bool moved = false;
 };
-Share share_of(std::size_t count, std::size_t of, bool move) {
-  const double n = static_cast<double>(of) + (move ? 1 : 0);
-  const double value = (static_cast<double>(count) + (move ? 0.5 : 0)) / n;
-  return {value, value * (1 - value) / n, move};
+Share share_of(std::size_t count, std::size_t of, double move) {
+  const double n = static_cast<double>(of) + 2 * move;
+  const double value = (static_cast<double>(count) + move) / n;
+  return {value, value * (1 - value) / n};
 }
 
 }  // namespace
@@ -59,8 +58,14 @@ Result<Sensitivity> sensitivity_of(Decision decision, const Answered& answered, 
   if (choice && intervals < 2) return refusal(Code::malformed_value, "a choice needs two intervals or more", "");
   const bool move = answered.hits == 0 || answered.hits == answered.signals ||
                     (!choice && (answered.false_alarms == 0 || answered.false_alarms == answered.noises));
-  const Share hit = share_of(answered.hits, answered.signals, move);
-  const Share alarm = choice ? Share{} : share_of(answered.false_alarms, answered.noises, move);
+  // The log-linear rule (Hautus 1995) adds half an answer where both kinds are equally many, and to each kind its share of
+  // one where they are not (Goodman 1970): otherwise answers that are all "no" would be fewer to the rarer kind.
+  const double share_of_signals = choice ? 0.5
+                                         : static_cast<double>(answered.signals) /
+                                               static_cast<double>(answered.signals + answered.noises);
+  const Share hit = share_of(answered.hits, answered.signals, move ? share_of_signals : 0);
+  const Share alarm =
+      choice ? Share{} : share_of(answered.false_alarms, answered.noises, move ? 1 - share_of_signals : 0);
   Sensitivity result;
   if (move) result.corrected = "a rate of 0 or 1 was moved by half an answer";
   // The slopes of d' along both shares, by differences where there is no formula.

@@ -12,7 +12,9 @@ namespace {
 
 // In double: by default Boost computes in long double, which differs between machines.
 using InDouble = boost::math::policies::policy<boost::math::policies::promote_float<false>,
-                                               boost::math::policies::promote_double<false>>;
+                                               boost::math::policies::promote_double<false>,
+                                               // With next to no degrees of freedom a quantile is infinite.
+                                               boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
 using Normal = boost::math::normal_distribution<double, InDouble>;
 using StudentsT = boost::math::students_t_distribution<double, InDouble>;
 using ChiSquared = boost::math::chi_squared_distribution<double, InDouble>;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "schema/visible_text.hpp"
+
 namespace wale::analysis {
 namespace {
 
@@ -34,7 +36,10 @@ struct Line {
   void add(double at, double value) { n += 1, x += at, y += value, xx += at * at, xy += at * value, yy += value * value; }
   double across() const { return xx - x * x / n; }
   double slope() const { return (xy - x * y / n) / across(); }
+  /// Whether the sizes differ beyond rounding; otherwise there is no slope.
+  bool has_slope() const { return n > 1 && across() > 1e-12 * std::max(1.0, xx); }
   double slope_error() const {
+    if (!has_slope()) return std::nan("");
     const double residual = (yy - y * y / n) - slope() * slope() * across();
     return n > 2 ? std::sqrt(std::max(residual, 0.0) / (n - 2) / across()) : std::nan("");
   }
@@ -47,7 +52,7 @@ std::vector<ObserverLaw> laws_of_observers(const Trials& trials, const SizeValue
     lines[trials.observer[i]].add(std::log10(size.values[i]) - middle, std::log10(trials.answer[i]));
   std::vector<ObserverLaw> result;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    result.push_back({trials.observers[i], lines[i].slope(), lines[i].slope_error(), lines[i].y / lines[i].n,
+    result.push_back({trials.observers[i], lines[i].has_slope() ? lines[i].slope() : std::nan(""), lines[i].slope_error(), lines[i].y / lines[i].n,
                       static_cast<std::size_t>(lines[i].n)});
   return result;
 }
@@ -134,6 +139,13 @@ class MagnitudeAnalyst {
     analysis_.thesis = std::move(*thesis);
     if (auto equalised = regress_means(trials_, size->name, true)) analysis_.equalised = std::move(*equalised);
     analysis_.observers = laws_of_observers(trials_, *size);
+    const auto own = std::ranges::count_if(analysis_.observers, [](const auto& each) { return std::isfinite(each.exponent); });
+    if (own == 0 || (own < 2 && analysis_.observers.size() > 1))
+      return Error{.code = Code::not_measured,
+                   .sentence = std::to_string(own) + " of " + std::to_string(analysis_.observers.size()) +
+                               " observers answered about two sizes or more, so nothing tells how people differ",
+                   .mend = "collect whole sessions of two observers at least",
+                   .place = {.name = trials_.files.front()}};
     if (const auto fitted = fit_law(); !fitted) return fitted.error();
     if (options_.alternatives)
       if (const auto compared = compare(); !compared) return compared.error();
@@ -154,17 +166,16 @@ class MagnitudeAnalyst {
   Result<> fit_law() {
     auto data = data_of(law());
     if (!data) return data.error();
+    // The law's constant is at size 1; the model's, at a typical size.
+    analysis_.typical_log = mean_log(*size_);
+    data->combination = Eigen::Vector2d(1, -analysis_.typical_log);
     auto model = fit_mixed_simplified(*data, Criterion::restricted);
     if (!model) return model.error();
     analysis_.model = std::move(*model);
     const MixedFit& fit = analysis_.model;
     analysis_.exponent = fit.coefficients[1];
-    analysis_.typical_log = mean_log(*size_);
-    const double away = -analysis_.typical_log;
-    const Eigen::MatrixXd& covariance = fit.covariance_of_coefficients;
-    analysis_.constant = {"constant", fit.coefficients[0].value + away * fit.coefficients[1].value,
-                          std::sqrt(covariance(0, 0) + 2 * away * covariance(0, 1) + away * away * covariance(1, 1)),
-                          std::min(fit.coefficients[0].freedom, fit.coefficients[1].freedom)};
+    analysis_.constant = fit.combination;
+    analysis_.constant.name = "constant";
     analysis_.spread = fit.deviation(1), analysis_.use_of_numbers = fit.deviation(0);
     analysis_.noise = fit.residual;
     analysis_.scatter = analysis_.thesis.regression.deviation();
@@ -172,6 +183,15 @@ class MagnitudeAnalyst {
       if (analysis_.spread > 0) analysis_.spread_interval = profile_deviation(*data, fit.variation, 1);
       analysis_.noise_interval = profile_residual(*data, fit.variation);
     }
+    std::string without;
+    std::size_t lacking = 0;
+    for (const ObserverLaw& each : analysis_.observers)
+      if (!std::isfinite(each.exponent) && lacking++ < 5) without += (without.empty() ? "" : ", ") + visible_text(each.observer);
+    if (lacking > 0)
+      analysis_.notes.push_back(without + (lacking > 5 ? " and " + std::to_string(lacking - 5) + " more" : "") +
+                                (lacking == 1 ? " has" : " have") +
+                                " answers about one size alone, which give no exponent: they add to the constant and the "
+                                "noise, and say nothing of how exponents differ");
     for (const std::string& reason : fit.simplified) analysis_.notes.push_back(reason);
     return {};
   }
@@ -308,7 +328,7 @@ Result<MeansRegression> regress_means(const Trials& trials, const std::string& s
   for (std::size_t i = 0; i < values->values.size(); ++i)
     if (!(values->values[i] > 0))
       return Error{.code = Code::malformed_value,
-                   .sentence = "a " + size + " of zero or below has no logarithm",
+                   .sentence = "the " + size + " is zero or below, which has no logarithm",
                    .mend = "leave such trials out by rule",
                    .place = trials.place(i)};
   MeansRegression result;

@@ -24,7 +24,7 @@ struct StimulusMean {
 /// One observer's own regression of log10 magnitude on log10 of the size.
 struct ObserverLaw {
   std::string observer;
-  double exponent = 0, error = 0;
+  double exponent = 0, error = 0;  ///< NaN if the answers are about one size; the error also with two answers
   double level = 0;  ///< mean log10 answer: the observer's use of numbers
   std::size_t answers = 0;
 };

@@ -88,10 +88,11 @@ Minimum best_factor(const MixedLikelihood& likelihood, Criterion criterion, Vari
   return best;
 }
 
-/// Satterthwaite's degrees of freedom of each coefficient: the variance of its variance by the curvature of the
-/// criterion in the parameters of the covariance.
+/// Satterthwaite's degrees of freedom of combinations of coefficients, one a row: the variance of their variance by the
+/// curvature of the criterion in the parameters of the covariance. Where that is no maximum, and nothing is known of
+/// the variance's own, the observers less one, as if each gave one number.
 VectorXd satterthwaite(const MixedLikelihood& likelihood, Criterion criterion, Variation variation, const VectorXd& theta,
-                       double residual) {
+                       double residual, const MatrixXd& combinations, std::size_t observers) {
   const Index size = theta.size(), p = likelihood.fixed();
   VectorXd all(size + 1);
   all.head(size) = theta;
@@ -104,17 +105,21 @@ VectorXd satterthwaite(const MixedLikelihood& likelihood, Criterion criterion, V
   const Objective deviance = [&](const VectorXd& at) { return likelihood.at(factor(at), residual_at(at), criterion); };
   const MatrixXd curvature = hessian(deviance, unit);
   const Eigen::LDLT<MatrixXd> solver(curvature);
-  VectorXd freedom(p);
-  for (Index i = 0; i < p; ++i) {
+  const bool is_maximum = solver.info() == Eigen::Success && solver.isPositive();
+  VectorXd freedom(combinations.rows());
+  for (Index i = 0; i < combinations.rows(); ++i) {
+    const VectorXd combination = combinations.row(i).transpose();
     const Objective variance = [&](const VectorXd& at) {
       const MatrixXd products = likelihood.parts(factor(at)).products.topLeftCorner(p, p);
       const double s = residual_at(at);
-      return s * s * products.llt().solve(MatrixXd::Identity(p, p))(i, i);
+      return s * s * combination.dot(products.llt().solve(combination));
     };
     const VectorXd slope = gradient(variance, unit);
-    const double spread = 2 * slope.dot(solver.solve(slope));
-    const double value = variance(unit);
-    freedom(i) = spread > 0 ? 2 * value * value / spread : likelihood.trials() - static_cast<double>(p);
+    const double spread = 2 * slope.dot(solver.solve(slope)), value = variance(unit);
+    const double found = 2 * value * value / spread;
+    freedom(i) = is_maximum && spread > 0 && found > 0 && std::isfinite(found)
+                     ? found
+                     : std::max(0.0, static_cast<double>(observers) - 1);
   }
   return freedom;
 }
@@ -170,11 +175,22 @@ Result<MixedFit> fit_mixed(const MixedData& data, Criterion criterion, Variation
   fit.covariance_of_coefficients = fit.residual * fit.residual *
                                    parts.products.topLeftCorner(p, p).llt().solve(MatrixXd::Identity(p, p));
   fit.singular = is_singular(best.at, variation, q);
-  const VectorXd freedom = satterthwaite(likelihood, criterion, variation, best.at, fit.residual);
+  const bool combines = data.combination.size() == p;
+  MatrixXd combinations = MatrixXd::Identity(p + (combines ? 1 : 0), p);
+  if (combines) combinations.row(p) = data.combination.transpose();
+  const VectorXd freedom =
+      satterthwaite(likelihood, criterion, variation, best.at, fit.residual, combinations, data.observers);
   for (Index i = 0; i < p; ++i)
     fit.coefficients.push_back({data.fixed.names[static_cast<std::size_t>(i)],
                                 parts.coefficients(i) + (i == 0 ? likelihood.shift() : 0),
                                 std::sqrt(fit.covariance_of_coefficients(i, i)), freedom(i)});
+  if (combines) {
+    fit.combination.value = 0;
+    for (Index i = 0; i < p; ++i)
+      fit.combination.value += data.combination(i) * fit.coefficients[static_cast<std::size_t>(i)].value;
+    fit.combination.error = std::sqrt(data.combination.dot(fit.covariance_of_coefficients * data.combination));
+    fit.combination.freedom = freedom(p);
+  }
   fit.observer_terms = MatrixXd::Zero(static_cast<Index>(data.observers), q);
   double squares = 0;
   for (std::size_t i = 0; i < data.observers; ++i) {

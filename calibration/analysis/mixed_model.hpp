@@ -32,6 +32,7 @@ struct MixedData {
   std::vector<std::uint32_t> observer;    ///< for each row, from 0
   std::size_t observers = 0;
   Eigen::VectorXd y;
+  Eigen::VectorXd combination = {};  ///< of the coefficients, which is sought beside them; empty for none
 };
 
 /// An interval of profile likelihood.
@@ -45,6 +46,7 @@ struct MixedFit {
   Variation variation = Variation::correlated;
   double deviance = 0;  ///< -2 log likelihood, or the restricted criterion
   std::vector<Coefficient> coefficients;  ///< with Satterthwaite's degrees of freedom
+  Coefficient combination;                ///< that of the data; without a name
   Eigen::MatrixXd covariance_of_coefficients;
   Eigen::MatrixXd covariance;     ///< of the varying terms between observers; zero rows for those that do not vary
   double residual = 0;            ///< standard deviation within observers

@@ -147,16 +147,17 @@ class PsychometricFitter {
       return Interval{end(-1), end(1)};
     };
     PsychometricFunction warm = fit.function;
-    fit.threshold = interval(place, 0.05 * range, low_ - 3 * range, high_ + 3 * range, [&](double at) {
-      warm = best(at, {}, &warm);
+    // From the neighbour's best function a search may end in a side valley, where an interval would end too early.
+    const auto loss = [&](std::optional<double> held_place, std::optional<double> held_width) {
+      warm = best(held_place, held_width, &warm);
+      if (allowed - objective(warm) > 0)
+        if (const PsychometricFunction anew = best(held_place, held_width); objective(anew) > objective(warm)) warm = anew;
       return allowed - objective(warm);
-    });
+    };
+    fit.threshold = interval(place, 0.05 * range, low_ - 3 * range, high_ + 3 * range, [&](double at) { return loss(at, {}); });
     fit.threshold = {size_of(options_.shape, fit.threshold.low), size_of(options_.shape, fit.threshold.high)};
     warm = fit.function;
-    const Interval logs = interval(std::log(fit.function.width), 0.2, std::log(range) - 8, std::log(range) + 4, [&](double at) {
-      warm = best({}, std::exp(at), &warm);
-      return allowed - objective(warm);
-    });
+    const Interval logs = interval(std::log(fit.function.width), 0.2, std::log(range) - 8, std::log(range) + 4, [&](double at) { return loss({}, std::exp(at)); });
     fit.width = {std::exp(logs.low), std::exp(logs.high)};
   }
 

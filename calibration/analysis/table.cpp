@@ -226,7 +226,7 @@ class TableReader {
       for (std::size_t column = 0; column < kept; ++column) cells.push_back(table_.cell(row, column));
     table_.cells_ = std::move(cells);
     table_.columns_.resize(kept);
-    table_.notes_.push_back(count_of(width - kept, "empty column", "empty columns") + " at the end without a name are skipped");
+    table_.notes_.push_back(count_of(width - kept, "empty column", "empty columns") + " at the end without a name " + (width - kept == 1 ? "is" : "are") + " skipped");
   }
 
   Table table_;

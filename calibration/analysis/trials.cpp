@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -101,6 +103,7 @@ class TrialReader {
     if (const auto varied = require_varied(); !varied) return varied.error();
     number_stimuli();
     note_missing_trials();
+    note_equal_rows();
     return std::move(trials_);
   }
 
@@ -249,6 +252,14 @@ class TrialReader {
   Result<> require_one_mark(std::size_t row, std::size_t column, std::string_view cell) {
     const bool comma = cell.find(',') != std::string_view::npos, point = cell.find('.') != std::string_view::npos;
     if (!comma && !point) return {};
+    // Between commas that separate cells, a comma in a number may be one of thousands: 1,234.
+    if (table_->comma_separates())
+      for (const auto& [other, mark] : marks_)
+        if (other != column && mark != (comma ? ',' : '.'))
+          return table_error(*table_, row,
+                             "a number with a decimal " + std::string(comma ? "comma" : "point") +
+                                 " in a table with decimal " + (comma ? "points" : "commas"),
+                             "write a decimal point, and no comma between thousands", cell);
     char& known = marks_.try_emplace(column, comma ? ',' : '.').first->second;
     if (known == (comma ? ',' : '.')) return {};
     return table_error(*table_, row,
@@ -366,6 +377,7 @@ class TrialReader {
 
   /// Names observers who lack some of the stimuli.
   void note_missing_trials() {
+    if (columns_.answers == Answers::choices) return;  // adaptive methods present to each what they need
     if (trials_.stimuli == trials_.size()) return;  // each trial is its own stimulus, as in adaptive tasks
     std::vector<std::unordered_set<std::uint32_t>> felt(trials_.observers.size());
     for (std::size_t i = 0; i < trials_.size(); ++i) felt[trials_.observer[i]].insert(trials_.stimulus[i]);
@@ -380,6 +392,19 @@ class TrialReader {
     if (incomplete == 1) trials_.notes.push_back(first);
     if (incomplete > 1)
       trials_.notes.push_back(std::to_string(incomplete) + " observers lack answers to some stimuli: " + first);
+  }
+
+  /// Without a number of the trial, rows that were copied are not told from equal answers.
+  void note_equal_rows() {
+    if (trial_ || columns_.answers != Answers::magnitudes) return;
+    std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, double>> known;
+    std::size_t equal = 0;
+    for (std::size_t i = 0; i < trials_.size(); ++i)
+      equal += known.insert({trials_.observer[i], trials_.run[i], trials_.stimulus[i], trials_.answer[i]}).second ? 0 : 1;
+    if (equal > 0)
+      trials_.notes.push_back(std::to_string(equal) + (equal == 1 ? " row is" : " rows are") +
+                              " like an earlier one in observer, stimulus and answer; without a column of the trial's "
+                              "number, trials that are there twice are not told from equal answers");
   }
 
   const Table* tables_;

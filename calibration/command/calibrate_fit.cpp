@@ -49,16 +49,23 @@ int calibrate_fit(const CalibrateFitOptions& options) {
   InputFiles inputs = options.study.files;
   if (!options.study.design.empty()) inputs.push_back(options.study.design);
   if (!options.study.stimuli.empty()) inputs.push_back(options.study.stimuli);
-  if (!options.out.empty())
+  const bool has_record = study->fit.no_record.empty();
+  if (!options.out.empty() && has_record)
     if (const auto written = write_file(options.out, study->record, inputs); !written) return refuse(written.error());
   if (!options.plots.empty())
     if (const auto drawn = write_charts(*study, options.plots, inputs); !drawn) return refuse(drawn.error());
   if (options.json) {
     print_out(fit_json(study->study, study->fit, study->request, study->record));
-    return done;
+    return has_record ? done : refused;
   }
-  if (options.out == "-") return done;
+  if (options.out == "-" && has_record) return done;
   print_out(fit_text(study->study, study->fit, study->request));
+  if (!has_record)
+    return refuse(Error{.code = Code::not_measured,
+                        .sentence = fmt::format("no {} is made: {}", study->fit.magnitudes ? "map" : "rule",
+                                                study->fit.no_record),
+                        .mend = "look at the answers; collect more, or vary the sizes more",
+                        .place = {.name = options.study.files.front()}});
   if (!options.out.empty())
     print_out("{} has the {}\n", visible_text(options.out),
               study->fit.magnitudes           ? "map"

@@ -172,9 +172,11 @@ int calibrate_report(const CalibrateReportOptions& options) {
       write_file(options.out, study_page(study->study, study->fit, study->request, study->record, parts), inputs);
   if (!written) return refuse(written.error());
   if (options.out != "-")
-    print_out("{}", readable("{} has {} trials, {} excluded rows, {} stimuli and {} charts\n",
-                             visible_text(options.out), study->fit.trials.size(), study->fit.trials.exclusions.size(),
-                             parts.stimuli.size(), parts.charts.size()));
+    print_out("{}", readable("{} has {} trials, {} excluded rows, {} and {} charts\n", visible_text(options.out),
+                             study->fit.trials.size(), study->fit.trials.exclusions.size(),
+                             study->design ? readable("{} drawn stimuli", parts.stimuli.size())
+                                           : std::string("no drawn stimuli (name the --design)"),
+                             parts.charts.size()));
   return done;
 }
 

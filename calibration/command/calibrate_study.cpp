@@ -215,6 +215,7 @@ OrStatus<FittedStudy> fitted_study(const StudyChoice& choice) {
   auto fit = fit_study(made.study, made.request);
   if (!fit) return refuse_study(fit.error());
   made.fit = *std::move(fit);
+  if (!made.fit.no_record.empty()) return made;
   auto record = record_of(made.study, made.fit, made.request);
   if (!record) return refuse_study(record.error());
   made.record = *std::move(record);

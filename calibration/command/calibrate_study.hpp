@@ -30,7 +30,7 @@ struct FittedStudy {
   Study study;
   FitRequest request;
   StudyFit fit;
-  std::string record;                ///< as a Wale file
+  std::string record;                ///< as a Wale file; empty with `no_record`
   std::optional<OpenedFile> design;  ///< if it was named
 };
 OrStatus<FittedStudy> fitted_study(const StudyChoice& choice);

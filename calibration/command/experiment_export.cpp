@@ -81,6 +81,12 @@ int experiment_export(const ExperimentExportOptions& options) {
     for (const Error& each : record->problems) warn(each);
     auto table = trial_table(*record, log);
     if (!table) return refuse(table.error());
+    // The recordings are no files of the data set; the motion of the handle is.
+    if (const auto column = table->column("stim_file")) {
+      const auto at = static_cast<std::ptrdiff_t>(*column);
+      table->columns.erase(table->columns.begin() + at);
+      for (auto& row : table->rows) row.erase(row.begin() + at);
+    }
     ++sessions[{bids_label(table->participant), bids_label(table->task)}];
     tables.push_back(*std::move(table)), records.push_back(*std::move(record));
   }

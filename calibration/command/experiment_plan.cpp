@@ -114,7 +114,8 @@ int experiment_plan(const ExperimentPlanOptions& options) {
   print_out("{}", readable("{}: {}, {} trials a person; assumed: {}\n", experiment.name, plan->sought, plan->trials,
                            is_law ? readable("exponent {:.3g} ± {:.3g} between people, noise {:.3g} of log10 answers",
                                              request.exponent, request.spread, request.noise)
-                                  : readable("threshold {}, {:.3g} of its logarithm between people",
+                                  : readable("threshold {}, {:.3g} of its logarithm between people; d' in proportion "
+                                             "to the difference, lapse rate 0.02",
                                              request.threshold ? readable("{:.3g}", *request.threshold)
                                                                : "in the middle of the levels",
                                              request.threshold_spread)));

@@ -8,7 +8,10 @@
 namespace wale {
 namespace {
 
-constexpr double settling = 0.5;        // s
+/// Forces are counted when the high-passes have settled: after half a second, and of a short presentation after a
+/// third of it, so that something of it is counted.
+constexpr double settling = 0.5;          // s
+constexpr double settling_share = 1 / 3.0;
 constexpr double slowest_texture = 5;   // Hz; a hand goes to and fro about once a second
 
 /// Two first-order high-passes, one behind the other, of a force.
@@ -73,12 +76,14 @@ FeltSize felt_size(const Record& record) {
   double speeds = 0;
   long ticks = 0;
   felt.interaction_known = !record.ticks.empty();
+  const double begin =
+      record.ticks.empty() ? 0 : std::min(settling, settling_share * static_cast<double>(record.ticks.back().time));
   for (const TickRecord& tick : record.ticks) {
     const bool known = std::isfinite(tick.interaction.x) && std::isfinite(tick.interaction.y);
     felt.interaction_known = felt.interaction_known && known;
     const glm::dvec2 between = interaction.step(known ? glm::dvec2(tick.interaction.x, tick.interaction.y) : glm::dvec2(0));
     const glm::dvec2 exerted = actuator.step(glm::dvec2(tick.force.x, tick.force.y));
-    if (tick.time < settling || !tick.inside) continue;
+    if (tick.time < begin || !tick.inside) continue;
     of_interaction.add(between);
     of_actuator.add(exerted);
     speeds += static_cast<double>(tick.velocity.x) * tick.velocity.x + static_cast<double>(tick.velocity.y) * tick.velocity.y;

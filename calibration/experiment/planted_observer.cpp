@@ -97,7 +97,8 @@ void PlantedObserver::begin(const Trial& trial, std::size_t, int interval, int) 
 
 void PlantedObserver::felt(const Presented& presented, const FeltSize& felt) {
   intervals_.push_back(magnitude(felt));
-  if (!presented.is_standard) known_[presented.index] = intervals_.back();
+  if (presented.is_standard) standard_ = intervals_.back();
+  else known_[presented.index] = intervals_.back();
 }
 
 /// The magnitude with noise; what is not felt has a little of its own, so that the answer is a guess.
@@ -126,8 +127,12 @@ std::string PlantedObserver::answer(const Question& question) {
   switch (kind) {
     case ResponseKind::interval: return lapses ? (coin ? "1" : "2") : felt.front() > felt.back() ? "1" : "2";
     case ResponseKind::yes_no: {
-      // Felt if it is above what the threshold alone would give by noise: a criterion of one tenth of the modulus.
-      const bool present = now > 0.1 * law_.modulus;
+      // A criterion one standard deviation of the noise above the standard, so that catch trials are "yes" in 16 %. Until
+      // a standard was felt, or if it is not felt, above what the threshold alone would give by noise: a tenth of the
+      // modulus.
+      const double criterion =
+          standard_ > 0 ? standard_ * std::exp(std::max(law_.noise, 1e-3)) : 0.1 * law_.modulus;
+      const bool present = now > criterion;
       return (lapses ? coin : present) ? "yes" : "no";
     }
     case ResponseKind::same_different: {

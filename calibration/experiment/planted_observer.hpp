@@ -54,6 +54,7 @@ class PlantedObserver final : public Participant {
   PlantedLaw law_;
   std::uint32_t seed_;
   std::vector<double> intervals_;     ///< magnitudes of the present trial
+  double standard_ = 0;               ///< magnitude of the latest standard; 0 before there was one
   std::optional<double> before_;      ///< of the trial before
   std::uint32_t trial_ = 0;
   int moves_ = 0;                     ///< in the present adjustment

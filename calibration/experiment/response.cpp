@@ -66,14 +66,11 @@ ResponseKind kind_of(AnswerKind kind) {
 }
 
 Asked of_task(const CheckedExperiment& experiment) {
-  const std::string ends = experiment.lowest.empty()
-                               ? std::string()
-                               : fmt::format(" 0 is {}, 100 is {}.", experiment.lowest, experiment.highest);
   switch (experiment.task) {
     case TrialTask::magnitude_estimation:
       return {"response", ResponseKind::magnitude, "How strong does it feel? Give a number above 0."};
-    case TrialTask::rating: return {"response", ResponseKind::rating, "Rate it from 0 to 100." + ends};
-    case TrialTask::confidence: return {"response", ResponseKind::rating, "How sure are you, from 0 to 100?" + ends};
+    case TrialTask::rating: return {"response", ResponseKind::rating, "Rate it from 0 to 100."};
+    case TrialTask::confidence: return {"response", ResponseKind::rating, "How sure are you, from 0 to 100?"};
     case TrialTask::description: return {"response", ResponseKind::text, "What does it feel like?"};
     case TrialTask::two_interval: return {"response", ResponseKind::interval, "In which was there more, 1 or 2?"};
     case TrialTask::one_interval: return {"response", ResponseKind::yes_no, "Was it there? yes or no"};
@@ -92,6 +89,12 @@ std::vector<Asked> questions_of_trial(const CheckedExperiment& experiment) {
   if (experiment.task == TrialTask::sorting) return all;
   all.push_back(of_task(experiment));
   if (!experiment.ask.empty()) all.back().says = experiment.ask;
+  // What numbers mean is said whatever the question is.
+  const bool rates = experiment.task == TrialTask::rating || experiment.task == TrialTask::confidence;
+  if (rates && !experiment.lowest.empty())
+    all.back().says += fmt::format(" 0 is {}, 100 is {}.", experiment.lowest, experiment.highest);
+  if (experiment.task == TrialTask::magnitude_estimation && experiment.modulus)
+    all.back().says += fmt::format(" The first one is {}; give others numbers in proportion.", *experiment.modulus);
   for (const ExperimentQuestion& each : experiment.questions) all.push_back({each.name, kind_of(each.kind), each.says});
   return all;
 }

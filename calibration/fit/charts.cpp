@@ -72,7 +72,8 @@ std::vector<Chart> of_magnitudes(const StudyFit& fit, FitModel model) {
                   .x_name = "observers in the order of their exponents",
                   .y_name = "exponent"};
   std::vector<double> exponents;
-  for (const ObserverLaw& each : analysis.observers) exponents.push_back(each.exponent);
+  for (const ObserverLaw& each : analysis.observers)
+    if (std::isfinite(each.exponent)) exponents.push_back(each.exponent);
   std::ranges::sort(exponents);
   ChartSeries own{.colour = style::force};
   for (std::size_t i = 0; i < exponents.size(); ++i) own.points.push_back({static_cast<double>(i + 1), exponents[i]});
@@ -98,20 +99,20 @@ std::vector<Chart> of_thresholds(const StudyFit& fit) {
         .log_x = true};
     ChartSeries points{.colour = style::force, .name = "answers"},
         line{.line = true, .colour = style::moving, .name = "fit"};
-    if (each.function) {
+    if (fit.task == "two_interval") {
       chart.y_name = "share of right answers";
       for (const Level& level : each.levels)
         points.points.push_back({level.size, static_cast<double>(level.right) / static_cast<double>(level.trials)});
       const double low = std::log(each.levels.front().size), high = std::log(each.levels.back().size);
       for (int i = 0; i <= 100; ++i) {
         const double at = std::exp(low + (high - low) * i / 100);
-        line.points.push_back({at, each.function->function.at(at)});
+        line.points.push_back({at, each.law.at(at)});
       }
     } else {
       chart.y_name = "d'";
       for (const auto& [difference, d] : each.sensitivities) {
         points.points.push_back({difference, d.d_prime});
-        line.points.push_back({difference, difference / each.all.value});
+        line.points.push_back({difference, each.law.d_prime(difference)});
       }
     }
     chart.series = {std::move(points), std::move(line)};

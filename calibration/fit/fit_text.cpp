@@ -15,6 +15,8 @@ using namespace analysis;
 using Json = nlohmann::ordered_json;
 
 std::string interval_text(const Coefficient& each) {
+  if (!std::isfinite(each.low()) || !std::isfinite(each.high()))
+    return readable("{:.4g}, not bounded: too few answers tell its error", each.value);
   return readable("{:.4g}, 95 % {:.4g} to {:.4g} (s.e. {:.3g}, {:.4g} degrees of freedom)", each.value, each.low(),
                   each.high(), each.error, each.freedom);
 }
@@ -66,27 +68,36 @@ void add_magnitudes(std::string& text, const MagnitudeAnalysis& analysis, FitMod
                          analysis.lack_of_fit->chi_squared, analysis.lack_of_fit->freedom, analysis.lack_of_fit->p));
   text += "  observers:\n";
   for (const ObserverLaw& each : analysis.observers)
-    text += readable("    {:<20} exponent {:.3g} (s.e. {:.2g}), {} answers\n", visible_text(each.observer),
-                     each.exponent, each.error, each.answers);
+    text += fmt::format("    {:<20} {}{}, {}\n", visible_text(each.observer),
+                        std::isfinite(each.exponent) ? readable("exponent {:.3g}", each.exponent)
+                                                     : std::string("no exponent: answers about one size"),
+                        std::isfinite(each.error) ? readable(" (s.e. {:.2g})", each.error) : std::string(),
+                        readable("{} answer{}", each.answers, each.answers == 1 ? "" : "s"));
 }
 
 std::string threshold_text(const ObserverThreshold& each) {
   if (!each.refused.empty()) return "none: " + each.refused;
+  if (!(each.interval.low > 0) && !std::isfinite(each.interval.high))
+    return readable("{:.4g}, not bounded by the answers", each.value);
+  if (!(each.interval.low > 0)) return readable("{:.4g}, 95 % below {:.4g}", each.value, each.interval.high);
+  if (!std::isfinite(each.interval.high)) return readable("{:.4g}, 95 % above {:.4g}", each.value, each.interval.low);
   return readable("{:.4g}, 95 % {:.4g} to {:.4g}", each.value, each.interval.low, each.interval.high);
 }
 
 void add_thresholds(std::string& text, const StudyFit& fit) {
   text += fmt::format("  {:<14} {}\n", "model",
                       fit.task == "two_interval"
-                          ? "Weibull function by maximum likelihood, guess rate 0.5, lapse rate 0 to 0.1"
-                          : "d' in proportion to the difference, weighted least squares");
+                          ? "d' = (difference / threshold) ^ exponent of two intervals, maximum likelihood"
+                          : fit.task == "one_interval"
+                                ? "d' = (difference / threshold) ^ exponent with a criterion, maximum likelihood"
+                                : "d' = (difference / threshold) ^ exponent of a difference beyond a criterion, maximum "
+                                  "likelihood");
   for (const ThresholdFit& each : fit.thresholds) {
     text += fmt::format("  {:<14} {}; {}\n", each.standard.empty() ? "threshold" : visible_text(each.standard),
                         threshold_text(each.all), each.how);
-    if (each.function)
-      text += readable("    all answers: width {:.3g}, lapse rate {:.2g}, deviance {:.3g} of {} sizes, {} trials\n",
-                       each.function->function.width, each.function->function.lapse, each.function->deviance,
-                       each.function->levels, each.function->trials);
+    text += readable("    of the curve without lapses; {}: exponent {:.3g}, lapse rate {:.2g} (of 0 to 0.1); {} sizes\n",
+                     each.observers.size() == 1 ? "the observer's" : "common to the observers", each.law.exponent,
+                     each.law.lapse, each.levels.size());
     for (const ObserverThreshold& own : each.observers)
       text += fmt::format("    {:<20} {}\n", visible_text(own.observer), threshold_text(own));
   }
@@ -96,6 +107,9 @@ void add_thresholds(std::string& text, const StudyFit& fit) {
 }
 
 void add_confidence(std::string& text, const ConfidenceAnalysis& analysis) {
+  text += fmt::format("  {:<14} ratings from 0 to 100, linear in the sizes; mean of the observers' own regressions; ± is one "
+                      "standard deviation of single ratings\n",
+                      "model");
   text += readable(
       "  {:<14} {:.3g}, standard deviation {:.3g}; {:.3g} % of ratings at least 80, {:.3g} % of stimuli above 80\n",
       "ratings", analysis.mean, analysis.deviation, 100 * analysis.at_least_80, 100 * analysis.above_80);
@@ -104,7 +118,8 @@ void add_confidence(std::string& text, const ConfidenceAnalysis& analysis) {
                      analysis.between_runs->low, analysis.between_runs->high, analysis.between_runs->pairs);
   if (analysis.regression)
     for (const Coefficient& each : analysis.regression->coefficients)
-      text += fmt::format("  {:<14} {}\n", each.name, interval_text(each));
+      text += fmt::format("  {:<14} {}{}\n", each.name, interval_text(each),
+                          each.name == "constant" ? ", in points of the rating" : ", points for each 1 of its unit");
   if (!analysis.regression_refused.empty()) text += "  no regression: " + analysis.regression_refused + "\n";
   for (const RatedStimulus& each : analysis.stimuli)
     text += readable("    {:<32} {:.3g} ± {:.3g}, {} ratings\n", visible_text(each.name), each.mean, each.deviation,
@@ -175,7 +190,9 @@ Json json_of(const MagnitudeAnalysis& analysis, FitModel model) {
   }
   json["observers"] = Json::array();
   for (const ObserverLaw& each : analysis.observers)
-    json["observers"].push_back({{"observer", each.observer}, {"exponent", each.exponent}, {"answers", each.answers}});
+    json["observers"].push_back({{"observer", each.observer},
+                                 {"exponent", std::isfinite(each.exponent) ? Json(each.exponent) : Json(nullptr)},
+                                 {"answers", each.answers}});
   return json;
 }
 
@@ -183,9 +200,9 @@ Json json_of(const MagnitudeAnalysis& analysis, FitModel model) {
 
 std::string fit_text(const Study& study, const StudyFit& fit, const FitRequest& request) {
   std::string text =
-      readable("{}: {}, {} trials of {} observers in {} file{}\n",
+      readable("{}: {}, {} trials of {} observer{} in {} file{}\n",
                study.experiment.empty() ? "study" : visible_text(study.experiment), fit.task, fit.trials.size(),
-               fit.trials.observers.size(), study.files.size(), study.files.size() == 1 ? "" : "s");
+               fit.trials.observers.size(), fit.trials.observers.size() == 1 ? "" : "s", study.files.size(), study.files.size() == 1 ? "" : "s");
   if (fit.magnitudes) add_magnitudes(text, *fit.magnitudes, request.model);
   if (!fit.thresholds.empty()) add_thresholds(text, fit);
   if (fit.confidence) add_confidence(text, *fit.confidence);
@@ -216,7 +233,8 @@ std::string fit_json(const Study& study, const StudyFit& fit, const FitRequest& 
     json["files"].push_back({{"path", each.path}, {"form", each.form}, {"hash", fmt::format("{:016x}", each.hash)}});
   if (fit.magnitudes) json["magnitudes"] = json_of(*fit.magnitudes, request.model);
   for (const ThresholdFit& each : fit.thresholds) {
-    Json one = {{"standard", each.standard}, {"threshold", json_of(each.all)}, {"how", each.how}};
+    Json one = {{"standard", each.standard}, {"threshold", json_of(each.all)}, {"how", each.how},
+                {"exponent", each.law.exponent},  {"lapse", each.law.lapse}};
     for (const ObserverThreshold& own : each.observers) one["observers"].push_back(json_of(own));
     json["thresholds"].push_back(std::move(one));
   }
@@ -245,7 +263,8 @@ std::string fit_json(const Study& study, const StudyFit& fit, const FitRequest& 
   json["notes"] = fit.notes;
   if (fit.magnitudes)
     for (const std::string& note : fit.magnitudes->notes) json["notes"].push_back(note);
-  json["record"] = record;
+  json["record"] = fit.no_record.empty() ? Json(record) : Json(nullptr);
+  if (!fit.no_record.empty()) json["no_record"] = fit.no_record;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -9,7 +9,7 @@
 
 #include "calibration/analysis/distributions.hpp"
 #include "calibration/analysis/mixed_model.hpp"
-#include "calibration/analysis/psychometric.hpp"
+#include "calibration/analysis/sensitivity_law.hpp"
 #include "calibration/analysis/random.hpp"
 #include "calibration/experiment/level_chooser.hpp"
 #include "calibration/experiment/trial_order.hpp"
@@ -73,7 +73,7 @@ class MagnitudeStudies {
 /// People that are simulated once; each study of thresholds takes some of them, since tracks take long.
 constexpr std::size_t pool = 1000;
 
-/// Studies of two intervals: each person has a threshold, and a track or constant stimuli about it.
+/// Studies of thresholds: each person has a threshold, and a track or constant stimuli about it.
 class ThresholdStudies {
  public:
   ThresholdStudies(const CheckedExperiment& experiment, std::vector<double> levels, bool is_ratio, double threshold,
@@ -82,48 +82,49 @@ class ThresholdStudies {
         levels_(std::move(levels)),
         is_ratio_(is_ratio),
         threshold_(threshold),
-        request_(request) {
+        request_(request),
+        decision_(decision_of(experiment.task)),
+        // Of a difference, a criterion is that of two intervals: "different" to what is the same in 16 % of the trials.
+        criterion_(decision_ == Decision::same_different_difference ? 2 * request.criterion : request.criterion) {
     Random random(request.seed);
     for (std::size_t person = 0; person < pool; ++person)
-      logs_.push_back(measured(threshold * std::exp(request.threshold_spread * random.normal()), random));
+      people_.push_back(answers_of(threshold * std::exp(request.threshold_spread * random.normal()), random));
   }
 
   std::optional<Found> operator()(std::size_t people, Random& random) const {
-    double sum = 0, squares = 0;
-    std::size_t fitted = 0;
-    for (std::size_t person = 0; person < people; ++person) {
-      const std::optional<double> log = logs_[random.below(logs_.size())];
-      if (log) sum += *log, squares += *log * *log, ++fitted;
-    }
-    if (fitted < 2) return std::nullopt;
-    const auto n = static_cast<double>(fitted);
-    const double mean = sum / n, deviation = std::sqrt(std::max(0.0, (squares - n * mean * mean) / (n - 1)));
-    const double reach = t_quantile(0.975, n - 1) * deviation / std::sqrt(n);
-    // F is 0.5 at the fit's threshold, and 1 - 1/e at Weibull's.
-    const double truth = std::log(threshold_) + std::log(std::log(2.0)) / request_.slope;
-    return Found{reach, std::abs(mean - truth) <= reach};
+    std::vector<ObserverAnswers> answers;
+    for (std::size_t person = 0; person < people; ++person) answers.push_back(people_[random.below(people_.size())]);
+    // As the trials of a study are fitted.
+    const auto fit = fit_sensitivity(answers, {.decision = decision_, .intervals = false});
+    if (!fit || !fit->mean) return std::nullopt;
+    const Interval& interval = fit->mean->interval;
+    return Found{std::log(interval.high / interval.low) / 2, interval.holds(threshold_)};
   }
 
  private:
-  /// The logarithm of a person's threshold as their answers give it; nothing if they do not.
-  std::optional<double> measured(double own, Random& random) const {
-    // Only the threshold is needed, so lapses are held and there is no interval.
-    const auto fit = fit_psychometric(answers_of(own, random),
-                                      {.shape = Sigmoid::weibull, .guess = 0.5, .lapse = 0.02, .intervals = false});
-    if (!fit) return std::nullopt;
-    return std::log(fit->function.threshold);
+  static Decision decision_of(TrialTask task) {
+    return task == TrialTask::two_interval   ? Decision::interval_choice
+           : task == TrialTask::one_interval ? Decision::yes_no
+                                             : Decision::same_different_difference;
   }
 
   double difference(std::size_t level) const { return is_ratio_ ? levels_[level] - 1 : levels_[level]; }
 
   bool answer(std::size_t level, double own, Random& random) const {
-    const double felt = 1 - std::exp(-std::pow(difference(level) / own, request_.slope));
-    return random.uniform() < 0.5 + 0.48 * felt;
+    const SensitivityLaw law{decision_, own, request_.growth, request_.lapse, criterion_};
+    return random.uniform() < law.at(difference(level));
   }
 
-  std::vector<Level> answers_of(double own, Random& random) const {
+  ObserverAnswers answers_of(double own, Random& random) const {
     std::map<std::size_t, Level> counts;
+    ObserverAnswers answers;
     const auto present = [&](std::size_t level) {
+      if (decision_ != Decision::interval_choice && random.uniform() < experiment_.catches) {
+        const SensitivityLaw law{decision_, own, request_.growth, request_.lapse, criterion_};
+        const bool alarm = random.uniform() < law.at(0);
+        ++answers.noises, answers.false_alarms += alarm ? 1 : 0;
+        return !alarm;
+      }
       const bool right = answer(level, own, random);
       Level& each = counts[level];
       each.size = difference(level), ++each.trials, each.right += right ? 1 : 0;
@@ -140,8 +141,7 @@ class ThresholdStudies {
         chooser->take(level, present(level));
       }
     }
-    std::vector<Level> answers;
-    for (const auto& [level, each] : counts) answers.push_back(each);
+    for (const auto& [level, each] : counts) answers.levels.push_back(each);
     return answers;
   }
 
@@ -150,7 +150,9 @@ class ThresholdStudies {
   bool is_ratio_;
   double threshold_;
   const PlanRequest& request_;
-  std::vector<std::optional<double>> logs_;  // of the pool
+  Decision decision_;
+  double criterion_;
+  std::vector<ObserverAnswers> people_;  // the pool
 };
 
 PlanStep step_of(std::size_t people, const Simulate& simulate, const PlanRequest& request) {
@@ -239,10 +241,14 @@ Result<Plan> plan_experiment(const CheckedExperiment& experiment, const PlanRequ
     search(plan, MagnitudeStudies(values, experiment.repetitions, request), request);
     return plan;
   }
-  if (experiment.task != TrialTask::two_interval)
-    return unfit(fmt::format("people are planned for magnitude estimation and two intervals, not for `{}`",
-                             trial_task_names[static_cast<int>(experiment.task)]),
-                 "");
+  if (experiment.task != TrialTask::two_interval && experiment.task != TrialTask::one_interval &&
+      experiment.task != TrialTask::same_different) {
+    const std::string task = trial_task_names[static_cast<int>(experiment.task)];
+    return unfit(fmt::format("`{}` seeks neither an exponent nor a threshold, whose precision could be planned", task),
+                 experiment.task == TrialTask::adjustment
+                     ? "the precision of a mean setting is its scatter between people over the root of their number"
+                     : "plan magnitude_estimation, two_interval, one_interval or same_different");
+  }
   std::ranges::sort(values);
   values.erase(std::unique(values.begin(), values.end()), values.end());
   const bool is_ratio = request.sizes.empty() && experiment.factors[factor].unit.empty() && values.front() > 1;

@@ -22,7 +22,9 @@ struct PlanRequest {
   double numbers = 0.3;                  ///< standard deviation of log10 of the observers' use of numbers
   std::optional<double> threshold;       ///< in the factor's unit, or of a ratio over 1; none: the middle of the levels
   double threshold_spread = 0.3;         ///< standard deviation of its natural logarithm between observers
-  double slope = 3.5;                    ///< of the Weibull function
+  double growth = 1;     ///< exponent of d' over the difference: 1 is in proportion
+  double lapse = 0.02;   ///< how far answers about thresholds stay from 0 and 1
+  double criterion = 1;  ///< of "yes", in units of d': "yes" to nothing in 16 % of the trials
   std::string over;                      ///< the factor; empty: the first with numbers, or that of the method
   std::vector<double> sizes;  ///< of the stimuli in their order, for designs without factors; otherwise empty
 };
@@ -44,7 +46,7 @@ struct Plan {
 
 /// Finds how many people a design needs, by simulation. The same seed gives the same plan on every machine.
 ///
-/// Errors (W0801): tasks other than magnitude estimation and two intervals; an unknown factor; sizes at or below zero;
+/// Errors (W0801): tasks that seek neither an exponent nor a threshold; an unknown factor; sizes at or below zero;
 /// (W0802) designs with which no study determines what is sought.
 Result<Plan> plan_experiment(const CheckedExperiment& experiment, const PlanRequest& request);
 

@@ -238,7 +238,7 @@ class RecordWriter {
     if (of == over && fit_.is_fraction && over->unit.empty()) {
       // A plain ratio of something that the trials do not say.
     } else if (of == over) {
-      setting("valid", range(low, high, over->unit));
+      setting("valid", range(std::min(low, fit_.least_standard.value_or(low)), high, over->unit));
     } else {
       setting("valid", range(fit_.weber->low, fit_.weber->high * high, of->unit));
     }

@@ -100,12 +100,18 @@ class StudyReader {
       study_.files.push_back({path, "log", hash});
       return add_log(path, *bytes);
     }
-    if (std::filesystem::exists(sidecar, ignored) && sidecar != path) {
+    if (is_of_bids(path) && std::filesystem::exists(sidecar, ignored) && sidecar != path) {
       study_.files.push_back({path, "BIDS table", hash});
       return add_described(path, *std::move(bytes), sidecar.string());
     }
     study_.files.push_back({path, "table", hash});
     return add_table(path, *std::move(bytes));
+  }
+
+  /// Whether a file's name is one of BIDS, so that the .json beside it describes it: sub-S1_task-crossed_beh.tsv.
+  static bool is_of_bids(const std::string& path) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    return name.ends_with("_beh.tsv") || name.ends_with("_events.tsv");
   }
 
   Result<> add_log(const std::string& path, const std::string& bytes) {
@@ -128,12 +134,12 @@ class StudyReader {
         if (study_.design_file.empty()) study_.design_file = begin->file;
       } else if (const auto* program = std::get_if<SessionProgram>(&entry.event)) {
         study_.programs.insert(program->hash);
+        note_felt(path, *program);
       } else if (std::holds_alternative<SessionResumed>(entry.event)) {
         ++resumed;
       } else if (const auto* other = std::get_if<SessionOther>(&entry.event); other && other->event == "design") {
         const auto fields = nlohmann::json::parse(other->fields, nullptr, false);
-        if (const auto text = fields.find("text"); text != fields.end() && text->is_string() && study_.design.empty())
-          study_.design = text->get<std::string>();
+        if (const auto same = is_designed_alike(path, fields); !same) return same;
       }
     }
     if (resumed > 0)
@@ -191,6 +197,52 @@ class StudyReader {
                                          visible_text(experiment), visible_text(study_.experiment)),
                  .mend = "analyse each experiment alone",
                  .place = {.name = path}};
+  }
+
+  /// Sessions of one study ask the same about the same for as long. Other changes of the design are noted.
+  Result<> is_designed_alike(const std::string& path, const nlohmann::json& fields) {
+    if (!fields.is_object()) return {};
+    if (design_.empty()) {
+      design_ = fields, design_path_ = path;
+      if (const auto text = fields.find("text"); text != fields.end() && text->is_string())
+        study_.design = text->get<std::string>();
+      return {};
+    }
+    static const std::pair<const char*, const char*> parts[] = {
+        {"task", "task"},       {"method", "method"}, {"questions", "questions"}, {"presentation_seconds", "time of a presentation"},
+        {"modulus", "modulus"}, {"over", "factor that is sought"}, {"motion", "motion of the hand"}, {"grip", "grip"}};
+    for (const auto& [key, words] : parts) {
+      const auto here = fields.find(key);
+      const auto before = std::as_const(design_).find(key);
+      const bool has = here != fields.end(), had = before != std::as_const(design_).end();
+      if (has == had && (!has || *here == *before)) continue;
+      return other_design(path, fmt::format("this session differs from `{}` in its {}", visible_text(design_path_), words));
+    }
+    if (fields.value("text", std::string()) != design_.value("text", std::string()))
+      study_.notes.push_back(fmt::format("{}: the text of the design is not that of {}; task, questions, method and "
+                                         "presentation are the same",
+                                         visible_text(path), visible_text(design_path_)));
+    if (fields.value("practice", 0) != design_.value("practice", 0))
+      study_.notes.push_back(fmt::format("{}: there was another number of practice trials than in {}",
+                                         visible_text(path), visible_text(design_path_)));
+    return {};
+  }
+
+  /// Notes stimuli of one name that were other programs, which a change of the design's text makes too.
+  void note_felt(const std::string& path, const SessionProgram& program) {
+    const auto [known, is_new] = felt_.try_emplace(program.patch, program.hash, path);
+    if (is_new || known->second.first == program.hash || known->second.second == path || noted_ == path) return;
+    noted_ = path;
+    study_.notes.push_back(fmt::format("{}: `{}` was another program than in {}: look whether both felt alike",
+                                       visible_text(path), visible_text(program.patch),
+                                       visible_text(known->second.second)));
+  }
+
+  Error other_design(const std::string& path, std::string sentence) const {
+    return {.code = Code::malformed_value,
+            .sentence = std::move(sentence),
+            .mend = "analyse each design alone: what was asked and felt otherwise is another experiment",
+            .place = {.name = path}};
   }
 
   void note_day(const std::string& day) {
@@ -271,6 +323,9 @@ class StudyReader {
   std::optional<Table> stimuli_;
   std::unordered_map<std::string, std::size_t> stimulus_rows_;
   std::set<std::string> versions_;
+  nlohmann::json design_;                                             ///< of the first log
+  std::string design_path_, noted_;
+  std::map<std::string, std::pair<std::uint64_t, std::string>> felt_;  ///< by stimulus: its program, and where first
   Study study_;
 };
 

@@ -127,6 +127,8 @@ Result<> fit_magnitudes(const Study& study, const FitRequest& request, StudyFit&
   auto analysis = analyse_magnitudes(fit.trials, {.size = request.over});
   if (!analysis) return analysis.error();
   fit.magnitudes = *std::move(analysis);
+  if (const Coefficient exponent = chosen_law(*fit.magnitudes, request.model).exponent; !(exponent.p() < 0.05))
+    fit.no_record = fmt::format("the exponent does not differ from zero beyond chance (p = {:.2g})", exponent.p());
   if (request.model == FitModel::thesis_equalised && !fit.magnitudes->equalised)
     return unknown("the observers' means cannot be equalised", "take --model thesis", study);
   return {};
@@ -175,6 +177,7 @@ Result<StudyFit> fit_study(const Study& study, const FitRequest& request) {
     auto analysis = analyse_confidence(fit.trials);
     if (!analysis) return analysis.error();
     fit.confidence = *std::move(analysis);
+    if (!(fit.confidence->deviation > 0)) fit.no_record = "all ratings are the same, so they tell no stimulus from another";
   } else if (fit.task == "sorting") {
     columns.answers = Answers::labels;
     if (!add_stimulus()) return unknown("there is no column `stimulus`", "name the stimuli in one of that name", study);

@@ -8,7 +8,7 @@
 #include "calibration/analysis/confidence.hpp"
 #include "calibration/analysis/detection.hpp"
 #include "calibration/analysis/magnitude.hpp"
-#include "calibration/analysis/psychometric.hpp"
+#include "calibration/analysis/sensitivity_law.hpp"
 #include "calibration/analysis/sorting.hpp"
 #include "calibration/fit/study.hpp"
 
@@ -46,7 +46,7 @@ struct ThresholdFit {
   std::string standard;                               ///< "reference 0.8 N"; empty if there is one
   double size = 0;                                    ///< of the standard; 0: none
   std::vector<analysis::Level> levels;                ///< differences and answers of all observers
-  std::optional<analysis::PsychometricFit> function;  ///< of these; nothing for tasks with a criterion
+  analysis::SensitivityLaw law;                       ///< of all: with their threshold, and the common exponent and lapse
   std::vector<std::pair<double, analysis::Sensitivity>> sensitivities;  ///< of these tasks: d' at each difference
   std::vector<ObserverThreshold> observers;
   ObserverThreshold all;  ///< the geometric mean of the observers', or that of all answers
@@ -67,11 +67,14 @@ struct SortingFit {
 struct StudyFit {
   std::string task, evidence;  ///< the grade: "simulated", "measured", "estimated"
   std::string evidence_reason;
+  std::string no_record;  ///< why a map or rule of these trials would say nothing; empty if it says something
   analysis::Trials trials;
   std::vector<std::string> notes;
   std::optional<analysis::MagnitudeAnalysis> magnitudes;
   std::vector<ThresholdFit> thresholds;
   bool is_fraction = false;     ///< of thresholds: fractions of the standard
+  std::optional<double> least_standard;  ///< the smallest, in the unit of the size; nothing for ratios and from nothing
+  std::size_t catch_trials = 0;          ///< trials with nothing to find, which are not among `trials`
   std::string over, over_unit;  ///< the size of thresholds
   std::optional<analysis::WeberRange> weber;
   std::optional<analysis::ConfidenceAnalysis> confidence;

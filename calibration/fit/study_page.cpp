@@ -150,7 +150,7 @@ std::string study_page(const Study& study, const StudyFit& fit, const FitRequest
   for (const PagePicture& each : parts.charts) text += figure(each);
   text += heading("Raw data") + raw_data(fit.trials);
   text += heading("Exclusions") + exclusions(fit.trials);
-  text += heading("The record as it will be used") + lines(record);
+  text += heading("The record as it will be used") + (fit.no_record.empty() ? lines(record) : paragraph("None is made: " + fit.no_record + "."));
   if (fit.magnitudes) text += heading("What it changes in the library") + moved(parts);
   return text + "</body>\n</html>\n";
 }

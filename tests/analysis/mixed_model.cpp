@@ -56,6 +56,31 @@ TEST(MixedModel, FitsSleepstudyByRestrictedLikelihood) {
   EXPECT_FALSE(fit->singular);
 }
 
+// In a balanced design each subject's own line has a value at five days, and their mean has the t of 18 such values.
+TEST(MixedModel, CombinationOfCoefficientsHasItsOwnDegreesOfFreedom) {
+  MixedData data = sleepstudy();
+  data.combination = Eigen::Vector2d(1, 5);
+  const auto fit = fit_mixed(data, Criterion::restricted);
+  ASSERT_TRUE(fit) << explained(fit.error());
+  double mean = 0, squares = 0;
+  std::vector<double> own;
+  for (std::uint32_t subject = 0; subject < 18; ++subject) {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (Eigen::Index i = 0; i < data.y.size(); ++i) {
+      if (data.observer[static_cast<std::size_t>(i)] != subject) continue;
+      const double at = data.fixed.columns(i, 1) - 5;
+      n += 1, x += at, y += data.y(i), xx += at * at, xy += at * data.y(i);
+    }
+    const double slope = (n * xy - x * y) / (n * xx - x * x);
+    own.push_back((y - slope * x) / n);
+    mean += own.back() / 18;
+  }
+  for (const double each : own) squares += (each - mean) * (each - mean);
+  EXPECT_NEAR(fit->combination.value, mean, 1e-6);
+  EXPECT_NEAR(fit->combination.error, std::sqrt(squares / 17 / 18), 1e-3);
+  EXPECT_NEAR(fit->combination.freedom, 17, 1e-2);
+}
+
 TEST(MixedModel, GivesSatterthwaitesDegreesOfFreedom) {  // Days: 1 and 17, as for 18 slopes in a balanced design
   const auto fit = fit_mixed(sleepstudy(), Criterion::restricted);
   ASSERT_TRUE(fit);

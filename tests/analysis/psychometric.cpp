@@ -86,6 +86,34 @@ TEST(Psychometric, IntervalsCover) {  // 200 fixed seeds; a method at 95 % has 1
   EXPECT_GE(profile, 181);
 }
 
+// A staircase's answers, whose interval once began at the estimate: against a grid over width and lapse rate.
+TEST(Psychometric, IntervalOfOneTrackIsThatOfTheGridsProfile) {
+  const std::vector<Level> levels = {{0.06, 1, 2}, {0.094, 4, 7}, {0.13, 9, 12}, {0.168, 11, 12}, {0.25, 6, 6}, {0.6, 3, 3}, {1.5, 3, 3}};
+  const auto fit = fit_psychometric(levels, {.shape = Sigmoid::weibull});
+  ASSERT_TRUE(fit) << in_words(fit.error());
+  std::vector<std::pair<double, double>> profile;
+  double best = -HUGE_VAL;
+  for (double log = std::log(0.03); log < std::log(0.5); log += 0.01) {
+    double most = -HUGE_VAL;
+    for (double slope = 0.2; slope < 60; slope *= 1.05)
+      for (double lapse = 0; lapse <= 0.1001; lapse += 0.01) {
+        double sum = 0;
+        for (const Level& each : levels) {
+          const double felt = 1 - std::exp(-std::log(2) * std::pow(each.size / std::exp(log), slope));
+          const double p = std::min(0.5 + (0.5 - lapse) * felt, 1 - 1e-12);
+          sum += static_cast<double>(each.right) * std::log(p) + static_cast<double>(each.trials - each.right) * std::log(1 - p);
+        }
+        most = std::max(most, sum);
+      }
+    profile.emplace_back(std::exp(log), most), best = std::max(best, most);
+  }
+  double low = HUGE_VAL, high = 0;
+  for (const auto& [size, likelihood] : profile)
+    if (likelihood > best - 3.841459 / 2) low = std::min(low, size), high = std::max(high, size);
+  EXPECT_NEAR(fit->threshold.low, low, 0.03 * low);
+  EXPECT_NEAR(fit->threshold.high, high, 0.03 * high);
+}
+
 TEST(Psychometric, BootstrapsAlikeForOneSeed) {
   const PsychometricOptions options;
   const auto fit = fit_psychometric(psignifits_example(), options);
@@ -161,6 +189,9 @@ TEST(Detection, MovesPerfectRatesAndSaysSo) {
   ASSERT_TRUE(perfect);
   EXPECT_FALSE(perfect->corrected.empty());
   EXPECT_NEAR(perfect->d_prime, 2 * 1.981, 0.01);  // z(20.5 / 21)
+  // Answers that are all "no" tell nothing apart, however many there are of each kind.
+  EXPECT_NEAR(sensitivity_of(Decision::yes_no, {0, 20, 0, 100})->d_prime, 0, 1e-9);
+  EXPECT_NEAR(sensitivity_of(Decision::yes_no, {100, 100, 20, 20})->d_prime, 0, 1e-9);
   EXPECT_FALSE(sensitivity_of(Decision::yes_no, {5, 4, 0, 4}));
   EXPECT_FALSE(sensitivity_of(Decision::yes_no, {1, 4, 0, 0}));
   EXPECT_FALSE(sensitivity_of(Decision::interval_choice, {1, 4, 0, 0}, 1));

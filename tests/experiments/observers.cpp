@@ -61,6 +61,48 @@ TEST(FeltSizes, AreThoseOfTheTexture) {
   EXPECT_EQ(felt_size(Record{}).actuator.size, 0);
 }
 
+/// A presentation that is shorter than the measurement's settling is felt too.
+TEST(FeltSizes, OfShortPresentationsAreMeasured) {
+  for (const int ticks : {300, 500, 600}) {
+    Record record{.seconds_per_tick = 0.001, .vibrates = false, .ticks = {}};
+    for (int i = 0; i < ticks; ++i) {
+      TickRecord tick;
+      tick.time = i * 0.001, tick.inside = true;
+      tick.force.x = tick.interaction.x = static_cast<float>(std::sin(2 * 3.14159265 * 40 * i * 0.001));
+      record.ticks.push_back(tick);
+    }
+    EXPECT_NEAR(felt_size(record).actuator.size, 1, 0.1) << ticks << " ms";
+  }
+}
+
+/// An observer with noise says "yes" to a standard in about 16 % of the catch trials, and nearly always to twice it.
+TEST(PlantedObservers, SayNoToTheStandard) {
+  const Design made(design("stimulus bench(amplitude: 0.8 N * ratio)\nstandard bench(amplitude: 0.8 N)\n"
+                           "factor ratio 1.2, 2\ntask one_interval"));
+  PlantedObserver observer(made.experiment(), {.exponent = 1, .threshold = 0, .noise = 0.1}, 3);
+  const Asked asked = questions_of_trial(made.experiment()).front();
+  const auto says_yes = [&](std::uint32_t number, bool is_standard, double force) {
+    const Trial trial{number, 1, 0, {{is_standard, 0}}, is_standard ? 0 : 1};
+    observer.begin(trial, 0, 1, 1);
+    observer.felt({is_standard, 0}, FeltSize{{force, force, 30}, {force, force, 30}, 0.1, true});
+    return *observer.say({.kind = Question::Kind::trial, .says = {}, .asked = &asked, .trial = &trial}) == "yes";
+  };
+  int alarms = 0, hits = 0;
+  for (std::uint32_t number = 1; number <= 1000; ++number) alarms += says_yes(number, true, 0.8) ? 1 : 0;
+  for (std::uint32_t number = 1001; number <= 2000; ++number) hits += says_yes(number, false, 1.6) ? 1 : 0;
+  EXPECT_NEAR(alarms, 159, 35);  // 1 - Phi(1), three standard deviations
+  EXPECT_GT(hits, 990);
+}
+
+/// What numbers mean is said also where the design has a question of its own.
+TEST(Questions, SayTheEndsOfAScaleAndTheModulus) {
+  const Design rated(design("stimulus smooth\ntask rating, \"smooth\", \"rough\"\nask \"How is it?\""));
+  EXPECT_EQ(questions_of_trial(rated.experiment()).front().says, "How is it? 0 is smooth, 100 is rough.");
+  const Design numbered(design("stimulus smooth\ntask magnitude_estimation, modulus 10\nask \"How rough?\""));
+  EXPECT_EQ(questions_of_trial(numbered.experiment()).front().says,
+            "How rough? The first one is 10; give others numbers in proportion.");
+}
+
 /// Seven amplitudes, executed on the simulated joystick: an observer without noise and threshold who feels the actuator
 /// gives back the exponent that was planted, and one who feels the interaction force another, which is the handle's
 /// doing: the two disagree.
