@@ -287,9 +287,13 @@ class Reviewer {
     const std::string branch = branch_of(material.kind);
     double least = std::numeric_limits<double>::infinity();
     std::vector<std::string> same;
-    const auto look = [&](const std::string& name, const Cues& cues, bool may_be_same) {
+    std::string first_same;  // as a command finds it from here
+    const auto look = [&](const std::string& name, const Cues& cues, bool may_be_same, const std::string& file_of_it) {
       const Distance distance = comparer_.distance(*material.facts.cues, cues);
-      if (distance.verdict == Verdict::alike && !may_be_same) same.push_back(name);
+      if (distance.verdict == Verdict::alike && !may_be_same) {
+        if (same.empty()) first_same = file_of_it.empty() ? name : visible_text(file_of_it) + ":" + name;
+        same.push_back(name);
+      }
       if (distance.verdict == Verdict::unknown || distance.noticeable >= least) return;
       least = distance.noticeable, material.nearest = name;
     };
@@ -300,18 +304,19 @@ class Reviewer {
       const ReviewedMaterial& there = all.files[other.file].materials[other.index];
       if (&other == &entry || !there.facts.cues || branch_of(there.kind) != branch) continue;
       look(there.name, *there.facts.cues,
-           replaced(entry.words.replaces, there.name) || replaced(other.words.replaces, material.name));
+           replaced(entry.words.replaces, there.name) || replaced(other.words.replaces, material.name),
+           all.files[other.file].file);
     }
     const auto beside = neighbours(branch);
     if (!beside) return beside.error();
-    for (const Neighbour& other : **beside) look(other.name, other.cues, replaced(entry.words.replaces, other.name));
+    for (const Neighbour& other : **beside) look(other.name, other.cues, replaced(entry.words.replaces, other.name), "");
     if (!material.nearest.empty()) material.apart = least;
     else if (const auto near = nearest_kind(all, entry)) material.nearest_kind = *near;
     if (!same.empty() && !entry.is_apart)
       report(file.diagnostics, Code::feels_the_same, entry.name,
              fmt::format("nobody tells `{}` from `{}`", material.name, fmt::join(same, "` and `")),
-             fmt::format("change what should tell them apart, or leave it out; `wale compare {} {}` shows the cues",
-                         visible_text(file.file), same.front()));
+             fmt::format("change what should tell them apart, or leave it out; `wale compare {}:{} {}` shows the cues",
+                         visible_text(file.file), material.name, first_same));
     return {};
   }
 
