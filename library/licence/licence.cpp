@@ -82,7 +82,8 @@ std::optional<std::string> begun_by(std::string_view id) {
   const std::string word = small(trimmed(id));
   std::optional<std::string> newest;
   for (const std::string& each : shareable())
-    if (!word.empty() && small(each).starts_with(word + "-")) newest = each;  // they are in the order of their versions
+    // They are in the order of their versions; a longer name is another family, as CC-BY-SA-4.0 beside CC-BY-4.0.
+    if (!word.empty() && small(each).starts_with(word + "-") && (!newest || each.size() <= newest->size())) newest = each;
   return newest;
 }
 
