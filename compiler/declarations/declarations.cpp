@@ -53,6 +53,14 @@ PerceptName Declarations::percept_named(std::string_view name) const {
   return found;
 }
 
+std::vector<std::string> Declarations::percepts_with_levels() const {
+  std::vector<std::string> all;
+  percepts.each([&](const std::string& name, const Percept& percept) {
+    if (percept.has_reference) all.push_back(name);
+  });
+  return all;
+}
+
 std::vector<std::string> Declarations::percept_spellings() const {
   std::vector<std::string> all;
   percepts.each([&](const std::string& name, const Percept& percept) {

@@ -202,6 +202,8 @@ struct Declarations {
 
   /// The percept with that name or antonym; a null percept if there is none.
   PerceptName percept_named(std::string_view name) const;
+  /// The names of those that levels can be asked of; the others are only compared.
+  std::vector<std::string> percepts_with_levels() const;
   /// All names of percepts, antonyms included.
   std::vector<std::string> percept_spellings() const;
 

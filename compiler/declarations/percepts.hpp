@@ -51,6 +51,8 @@ struct Percept {
   bool has_reference = false;    ///< there is a level 1; otherwise there are no levels, only an order
   double one = 0;                ///< the carrier's size at level 1, SI
   std::string reference_device;  ///< the device on which the reference stimulus was felt, or is defined
+  bool absent_is_unknown = false;  ///< it belongs to a part of a thing, such as a wall, and without one nothing is known
+                                   ///< of it; otherwise what has no carrier of it has the level 0
   double near_threshold = 0;     ///< level below which the percept is near or below threshold
 
   Extractor extractor = Extractor::none;

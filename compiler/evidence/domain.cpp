@@ -26,7 +26,7 @@ struct ProfileName {
 };
 constexpr std::array<ProfileName, 4> profile_names = {{{SurfaceProfile::grating, "a grating", "gratings"},
                                                        {SurfaceProfile::noise, "an irregular relief", "noises"},
-                                                       {SurfaceProfile::photograph, "a photograph", "photographs"},
+                                                       {SurfaceProfile::photograph, "a picture", "pictures"},
                                                        {SurfaceProfile::bump, "a bump", "bumps"}}};
 
 /// Whether the force is sampled from a picture. A row of samples is a curve and no picture.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compiler/modules/declare_evidence.hpp"
+#include "compiler/modules/representative.hpp"
 
 namespace wale {
 
@@ -116,6 +117,19 @@ void read_exertion(RecordReader& reader, Percept& percept) {
   percept.exerts = reader.value(*setting->items[0].value, force / percept.carrier_dimension).value_or(0);
 }
 
+/// `words "rough", "coarse"`, or `words de "rau", "grob"` in another language, by its code.
+void add_words(RecordReader& reader, const Setting& setting, std::vector<std::string>& words) {
+  Setting texts = setting;
+  if (!texts.items.empty() && texts.items.front().words.size() == 1 && texts.items.front().value) {
+    const Word& language = texts.items.front().words.front();
+    if (!is_language(language.text))
+      reader.report(Code::wrong_type, language.span, fmt::format("`{}` is no language", language.text),
+                    "write its code of two or three small letters (ISO 639): `de`, `fr`, `ja`");
+    texts.items.front().words.clear();
+  }
+  for (std::string& word : reader.texts(texts)) words.push_back(std::move(word));
+}
+
 }  // namespace
 
 void declare_percept(RecordReader& reader, Declarations& declarations) {
@@ -136,18 +150,25 @@ void declare_percept(RecordReader& reader, Declarations& declarations) {
   if (const auto* one = reader.required("one", "lateral amplitude 194 pu on sandpaper"))
     read_reference(reader, *one, percept);
   reader.setting("zero");
-  if (const auto* words = reader.setting("words")) percept.words = reader.texts(*words);
+  if (const auto* absent = reader.setting("absent")) {
+    percept.absent_is_unknown = absent->items.size() == 1 && words_of(absent->items.front()) == "unknown";
+    if (!percept.absent_is_unknown)
+      reader.report(Code::unknown_name, absent->span, "what is absent may be `unknown`, or else has the level 0",
+                    "write `absent unknown`, or leave it out");
+  }
+  for (const Setting* words : reader.settings("words")) add_words(reader, *words, percept.words);
   if (const auto* antonym = reader.setting("antonym"); antonym && !antonym->items.empty()) {
     Setting texts = *antonym;
     percept.antonym = words_of(texts.items.front());
     if (!texts.items.front().value) texts.items.erase(texts.items.begin());
-    percept.antonym_words = reader.texts(texts);
+    for (std::string& word : reader.texts(texts)) percept.antonym_words.push_back(std::move(word));
     if (declarations.percept_named(percept.antonym).percept || percept.antonym.empty())
       reader.report(Code::declared_twice, antonym->span,
                     percept.antonym.empty() ? "an antonym needs a name"
                                             : fmt::format("`{}` names a percept already", percept.antonym),
                     "write, for example, `antonym smoothness \"smooth\"`");
   }
+  for (const Setting* words : reader.settings("antonym_words")) add_words(reader, *words, percept.antonym_words);
   if (const auto* extractor = reader.setting("extractor")) read_extractor(reader, *extractor, percept);
   if (const auto* share = reader.setting("least_share")) read_least_share(reader, *share, percept);
   if (const auto* cue = reader.setting("cue"); cue && !cue->items.empty()) percept.cue = words_of(cue->items.front());

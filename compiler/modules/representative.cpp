@@ -33,13 +33,12 @@ const Known* setting_named(std::string_view key) {
   return found == std::end(known) ? nullptr : found;
 }
 
-/// ISO 639: two or three small letters.
+}  // namespace
+
 bool is_language(std::string_view word) {
   return (word.size() == 2 || word.size() == 3) &&
          std::ranges::all_of(word, [](char each) { return each >= 'a' && each <= 'z'; });
 }
-
-}  // namespace
 
 const std::vector<std::string>& representative_settings() {
   static const std::vector<std::string> all = [] {

@@ -23,6 +23,9 @@ struct RepresentativeEntry {
 /// word, where one must stand, and what is no language.
 RepresentativeEntry representative_entry(const Setting& setting, const SyntaxTree& tree, Diagnostics& diagnostics);
 
+/// ISO 639: two or three small letters.
+bool is_language(std::string_view word);
+
 /// The language of `called de "Cord"`; empty if none is named: then the words are English.
 std::string_view language_of(const Setting& setting);
 

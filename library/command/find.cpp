@@ -149,6 +149,13 @@ int tell_found(const FindOptions& options, const Result<FoundEntries>& found) {
                         .sentence = "no material is like that",
                         .mend = "ask for a wider range, or for fewer things at once"});
   if (!options.json) print_out(felt_text(*found));
+  for (const auto& [percept, text] : options.levels) {
+    const auto lacks = [&](const FoundEntry& each) {
+      return each.apart && std::ranges::find(each.apart->unknown, percept) != each.apart->unknown.end();
+    };
+    if (!options.json && !text.empty() && std::ranges::all_of(found->entries, lacks))
+      print_out("nothing is known of the {} of any of these: none has what carries it\n", percept);
+  }
   if (!options.json && options.by_feel())
     print_out("in the order of the least that they can differ by, in just noticeable differences; each cue that is unknown "
               "counts as one more\n");
@@ -186,7 +193,11 @@ int find(const FindOptions& options) {
   const std::vector<FoundMaterial>& found = words.as_they_stand;
   warn_of_library_variable();
   say_unread(roots);
-  if (!words.most_words.empty()) return tell_found(options, FoundEntries{words.most_words, words.most_words.size()});
+  if (!words.most_words.empty()) {
+    const int told = tell_found(options, FoundEntries{words.most_words, words.most_words.size()});
+    if (!words.have_all && !options.json) print_out("none has all of these words; these have the most of them\n");
+    return told;
+  }
   if (options.json) print_out(found_json(found));
   if (found.empty()) return refuse(why_nothing_is_found(*index, options.texts, options.kind));
   if (!options.json) print_out(found_text(found));
@@ -198,7 +209,7 @@ Run declare_find(CLI::App& verb) {
   verb.add_option(
       "TEXT", options->texts,
       "a word, or how it begins, as in ribbed: it may be in a material's name, other names, title, kind, `feels` or "
-      "documentation; of several, a material must have all (default: lists every material)");
+      "documentation; of several, those that have all, or else the most (default: lists every material)");
   verb.add_option("--kind", options->kind,
                   "only materials of this kind, as in fabric or fabric.woven (default: all kinds)")
       ->type_name("KIND");

@@ -32,14 +32,14 @@ void offer_index(CLI::App& verb, IndexChoice& choice) {
   offer_sandbox(verb, choice.sandbox);
 }
 
-StoreProgress shown_progress() {
+StoreProgress shown_progress(const std::string& what) {
   using Clock = std::chrono::steady_clock;
   struct Shown {
     Clock::time_point begun = Clock::now(), last = begun;
     bool said = false;
   };
   const bool is_terminal = isatty(STDERR_FILENO) == 1;
-  return [shown = std::make_shared<Shown>(), is_terminal](std::size_t done, std::size_t all) {
+  return [shown = std::make_shared<Shown>(), is_terminal, what](std::size_t done, std::size_t all) {
     constexpr std::chrono::duration<double> moment(0.7), between(0.1), long_enough(3);
     constexpr std::size_t enough_to_guess = 16;
     const auto now = Clock::now();
@@ -49,10 +49,10 @@ StoreProgress shown_progress() {
       const double seconds = std::chrono::duration<double>(now - shown->begun).count();
       const double left = seconds / static_cast<double>(done) * static_cast<double>(all - done);
       if (is_terminal)
-        print_as_is(stderr, fmt::format("\rreading the library for its index: {} of {} files, {:.0f} s left\033[K", done, all, left));
+        print_as_is(stderr, fmt::format("\rreading the library for its {}: {} of {} files, {:.0f} s left\033[K", what, done, all, left));
       else if (!shown->said)
-        print_as_is(stderr, fmt::format("wale: the library is read for its index: {} files, about {:.0f} s; the next time "
-                                        "only what has changed is read\n", all, seconds + left));
+        print_as_is(stderr, fmt::format("wale: the library is read for its {}: {} files, about {:.0f} s; the next time "
+                                        "only what has changed is read\n", what, all, seconds + left));
       shown->said = true, shown->last = now;
     }
     return true;

@@ -30,9 +30,9 @@ FileRequest request_of(const IndexChoice& choice);
 /// `open_index` for a verb: shows how far it is, and prints warnings.
 Result<IndexHere> index_here(const IndexChoice& choice, const std::vector<std::string>& meant = {});
 
-/// Says on the error stream that a library is being read for its index, if that takes longer than a moment: how far it is
-/// on a terminal, otherwise once.
-StoreProgress shown_progress();
+/// Says on the error stream that a library is being read for its index, or for what else, if that takes longer than a
+/// moment: how far it is on a terminal, otherwise once.
+StoreProgress shown_progress(const std::string& what = "index");
 
 /// "1.4 differences", "at least 1.4 differences, friction unknown".
 std::string distance_text(const Probe::Told& told);

@@ -25,7 +25,7 @@ int library_coverage(const LibraryCoverageOptions& options) {
   FileRequest request;
   request.roots = library_folders(options.folders, std::getenv("WALE_LIBRARY")), request.sandbox = options.sandbox;
   const auto surveyed =
-      survey(options.paths.empty() ? std::vector<std::string>{"."} : options.paths, request, SurveyDepth::feel);
+      survey(options.paths, request, SurveyDepth::feel);
   if (!surveyed) return refuse(surveyed.error());
   int status = surveyed->unread.empty() ? done : refused;
   for (const Error& each : surveyed->unread) warn(each);
@@ -34,7 +34,8 @@ int library_coverage(const LibraryCoverageOptions& options) {
     print_error("wale: {}: `{}` cannot be built: {}\n", visible_text(each.file), each.name, visible_text(each.trouble));
     status = refused;
   }
-  const std::vector<std::string> known = declared_everywhere()->declarations.percepts.spellings();
+  const auto declared = declared_everywhere();
+  const std::vector<std::string> known = declared->declarations.percepts_with_levels();
   const Coverage coverage = coverage_of(surveyed->entries, known);
   if (!options.out.empty()) {
     const auto page = draw_coverage(coverage);
@@ -52,7 +53,7 @@ int library_coverage(const LibraryCoverageOptions& options) {
 Run declare_library_coverage(CLI::App& verb) {
   const auto options = std::make_shared<LibraryCoverageOptions>();
   must_say(verb.add_option("FILE", options->paths,
-                           "paths of Wale files, or of folders with all Wale files in them (default: the current folder)"),
+                           "paths of Wale files, or of folders with all Wale files in them (default: the current folder, or the shipped library if it has none)"),
            "the path of a Wale file or of a folder");
   must_say(offer_output(verb, options->out, "a picture of it, as in coverage.svg, or .png"),
            "the name of the file to write", "for example, `-o coverage.svg`");

@@ -195,7 +195,7 @@ int library_import(LibraryImportOptions options) {
   options.draft.mass = options.mass;
   const auto sources = sources_of(options);
   if (!sources) return refuse(sources.error());
-  const std::vector<std::string> percepts = declared_everywhere()->declarations.percepts.spellings();
+  const std::vector<std::string> percepts = declared_everywhere()->declarations.percepts_with_levels();
   std::set<std::string> taken;
   std::error_code ignored;
   for (fs::directory_iterator at(options.out, ignored), end; !ignored && at != end; at.increment(ignored))

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 
 #include "compiler/command/options.hpp"
@@ -22,6 +23,15 @@ struct LibrarySheetOptions {
   Sandbox sandbox = Sandbox::required;
 };
 
+/// What a sheet is of, without the way there, which is of no use to others: "my library" of "/home/anna/my library/".
+std::string titled(const std::vector<std::string>& paths) {
+  std::error_code ignored;
+  std::filesystem::path first =
+      std::filesystem::absolute(paths.empty() ? "." : paths.front(), ignored).lexically_normal();
+  if (!first.has_filename()) first = first.parent_path();
+  return first.filename().string() + (paths.size() > 1 ? " and more" : "");
+}
+
 int library_sheet(const LibrarySheetOptions& options) {
   warn_of_library_variable();
   if (is_written_as_it_comes(options.out))
@@ -31,14 +41,13 @@ int library_sheet(const LibrarySheetOptions& options) {
                         .place = {.name = "-o"}});
   FileRequest request;
   request.roots = library_folders(options.folders, std::getenv("WALE_LIBRARY")), request.sandbox = options.sandbox;
-  const std::vector<std::string> paths = options.paths.empty() ? std::vector<std::string>{"."} : options.paths;
-  const auto surveyed = survey(paths, request, SurveyDepth::programs);
+  const auto surveyed = survey(options.paths, request, SurveyDepth::programs);
   if (!surveyed) return refuse(surveyed.error());
   for (const Error& each : surveyed->unread) warn(each);
   const auto common = declared_everywhere();
   const std::vector<SheetPage> pages = sheet_pages(surveyed->entries);
   if (pages.empty()) return refuse("no file here has a material");
-  const std::string what = paths.size() == 1 ? paths.front() : fmt::format("{} and more", paths.front());
+  const std::string what = titled(options.paths);
   bool has_text = true;
   for (std::size_t i = 0; i < pages.size(); ++i) {
     const std::string title = fmt::format("{}{}", visible_text(what),
@@ -66,7 +75,7 @@ int library_sheet(const LibrarySheetOptions& options) {
 Run declare_library_sheet(CLI::App& verb) {
   const auto options = std::make_shared<LibrarySheetOptions>();
   must_say(verb.add_option("FILE", options->paths,
-                           "paths of Wale files, or of folders with all Wale files in them (default: the current folder)"),
+                           "paths of Wale files, or of folders with all Wale files in them (default: the current folder, or the shipped library if it has none)"),
            "the path of a Wale file or of a folder");
   must_say(offer_output(verb, options->out,
                         "the picture to write, as in sheet.png, or .svg; of several pages, sheet_01.png and so on"),

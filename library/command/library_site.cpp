@@ -4,12 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "compiler/command/options.hpp"
@@ -17,6 +17,7 @@
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
+#include "library/command/index_here.hpp"
 #include "library/site/site.hpp"
 #include "schema/companion.hpp"
 #include "schema/visible_text.hpp"
@@ -54,11 +55,11 @@ std::string report_json(const SiteReport& report) {
 /// Writes the site and says what came of it.
 Result<SiteReport> build_site(LibrarySiteOptions& options) {
   options.request.roots = library_folders(options.folders, std::getenv("WALE_LIBRARY"));
-  std::atomic<std::size_t> told{0};
-  const bool shows = isatty(STDERR_FILENO) == 1;
+  std::mutex lock;
+  const StoreProgress shown = shown_progress("site");
   const auto report = write_site(options.request, [&](std::size_t done, std::size_t all) {
-    if (shows && (done % 16 == 0 || done == all) && done > told.exchange(done))
-      print_as_is(stderr, fmt::format("\r{} of {} files\033[K{}", done, all, done == all ? "\r\033[K" : ""));
+    const std::lock_guard guard(lock);
+    shown(done, all);
   });
   return report;
 }

@@ -13,6 +13,7 @@
 #include "library/command/index_here.hpp"
 #include "library/index/entry_json.hpp"
 #include "library/index/find.hpp"
+#include "library/store/seek.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale::command {
@@ -86,7 +87,12 @@ int show(const ShowOptions& options) {
     const auto declared = common_modules();
     const Comparer comparer(declared->declarations, index.device());
     const NearProbe probe(comparer, *entry->felt.cues);
-    auto found = find_entries(index, {.texts = {}, .kind = {}, .feel = &probe, .without = {*meant}, .most = neighbours_shown});
+    auto found = find_entries(index, {.texts = {},
+                                      .kind = {},
+                                      .feel = &probe,
+                                      .without_kinds = kinds_left_out(entry->kind, entry->module),
+                                      .without = {*meant},
+                                      .most = neighbours_shown});
     if (!found) return refuse(found.error());
     near = *std::move(found);
   }

@@ -20,13 +20,23 @@ struct ScoredRow {
   double score = 0;
 };
 
+/// Whether a row is of the sought kind, and none that is left out.
+bool may_be_found(const FeltColumns& columns, std::size_t row, const MaterialQuery& sought) {
+  const std::string_view kind = columns.kind(row), module = columns.module(row);
+  const auto is_left_out = [&](const std::string& each) {
+    return is_of_sought_kind(kind, each) || is_of_sought_kind(module, each);
+  };
+  return is_of_sought_kind(kind, sought.kind) &&
+         std::ranges::find(sought.without, columns.material(row)) == sought.without.end() &&
+         (!sought.kind.empty() || std::ranges::none_of(sought.without_kinds, is_left_out));
+}
+
 /// The rows that have the sought words, in the order of the rows.
 Result<std::vector<ScoredRow>> rows_with_words(const MaterialIndex& index, const MaterialQuery& sought) {
   const FeltColumns& columns = index.columns();
   const auto may = [&](std::uint32_t material) {
     const auto row = columns.row_of(material);
-    return row && is_of_sought_kind(columns.kind(*row), sought.kind) &&
-           std::ranges::find(sought.without, material) == sought.without.end();
+    return row && may_be_found(columns, *row, sought);
   };
   std::vector<ScoredMaterial> all;
   bool first = true;
@@ -57,9 +67,7 @@ Result<std::vector<ScoredRow>> rows_with_words(const MaterialIndex& index, const
 std::vector<ScoredRow> rows_of_kind(const FeltColumns& columns, const MaterialQuery& sought) {
   std::vector<ScoredRow> rows;
   for (std::size_t row = 0; row < columns.size(); ++row)
-    if (is_of_sought_kind(columns.kind(row), sought.kind) &&
-        std::ranges::find(sought.without, columns.material(row)) == sought.without.end())
-      rows.push_back({row, 0});
+    if (may_be_found(columns, row, sought)) rows.push_back({row, 0});
   return rows;
 }
 
@@ -86,8 +94,7 @@ Result<FoundEntries> find_entries(const MaterialIndex& index, const MaterialQuer
     for (const ScoredRow& each : rows) has_words[each.row] = true;
     const auto may = [&](std::size_t row) {
       if (by_words) return static_cast<bool>(has_words[row]);
-      return is_of_sought_kind(columns.kind(row), sought.kind) &&
-             std::ranges::find(sought.without, columns.material(row)) == sought.without.end();
+      return may_be_found(columns, row, sought);
     };
     std::vector<ScoredRow> near;
     for (const NearRow& each : nearest(columns, *sought.feel, sought.most, may)) {

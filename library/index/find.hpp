@@ -17,7 +17,8 @@ struct MaterialQuery {
   std::vector<std::string> texts;
   std::string kind;              ///< "fabric", which has "fabric.woven" too; empty: any
   const Probe* feel = nullptr;   ///< by what they feel like; null: any
-  std::vector<std::uint32_t> without;  ///< materials that are left out, such as the one that others are compared with
+  std::vector<std::string> without_kinds = {};  ///< left out with their modules: "sandpaper", not if `kind` is given
+  std::vector<std::uint32_t> without = {};  ///< materials that are left out, such as the one that others are compared with
   std::size_t most = 20;         ///< so many are given
 };
 

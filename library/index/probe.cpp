@@ -144,6 +144,8 @@ Result<std::unique_ptr<LevelProbe>> LevelProbe::make(const std::vector<SoughtLev
               .size = 0,
               .none = 0,
               .full = size_of(1),
+              .absent_is_unknown = meant->absent_is_unknown,
+              .asked_as = sought.percept,
               .people = Discrimination(declarations, meant->cue, device, meant->exerts)};
     part.size = size_of(part.low);
     if (!part.is_range() && !std::isfinite(part.size))
@@ -171,7 +173,7 @@ std::optional<DistanceInterval> LevelProbe::distance(const FeltColumns& columns,
   DistanceInterval found;
   bool sought = true;
   each_part(columns, row, [&](const Part& part, std::optional<float> level, std::optional<float> size) {
-    const double reads = level.value_or(0);
+    const double reads = level.value_or(part.absent_is_unknown ? std::nan("") : 0);
     if (part.is_range()) {
       sought = sought && reads >= part.low && reads <= part.high;  // false for an unknown level
       return;
@@ -188,7 +190,7 @@ void LevelProbe::narrow(const FeltColumns& columns, double most, std::vector<Val
     const auto level = columns.number_of(level_quantity(part.percept));
     const auto size = columns.number_of(size_quantity(part.percept));
     if (part.is_range()) {
-      if (level) limits[*level].narrow({part.low, part.high}, part.low <= 0);
+      if (level) limits[*level].narrow({part.low, part.high}, part.low <= 0 && !part.absent_is_unknown);
     } else if (size) {
       // A material without the size may have an unknown level.
       limits[*size].narrow(part.people.within(part.size, most), true);
@@ -200,14 +202,15 @@ Probe::Told LevelProbe::tell(const FeltColumns& columns, std::size_t row) const 
   Told told;
   each_part(columns, row, [&](const Part& part, std::optional<float> level, std::optional<float> size) {
     if (part.is_range()) return;
-    const auto apart = level && std::isnan(*level) ? std::nullopt : part.people.distance(part.size, size.value_or(0));
+    const bool is_unknown = level ? std::isnan(*level) : part.absent_is_unknown;
+    const auto apart = is_unknown ? std::nullopt : part.people.distance(part.size, size.value_or(0));
     if (apart) {
       if (*apart > told.low) told.low = *apart, told.plainest = part.percept;
       told.high = std::max(told.high, *apart);
       return;
     }
     // Its level lies somewhere between none and all of it.
-    told.unknown.push_back(part.percept);
+    told.unknown.push_back(part.asked_as);
     for (const double end : {part.none, part.full})
       told.high = std::max(told.high, part.people.distance(part.size, end).value_or(unbounded));
   });

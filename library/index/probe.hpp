@@ -93,7 +93,8 @@ struct SoughtLevel {
 };
 
 /// Materials by levels of percepts. The distance of a percept is that of its carriers' sizes, by the map for the device
-/// and the threshold of its cue; a material that has nothing of a percept has the size 0. Of several percepts the
+/// and the threshold of its cue; a material that has nothing of a percept has the size 0, or, of a percept
+/// that says so, an unknown one. Of several percepts the
 /// largest distance counts.
 class LevelProbe final : public Probe {
  public:
@@ -111,6 +112,8 @@ class LevelProbe final : public Probe {
     double low = 0, high = 0;  ///< on the percept's own scale
     double size = 0;           ///< of the carrier at that level, SI; of a range, not used
     double none = 0, full = 0;  ///< sizes at the levels 0 and 1
+    bool absent_is_unknown = false;  ///< as `Percept` says
+    std::string asked_as;            ///< the percept's name or its antonym
     Discrimination people;
 
     bool is_range() const { return low < high; }

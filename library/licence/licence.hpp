@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "wale/result.hpp"
 
@@ -15,9 +16,25 @@ bool may_be_shared(std::string_view id);
 /// The nearest licence of those, for a misspelt one; nothing if none is near.
 std::optional<std::string> nearest_licence(std::string_view id);
 
-/// The licence that the `wale.project` of a folder states for all files below, `licence "CC0-1.0"`; empty if it states
-/// none or there is no such file. Errors: W0501 if the file cannot be read, W0801 for a line that is neither that nor
-/// a comment, with its number.
+/// What the `wale.project` of a library says of the files below it.
+struct LibraryProject {
+  std::string licence;               ///< `licence "CC0-1.0"`: of all files; empty if none is stated
+  std::vector<std::string> stimuli;  ///< `stimuli "sandpaper"`: folders, and so kinds, of what an experiment used
+  std::vector<std::string> modules;  ///< `modules "std"`: folders of functions, whose materials are samples of them
+
+  /// Whether the materials of a folder are no contributions: they are as the experiment or the function has them, and
+  /// nobody looks for them by what they are called.
+  bool is_apart(std::string_view folder) const;
+};
+
+/// Reads it from the folder of a library; without such a file it says nothing. Errors: W0501 if the file cannot be read,
+/// W0801 for a line that is none of those nor a comment, with its number.
+Result<LibraryProject> project_of_library(const std::string& folder);
+
+/// That of the shipped library.
+const LibraryProject& shipped_project();
+
+/// The licence of `project_of_library`, with its errors.
 Result<std::string> licence_of_library(const std::string& folder);
 
 }  // namespace wale

@@ -8,7 +8,9 @@
 #include "compiler/describe/describe.hpp"
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/grade/grade.hpp"
+#include "compiler/grade/required_damping.hpp"
 #include "compiler/preview/preview.hpp"
+#include "compiler/text/readable.hpp"
 #include "library/index/entry.hpp"
 #include "library/review/report.hpp"
 
@@ -53,19 +55,57 @@ void build_for_others(const OpenedFile& opened, const FactsRequest& request, con
   }
 }
 
+std::string millimetres(const WorstPlace& worst) {
+  return readable("({:.1f}, {:.1f}) mm", 1e3 * worst.position.x, 1e3 * worst.position.y);
+}
+
+/// A force that shakes the handle: a force that is held needs no more damping than device and hand have, whatever else
+/// it does. That a program gives energy by itself too is another matter, and takes nothing of this away.
+void tell_of_shaking(const Grade& graded, const PatchProgram& program, const CheckedMaterial& checked, Diagnostics& diagnostics) {
+  const double held = graded.device_damping + graded.hand_damping;
+  if (graded.standing == Standing::not_analysed || graded.device_damping <= 0 || graded.required_damping <= held) return;
+  // Across a jump the sampled loop sees the slope between two counts.
+  const LoopTiming timing(program.device);
+  const double across = graded.step_newton / program.device.position_step() * (timing.period / 2 + timing.latest());
+  constexpr double nearly_all = 0.99;
+  const bool by_jump = graded.jumps && across >= nearly_all * graded.required_damping;
+  report(diagnostics, Code::unstable_material, checked.span,
+         readable("device and hand do not hold the force of `{}`: it needs a damping of {:.3g} N s/m at {}, and they have "
+                  "{:.3g}{}",
+                  checked.name, graded.required_damping, millimetres(graded.worst), held,
+                  by_jump ? readable("; the force jumps by {:.2g} N from one encoder count to the next",
+                                     graded.step_newton)
+                          : ""),
+         by_jump ? "let it rise over a distance, as `smoothstep(x / 1 mm)` does, or make it weaker"
+                      : "make it less stiff, or its finest detail coarser; `wale describe FILE` says more");
+}
+
+/// Energy that the author did not declare. The compiler warns of it too, but not where it doubts a value: there the
+/// doubt comes first for an author, and a library must know both.
+void tell_of_energy(const Grade& graded, const PatchProgram& program, const CheckedMaterial& checked,
+                    const Diagnostics& of_material, Diagnostics& diagnostics) {
+  if (!graded.energy.active() || graded.energy.watt() <= program.active_watt) return;
+  const auto told = [](const Diagnostic& each) { return each.code == Code::undeclared_energy; };
+  if (std::ranges::any_of(of_material.all(), told)) return;
+  report(diagnostics, Code::undeclared_energy, checked.span,
+         readable("`{}` gives energy to the hand, up to {:.2g} W at an ordinary pace: {}", checked.name,
+                  graded.energy.watt(), graded.energy.reasons.front()),
+         "mend what the other warnings say of it; if it is meant, declare it with `active` in its physical block");
+}
+
 /// Grades it and draws it. Error: `missing_library`.
 Result<> grade_and_draw(MaterialFacts& facts, const Bank& bank, const CheckedMaterial& checked,
-                        const Declarations& declarations, Diagnostics& diagnostics) {
+                        const Declarations& declarations, const Diagnostics& of_material,
+                        Diagnostics& diagnostics) {
   if (!bank.program().description().vibrates()) {
     const Grade graded = grade(bank, normal_hand(declarations));
     const Standing standing = graded.assumed_standing().value_or(graded.standing);
     facts.standing = standing_word(standing);
     if (standing != graded.standing) facts.standing += " by an assumed damping";
     facts.damping = graded.required_damping, facts.newton = graded.largest_newton;
-    if (standing == Standing::unstable)
-      report(diagnostics, Code::unstable_material, checked.span,
-             fmt::format("device and hand do not hold the force of `{}`", checked.name),
-             "make it less stiff; `wale describe FILE` says where it is stiffest");
+    if (graded.energy.active()) facts.given = graded.energy.watt();
+    tell_of_shaking(graded, bank.program().description(), checked, diagnostics);
+    tell_of_energy(graded, bank.program().description(), checked, of_material, diagnostics);
   }
   PreviewChoice choice;
   choice.small = true;
@@ -85,6 +125,7 @@ Result<> read_material(MaterialFacts& facts, FactsReading& reading, const FactsR
   const auto program = compile_opened(reading.opened, watched, checked.name, of_material);
   Diagnostics& all = reading.opened.diagnostics;
   Result<> drawn;
+  facts.compiled = program.has_value();
   if (program) {
     const Declarations& declarations = reading.opened.module->declarations();
     const Bank bank(*program);
@@ -95,7 +136,7 @@ Result<> read_material(MaterialFacts& facts, FactsReading& reading, const FactsR
       facts.cues = std::move(felt.cues);
       for (ReviewedLevel& level : facts.levels)
         if (const EntryPercept* percept = felt.percept(level.percept)) level.reads = percept->reads;
-      drawn = grade_and_draw(facts, bank, checked, declarations, found);
+      drawn = grade_and_draw(facts, bank, checked, declarations, of_material, found);
       build_for_others(reading.opened, request, checked, found);
       tell_of_reading(checked, of_material, found);
     }

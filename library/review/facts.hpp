@@ -24,7 +24,9 @@ struct MaterialFacts {
   std::string name;
   std::optional<Cues> cues;           ///< nothing for a material with an error
   std::vector<ReviewedLevel> levels;  ///< in the order written
+  bool compiled = false;              ///< it has no error; without, nothing below is known
   std::string standing;               ///< of its grade: "stable in the hand"; empty where none was asked for
+  double given = 0;                   ///< W that it gives to the hand by itself; 0 if it gives none
   double damping = 0;                 ///< N s/m that the loop needs
   double newton = 0;                  ///< the largest force that was found, N
 };
@@ -53,7 +55,8 @@ struct FactsRequest {
 };
 
 /// Compiles the materials of one file, reads their programs and, unless only cues are asked for, grades them, builds
-/// them for other devices and draws a small picture of each; reports what is wrong with that (W0911 to W0914).
+/// them for other devices and draws a small picture of each; reports what is wrong with that (W0911 to W0914), and energy
+/// that nobody declared where the compiler did not speak of it (W0604).
 /// Thread-safe. Errors: those of `open_file`, W0506 for a patch program, W0504 without the library that draws.
 Result<FactsReading> read_facts(const FactsRequest& request);
 

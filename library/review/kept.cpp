@@ -17,7 +17,8 @@ constexpr const char* marker = "wale review";
 constexpr std::size_t largest_kept = std::size_t{256} << 20;  // bytes: two million materials' cues
 
 Json json_of(const MaterialFacts& facts) {
-  Json json = {{"name", facts.name}, {"standing", facts.standing}, {"damping", facts.damping}, {"newton", facts.newton}};
+  Json json = {{"name", facts.name},       {"compiled", facts.compiled}, {"standing", facts.standing},
+               {"given", facts.given},     {"damping", facts.damping},   {"newton", facts.newton}};
   if (facts.cues) {
     Json& cues = json["cues"] = {{"device", facts.cues->device}, {"coarseness", facts.cues->coarseness},
                                  {"executed", facts.cues->executed}};
@@ -35,7 +36,8 @@ Json json_of(const MaterialFacts& facts) {
 
 MaterialFacts facts_in(const Json& json) {
   MaterialFacts facts;
-  facts.name = json.at("name"), facts.standing = json.at("standing");
+  facts.name = json.at("name"), facts.compiled = json.at("compiled");
+  facts.standing = json.at("standing"), facts.given = json.at("given");
   facts.damping = json.at("damping"), facts.newton = json.at("newton");
   if (json.contains("cues")) {
     const Json& told = json.at("cues");

@@ -23,6 +23,7 @@
 #include "library/review/report.hpp"
 #include "library/review/words.hpp"
 #include "runtime/machine/parallel.hpp"
+#include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale {
@@ -38,6 +39,28 @@ std::string library_of(const std::string& file) {
     if (folder == folder.parent_path()) break;
   }
   return {};
+}
+
+/// The folder of a file within its library: "wood" of "wood/oak.wale"; empty for a file that lies in none.
+std::string folder_within(const std::string& file, const std::string& library) {
+  std::error_code ignored;
+  if (library.empty()) return {};
+  const fs::path within = fs::relative(fs::absolute(file, ignored), library, ignored);
+  return within.empty() || within == within.filename() ? std::string() : within.begin()->string();
+}
+
+/// Whether the text of a material has an error, or what stands outside of all materials has one, which it may rest on.
+bool has_error_at(const Diagnostics& diagnostics, const MaterialDecl& material, const SyntaxTree& tree) {
+  const auto lies_in = [](const Span& span, const Span& in) {
+    return span.source == in.source && span.begin >= in.begin && span.end <= in.end;
+  };
+  return std::ranges::any_of(diagnostics.all(), [&](const Diagnostic& each) {
+    if (severity_of(each.code) != Severity::error || is_of_library(each.code)) return false;
+    return std::ranges::none_of(tree.declarations, [&](const Declaration& declaration) {
+      const auto* other = std::get_if<MaterialDecl>(&declaration);
+      return other && other != &material && lies_in(each.span, other->span);
+    });
+  });
 }
 
 /// Whether a folder holds the sources of the shipped library, perhaps another version of them than this binary: then
@@ -132,6 +155,7 @@ class Reviewer {
     std::size_t file = 0, index = 0;
     Span name;
     MaterialWords words;
+    bool is_apart = false;  ///< in a folder whose materials are no contributions
   };
 
   FactsRequest facts_request(const std::string& file, const std::string& material, bool cues_alone) const {
@@ -147,8 +171,9 @@ class Reviewer {
                  KeptReview& kept) {
     const std::size_t number = file_count_++;
     const std::string library = library_of(file.file);
-    const auto licence = licence_of_library(library.empty() ? "." : library);
-    if (!library.empty() && !licence) return licence.error();
+    const auto project = library.empty() ? Result<LibraryProject>(LibraryProject()) : project_of_library(library);
+    if (!project) return project.error();
+    const bool is_apart = project->is_apart(folder_within(file.file, library));
     SourceId source = 0;
     const CheckedModule* module = nullptr;
     const FileFacts* facts = unchanged;
@@ -175,7 +200,9 @@ class Reviewer {
       if (const auto* node = std::get_if<MaterialDecl>(&declaration); node && module)
         if (const auto checked = std::ranges::find(module->materials, node->name.text, &CheckedMaterial::name);
             checked != module->materials.end())
-          tell_layers(*node, *checked, module->declarations(), file.diagnostics);
+          if (!is_apart)
+            tell_layers(*node, *checked, module->declarations(), !has_error_at(file.diagnostics, *node, tree),
+                        file.diagnostics);
     if (file.diagnostics.all().empty() && !facts->uses_names)
       kept.reviewed[file.file] = {hash_of(file.file, *facts), *facts};
 
@@ -188,12 +215,13 @@ class Reviewer {
       if (!node) continue;
       const auto told = std::ranges::find(facts->materials, node->name.text, &MaterialFacts::name);
       if (told == facts->materials.end()) continue;
-      Entry entry{.file = number, .index = file.materials.size(), .name = node->name.span, .words = {}};
+      Entry entry{.file = number, .index = file.materials.size(), .name = node->name.span, .words = {}, .is_apart = false};
       ReviewedMaterial& material = file.materials.emplace_back();
       material.name = node->name.text, material.facts = *told;
-      material.licence = library.empty() ? "" : *licence;
-      entry.words = tell_words(material, *node, tree, file.diagnostics);
-      tell_folder(file.file, material, node->name.span, library, file.diagnostics);
+      material.licence = project->licence;
+      entry.is_apart = is_apart;
+      entry.words = tell_words(material, *node, tree, is_apart, file.diagnostics);
+      if (!is_apart) tell_folder(folder_within(file.file, library), material, node->name.span, file.diagnostics);
       entries_.push_back(std::move(entry));
     }
     return {};
@@ -259,9 +287,13 @@ class Reviewer {
     const std::string branch = branch_of(material.kind);
     double least = std::numeric_limits<double>::infinity();
     std::vector<std::string> same;
-    const auto look = [&](const std::string& name, const Cues& cues, bool may_be_same) {
+    std::string first_same;  // as a command finds it from here
+    const auto look = [&](const std::string& name, const Cues& cues, bool may_be_same, const std::string& file_of_it) {
       const Distance distance = comparer_.distance(*material.facts.cues, cues);
-      if (distance.verdict == Verdict::alike && !may_be_same) same.push_back(name);
+      if (distance.verdict == Verdict::alike && !may_be_same) {
+        if (same.empty()) first_same = file_of_it.empty() ? name : visible_text(file_of_it) + ":" + name;
+        same.push_back(name);
+      }
       if (distance.verdict == Verdict::unknown || distance.noticeable >= least) return;
       least = distance.noticeable, material.nearest = name;
     };
@@ -272,17 +304,19 @@ class Reviewer {
       const ReviewedMaterial& there = all.files[other.file].materials[other.index];
       if (&other == &entry || !there.facts.cues || branch_of(there.kind) != branch) continue;
       look(there.name, *there.facts.cues,
-           replaced(entry.words.replaces, there.name) || replaced(other.words.replaces, material.name));
+           replaced(entry.words.replaces, there.name) || replaced(other.words.replaces, material.name),
+           all.files[other.file].file);
     }
     const auto beside = neighbours(branch);
     if (!beside) return beside.error();
-    for (const Neighbour& other : **beside) look(other.name, other.cues, replaced(entry.words.replaces, other.name));
+    for (const Neighbour& other : **beside) look(other.name, other.cues, replaced(entry.words.replaces, other.name), "");
     if (!material.nearest.empty()) material.apart = least;
-    if (!same.empty())
+    else if (const auto near = nearest_kind(all, entry)) material.nearest_kind = *near;
+    if (!same.empty() && !entry.is_apart)
       report(file.diagnostics, Code::feels_the_same, entry.name,
              fmt::format("nobody tells `{}` from `{}`", material.name, fmt::join(same, "` and `")),
-             fmt::format("change what should tell them apart, or leave it out; `wale compare {} {}` shows the cues",
-                         visible_text(file.file), same.front()));
+             fmt::format("change what should tell them apart, or leave it out; `wale compare {}:{} {}` shows the cues",
+                         visible_text(file.file), material.name, first_same));
     return {};
   }
 
@@ -299,8 +333,11 @@ class Reviewer {
         if (other->name == sought) into.insert(other->file);
       return into;
     };
+    if (std::ranges::find(entry.words.replaces, name) != entry.words.replaces.end())
+      report(file.diagnostics, Code::still_there, entry.name, fmt::format("`{}` replaces itself", name),
+             "leave out `replaces`, or give the new one another name");
     const auto where = find(name);
-    if (!where.empty())
+    if (!where.empty() && !entry.is_apart)
       report(file.diagnostics, Code::taken_name, entry.name,
              fmt::format("`{}` is also the name of a material in {}", name, listed(where)),
              "give it another name, or take the other away and write `replaces` here if its name was another");
@@ -310,7 +347,30 @@ class Reviewer {
       report(file.diagnostics, Code::still_there, entry.name,
              fmt::format("`{}` replaces a material that is still in {}", name, listed(there)),
              "take that one away, or leave out `replaces`");
-    tell_shared_words(all, entry, name);
+    if (!entry.is_apart) tell_shared_words(all, entry, name);
+  }
+
+  /// The kind that a material of an unknown one may mean: a misspelt one, or the longest whose words it has without
+  /// dots, as `wovenfabric` has those of `fabric.woven`. Nothing if another material has its kind's first word.
+  std::optional<std::string> nearest_kind(const Review& all, const Entry& entry) const {
+    const std::string& own = all.files[entry.file].materials[entry.index].kind;
+    std::set<std::string> kinds;
+    for (const Entry& each : entries_)
+      if (&each != &entry) kinds.insert(all.files[each.file].materials[each.index].kind);
+    for (const IndexedMaterial* each : others_) kinds.insert(each->kind);
+    kinds.erase("");
+    std::string meant;
+    for (const std::string& each : kinds) {
+      if (branch_of(each) == branch_of(own)) return std::nullopt;
+      bool has_all = true;
+      for (std::size_t begin = 0, end = 0; begin <= each.size(); begin = end + 1) {
+        end = std::min(each.find('.', begin), each.size());
+        has_all = has_all && own.find(each.substr(begin, end - begin)) != std::string::npos;
+      }
+      if (has_all && each.size() > meant.size()) meant = each;
+    }
+    if (auto near = nearest_spelling(own, {kinds.begin(), kinds.end()})) return near;
+    return meant.empty() ? std::nullopt : std::optional(meant);
   }
 
   void tell_shared_words(Review& all, const Entry& entry, const std::string& name) {

@@ -19,6 +19,7 @@ struct ReviewedMaterial {
   std::string nearest;  ///< the material of its kind, of those reviewed and of the library, that is least apart
   /// How far that is, in just noticeable differences of the cue that differs most; not a number if no known cue differs.
   double apart = 0;
+  std::string nearest_kind;  ///< of a kind that no other material has: the kind of others that may be meant; mostly empty
 };
 
 /// One file of a review, with all that was found in it.
@@ -50,7 +51,8 @@ struct ReviewRequest {
 /// else to the shipped one: that each compiles for a device of every class, has three layers, names, sources, a licence
 /// and how well each level is known; that it reads as it asks, can be drawn and is held by device and hand; that no other
 /// material has its name or is called the same, and none of its kind feels the same; that it lies in the folder of its
-/// kind, in the standard style. Uses all cores; the result does not depend on how many there are. Errors: those of
+/// kind, in the standard style. In folders that the library says are apart (`LibraryProject`), names, sources, levels,
+/// kinds and what feels the same are not asked for. Uses all cores; the result does not depend on how many there are. Errors: those of
 /// `contribution_of` and `read_facts`, W0801 for a `wale.project` that is none.
 Result<Review> review(const ReviewRequest& request);
 

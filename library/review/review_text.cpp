@@ -34,12 +34,19 @@ std::string levels_of(const ReviewedMaterial& material) {
 std::string apart_text(double apart) { return apart > 20 ? "more than 20" : readable("{:.1f}", apart); }
 
 std::string nearest_of(const ReviewedMaterial& material) {
-  if (material.nearest.empty()) return "none of its kind to compare with";
+  if (!material.facts.compiled) return "compared with none";
+  if (material.nearest.empty())
+    return "none of its kind to compare with" +
+           (material.nearest_kind.empty() ? "" : "; the nearest kind: " + visible_text(material.nearest_kind));
   return readable("nearest {}, {} differences", material.nearest, apart_text(material.apart));
 }
 
 std::string force_of(const ReviewedMaterial& material) {
+  if (!material.facts.compiled) return "not checked further, since it does not compile";
   if (material.facts.standing.empty()) return "not graded";
+  if (material.facts.given > 0)
+    return readable("{:.2g} N, {}: gives the hand up to {:.2g} W", material.facts.newton, material.facts.standing,
+                    material.facts.given);
   return readable("{:.2g} N, {}", material.facts.newton, material.facts.standing);
 }
 
@@ -133,10 +140,13 @@ std::string review_json(const Review& review) {
                            {"file", file.file},
                            {"licence", each.licence},
                            {"percepts", std::move(levels)},
+                           {"compiled", each.facts.compiled},
                            {"standing", each.facts.standing.empty() ? Json(nullptr) : Json(each.facts.standing)},
+                           {"given_watt", each.facts.given},
                            {"required_damping", each.facts.damping},
                            {"largest_newton", each.facts.newton},
                            {"nearest", each.nearest.empty() ? Json(nullptr) : Json(each.nearest)},
+                           {"nearest_kind", each.nearest_kind.empty() ? Json(nullptr) : Json(each.nearest_kind)},
                            {"differences", std::isfinite(each.apart) ? Json(each.apart) : Json(nullptr)}});
     }
     Json found = Json::parse(render_json(file.diagnostics, file.sources));

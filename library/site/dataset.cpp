@@ -1,5 +1,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "compiler/describe/describe_figure.hpp"
 #include "library/site/material_page.hpp"
@@ -33,8 +34,9 @@ Json material_dataset(const SiteMaterial& material, const MaterialSources& sourc
                {"url", material.page + ".html"},
                {"name", material.shown()}};
   Json others = Json::array({material.name});
+  std::set<std::pair<std::string, std::string>> said = {{"en", material.shown()}, {"en", material.name}};
   for (const EntryName& each : material.names)
-    others.push_back(each.language == "en" ? Json(each.text)
+    if (said.emplace(each.language, each.text).second) others.push_back(each.language == "en" ? Json(each.text)
                                            : Json{{"@language", each.language}, {"@value", each.text}});
   data["alternateName"] = std::move(others);
   data["description"] = material.documentation.empty()
@@ -50,8 +52,8 @@ Json material_dataset(const SiteMaterial& material, const MaterialSources& sourc
   const auto length = [](const char* name, double metres) {
     return Json{{"@type", "PropertyValue"}, {"name", name}, {"value", figure(metres * 1e3)}, {"unitCode", "MMT"}};
   };
-  measured.push_back(length("width", material.width));
-  measured.push_back(length("height", material.height));
+  measured.push_back(length("width of the patch", material.width));
+  measured.push_back(length("length of the patch", material.height));
   if (sources.figures->height) measured.push_back(length("height of the relief", *sources.figures->height));
   if (whole && material.cues)
     for (const CueFacts& facts : cue_table())

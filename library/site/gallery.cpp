@@ -7,6 +7,7 @@
 #include "library/site/material_page.hpp"
 #include "library/site/page_data.hpp"
 #include "library/site/site_folder.hpp"
+#include "library/store/seek.hpp"
 
 namespace wale {
 namespace {
@@ -79,16 +80,23 @@ std::vector<std::string> with_parents(std::string kind) {
   return kinds;
 }
 
+/// Kinds of stimuli come behind those of materials.
+bool is_of_stimuli(const std::string& kind) {
+  static const std::vector<std::string> stimuli = stimuli_here();
+  return is_of_these(stimuli, kind, "");
+}
+
 Markup kind_links(const std::map<std::string, std::vector<const SiteMaterial*>>& kinds, const std::string& under,
                   const std::string& path) {
-  Markup items;
+  Markup items, stimuli;
   for (const auto& [kind, materials] : kinds) {
     const std::size_t dot = kind.rfind('.');
     if ((dot == std::string::npos ? "" : kind.substr(0, dot)) != under) continue;
-    items +=
+    (is_of_stimuli(kind) ? stimuli : items) +=
         html("<li><a href=\"{}\">{}</a> <small>{}</small>{}</li>\n", way_to("kind/" + page_name(kind) + ".html", path),
              kind, materials.size(), kind_links(kinds, kind, path));
   }
+  items += stimuli;
   return items.empty() ? Markup() : html("<ul class=\"kinds\">{}</ul>\n", items);
 }
 
@@ -142,9 +150,10 @@ std::vector<SitePage> gallery_pages(const std::vector<const SiteMaterial*>& mate
       .section = "index.html"};
   first.scripts = {"site.js", "data/search.js", "search.js"};
   std::vector<Markup> tops;
-  for (const auto& [kind, all] : kinds)
-    if (kind.find('.') == std::string::npos)
-      tops.push_back(html("<li><a href=\"kind/{}.html\">{}</a></li>", page_name(kind), kind));
+  for (const bool stimuli : {false, true})
+    for (const auto& [kind, all] : kinds)
+      if (kind.find('.') == std::string::npos && is_of_stimuli(kind) == stimuli)
+        tops.push_back(html("<li><a href=\"kind/{}.html\">{}</a></li>", page_name(kind), kind));
   first.body = html(
       "<h1>Materials</h1>\n<p class=\"about\">{} materials for force-feedback joysticks, each with its size, "
       "its relief, how it feels and on what evidence.</p>\n{}",

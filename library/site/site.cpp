@@ -22,6 +22,7 @@
 #include "library/site/material_page.hpp"
 #include "library/site/read_site_file.hpp"
 #include "library/site/space.hpp"
+#include "library/store/seek.hpp"
 #include "runtime/machine/parallel.hpp"
 #include "schema/spelling.hpp"
 
@@ -213,12 +214,13 @@ class SiteBuild {
         left_out_.push_back(&material);
         report_.left_out.push_back({material.name, material.file, material.trouble});
       }
-    std::ranges::stable_sort(published_, [](const SiteMaterial* a, const SiteMaterial* b) {
-      const auto key = [](const SiteMaterial& each) {
+    std::ranges::stable_sort(published_, [&](const SiteMaterial* a, const SiteMaterial* b) {
+      const auto key = [&](const SiteMaterial& each) {
         const std::string title = without_capitals(each.shown());
-        // Those without a title, and numbered stimuli, stand behind the others.
+        // Stimuli, those without a title, and numbered ones stand behind the others.
         const bool is_numbered = each.title.empty() || (title[0] >= '0' && title[0] <= '9');
-        return std::tuple(is_numbered, title, each.page);
+        const bool is_stimulus = is_of_these(stimuli_, each.kind, each.module);
+        return std::tuple(is_stimulus, is_numbered, title, each.page);
       };
       return key(*a) < key(*b);
     });
@@ -227,8 +229,10 @@ class SiteBuild {
   std::vector<SiteNeighbour> neighbours_of(const SiteMaterial& material, const Comparer& comparer) const {
     std::vector<std::pair<float, const SiteMaterial*>> near;
     if (!material.cues) return {};
+    const bool is_stimulus = is_of_these(stimuli_, material.kind, material.module);
     for (const SiteMaterial* other : published_) {
       if (other == &material || !other->cues) continue;
+      if (!is_stimulus && is_of_these(stimuli_, other->kind, other->module)) continue;
       const Distance distance = comparer.distance(*material.cues, *other->cues);
       // Where no known cue differs and an unknown one does, nothing says how near they are.
       if (distance.verdict != Verdict::unknown) near.emplace_back(distance.noticeable, other);
@@ -318,6 +322,7 @@ class SiteBuild {
   const std::function<void(std::size_t, std::size_t)>& tell_;
   std::shared_ptr<const CommonModules> common_;
   DeclaredNames names_;
+  const std::vector<std::string> stimuli_ = stimuli_here();
   FileRequest file_request_;
   ContentHash base_;
   std::string base_digits_, others_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 #include "compiler/text/resolver.hpp"
@@ -17,24 +18,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Brings the kept index up to date. Error: none can be kept.
-Result<> refresh(IndexHere& here, const FileRequest& request, const std::vector<LibraryFile>& files,
-                 const StoreProgress& progress) {
-  const std::string place = kept_index(request, files);
-  if (place.empty())
-    return Error{.code = Code::unwritable_file, .sentence = "neither XDG_CACHE_HOME nor HOME names a folder for it"};
-  if (!here.store || here.place != place) {
-    here.store.reset();
-    auto opened = LibraryStore::open(place, true);
-    if (!opened) return opened.error();
-    here.store = *std::move(opened), here.place = place;
+/// The index of the shipped files alone, which those of all folders begin with.
+std::string shipped_index(const FileRequest& request) {
+  FileRequest shipped;
+  shipped.device = request.device;
+  return kept_index(shipped, {});
+}
+
+/// Begins the index of a library that has none yet, or one of another Wale, with what is known of the shipped files: they
+/// are the same in every folder, and it takes far longer to read them than to copy what was read. What goes wrong here
+/// goes wrong, or does not matter, where the index is brought up to date.
+Result<> begin_with_shipped(const std::string& place, const FileRequest& request, const std::vector<LibraryFile>& files,
+                            const StoreProgress& progress) {
+  const std::string source = shipped_index(request);
+  std::error_code trouble;
+  if (source.empty() || place == source) return {};
+  if (fs::exists(place, trouble)) {
+    const auto known = LibraryStore::open(place, false);
+    if (known && (*known)->is_of_this_wale()) return {};
   }
-  auto report = here.store->bring_up_to_date(files, request, progress);
-  if (!report) {
-    here.store.reset();
-    return report.error();
-  }
-  here.report = *std::move(report);
+  std::vector<LibraryFile> shipped;
+  std::ranges::copy_if(files, std::back_inserter(shipped), [&](const LibraryFile& each) { return !fs::exists(each.path, trouble); });
+  if (shipped.empty()) return {};
+  auto store = LibraryStore::open(source, true);
+  if (!store) return {};
+  if (const auto read = (*store)->bring_up_to_date(shipped, request, progress); !read)
+    return read.error().code == Code::stopped ? Result<>(read.error()) : Result<>();
+  const std::string fresh = place + ".begun";
+  fs::remove(fresh, trouble);
+  if ((*store)->copy_to(fresh)) fs::rename(fresh, place, trouble);
+  fs::remove(fresh, trouble);
   return {};
 }
 
@@ -68,6 +81,27 @@ std::string kept_index(const FileRequest& request, const std::vector<LibraryFile
   return (folder / fmt::format("library-{}.index", hash.digits().substr(0, 16))).string();
 }
 
+Result<> refresh_kept(IndexHere& here, const FileRequest& request, const std::vector<LibraryFile>& files,
+                      const StoreProgress& progress) {
+  const std::string place = kept_index(request, files);
+  if (place.empty())
+    return Error{.code = Code::unwritable_file, .sentence = "neither XDG_CACHE_HOME nor HOME names a folder for it"};
+  if (!here.store || here.place != place) {
+    here.store.reset();
+    if (auto begun = begin_with_shipped(place, request, files, progress); !begun) return begun;
+    auto opened = LibraryStore::open(place, true);
+    if (!opened) return opened.error();
+    here.store = *std::move(opened), here.place = place;
+  }
+  auto report = here.store->bring_up_to_date(files, request, progress);
+  if (!report) {
+    here.store.reset();
+    return report.error();
+  }
+  here.report = *std::move(report);
+  return {};
+}
+
 Result<> open_index(IndexHere& here, const std::string& place, const FileRequest& request,
                     const std::vector<std::string>& meant, const IndexTold& told) {
   if (!place.empty()) {
@@ -90,7 +124,7 @@ Result<> open_index(IndexHere& here, const std::string& place, const FileRequest
   if (is_same && here.in_memory) return {};
   if (!is_same) here = IndexHere{.catalogue = catalogue, .device = request.device};
   const std::vector<LibraryFile> files = library_files_in(*catalogue);
-  auto kept = refresh(here, request, files, told.progress);
+  auto kept = refresh_kept(here, request, files, told.progress);
   if (kept || kept.error().code == Code::stopped) return kept;
   told.warn({.code = Code::unwritable_file,
              .sentence = "no index can be kept, so the whole library is read, which takes seconds to minutes: " +

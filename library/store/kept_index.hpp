@@ -13,7 +13,8 @@ namespace wale {
 std::string cache_folder();
 
 /// Where the index of that library is kept, a file in the user's cache; empty if the system names no place. Programs that
-/// ask for the same device and the same folders, in the same folder if it has materials, share it.
+/// ask for the same device and the same folders, in the same folder if it has materials, share it. One of a folder begins
+/// with a copy of the one of the shipped files alone, so that these are read once for all folders.
 std::string kept_index(const FileRequest& request, const std::vector<LibraryFile>& files);
 
 /// What is told while an index is opened.
@@ -33,6 +34,10 @@ struct IndexHere {
 
   const MaterialIndex& index() const { return store ? store->index() : *in_memory; }
 };
+
+/// Opens the index that is kept for these files, and brings it up to date with them. Error: none can be kept, or W0706.
+Result<> refresh_kept(IndexHere& here, const FileRequest& request, const std::vector<LibraryFile>& files,
+                      const StoreProgress& progress);
 
 /// Opens the index at `place` as it stands, a file or the address of a shared one; or, if `place` is empty, brings the one
 /// that is kept for the library of the current folder up to date. What `here` has open of the same library is used again.

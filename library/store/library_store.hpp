@@ -60,6 +60,10 @@ class LibraryStore {
   /// library, and W0607 for another device than the index has.
   virtual Result<StoreReport> bring_up_to_date(const std::vector<LibraryFile>& files, const FileRequest& request,
                                                const StoreProgress& tell = {}, const Shelf& shelf = {}) = 0;
+  /// Copies it as it stands into a new file. Errors: W0505, also of an index that is no file.
+  virtual Result<> copy_to(const std::string& path) const {
+    return Error{.code = Code::unwritable_file, .sentence = "a shared index is not copied", .place = {.name = path}};
+  }
   /// Whether it was brought up to date by this build of Wale. Maps and levels of another one may be others.
   virtual bool is_of_this_wale() const = 0;
   /// What it holds, as it was when it was opened or brought up to date.

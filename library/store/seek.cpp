@@ -1,9 +1,11 @@
 #include "library/store/seek.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -13,18 +15,20 @@
 #include "compiler/diagnostics/told.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "library/index/words.hpp"
+#include "library/licence/licence.hpp"
+#include "library/licence/passing_on.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
 
-/// Whether a material has at least half of the words, or words that begin so.
-bool has_half_of(const Entry& entry, const std::vector<std::string>& words) {
+/// How many of the words a material has, or words that begin so.
+std::size_t count_of(const Entry& entry, const std::vector<std::string>& words) {
   const WordCounts counted = count_words(entry);
   const auto has = [&](const std::string& word) {
     return std::ranges::any_of(counted.weights, [&](const auto& each) { return each.first.starts_with(word); });
   };
-  return 2 * static_cast<std::size_t>(std::ranges::count_if(words, has)) >= words.size();
+  return static_cast<std::size_t>(std::ranges::count_if(words, has));
 }
 
 /// The first error of a file's text, with its place and the further ones; nothing if the text has none.
@@ -103,7 +107,7 @@ Result<FeltMaterial> felt_material(const MaterialIndex& index, const FileRequest
   const auto felt = [&](Entry entry, std::vector<std::uint32_t> is) -> Result<FeltMaterial> {
     if (!entry.felt.cues)
       return unknown_feel(text, entry.name, entry.trouble.empty() ? "it only vibrates" : entry.trouble);
-    return FeltMaterial{entry.name, *std::move(entry.felt.cues), std::move(is)};
+    return FeltMaterial{entry.name, entry.kind, entry.module, *std::move(entry.felt.cues), std::move(is)};
   };
   const auto meant = meant_entry(index, text);
   if (meant) {
@@ -129,12 +133,12 @@ Result<FoundEntries> seek_by_feel(const MaterialIndex& index, const FileRequest&
   const Comparer comparer(declared->declarations, index.device());
   std::vector<std::unique_ptr<Probe>> probes;
   const std::uint64_t usual = sought.by_feel() ? usually_near : index.columns().size();
-  MaterialQuery query{.texts = sought.texts, .kind = sought.kind, .without = {}, .most = sought.most.value_or(usual)};
+  MaterialQuery query{.texts = sought.texts, .kind = sought.kind, .most = sought.most.value_or(usual)};
   if (!sought.near.empty()) {
     auto felt = felt_material(index, request, sought.near);
     if (!felt) return felt.error();
     probes.push_back(std::make_unique<NearProbe>(comparer, felt->cues));
-    query.without = std::move(felt->is);
+    query.without = std::move(felt->is), query.without_kinds = kinds_left_out(felt->kind, felt->module);
   }
   if (!sought.levels.empty()) {
     auto probe = LevelProbe::make(sought.levels, declared->declarations, index.device());
@@ -153,23 +157,47 @@ FoundByWords seek_by_words(const LibraryIndex& catalogue, const Seeking& sought)
   all.as_they_stand = find_materials(catalogue, sought.texts, sought.kind);
   const auto most = sought.most.value_or(all.as_they_stand.size());
   if (all.as_they_stand.size() > most) all.as_they_stand.resize(most);
-  const bool has_phrase = std::ranges::any_of(sought.texts, [](const std::string& each) { return each.find(' ') != std::string::npos; });
-  if (!all.as_they_stand.empty() || !has_phrase) return all;
-  std::vector<std::string> words;
-  for (const std::string& text : sought.texts)
-    for (std::string& word : words_of(text)) words.push_back(std::move(word));
+  const std::string phrase = fmt::format("{}", fmt::join(sought.texts, " "));
+  const std::vector<std::string> words = words_of(phrase);
+  if (!all.as_they_stand.empty() || words.size() < 2) return all;
   std::vector<Entry> entries;
   for (const IndexedMaterial& each : catalogue.materials())
     if (each.origin != Origin::hidden) entries.push_back(entry_of(each));
   const auto index = index_of(std::move(entries), default_device);
-  auto found = find_entries(*index, {.texts = sought.texts,
-                                     .kind = sought.kind,
-                                     .without = {},
-                                     .most = sought.most.value_or(usually_near)});
+  auto found = find_entries(*index, {.texts = {phrase}, .kind = sought.kind, .most = index->columns().size()});
   if (!found) return all;  // an index in memory has no errors
-  for (FoundEntry& each : found->entries)
-    if (has_half_of(each.entry, words)) all.most_words.push_back(std::move(each));
+  std::vector<std::pair<std::size_t, FoundEntry*>> ranked;
+  std::size_t best = 0;
+  for (FoundEntry& each : found->entries) {
+    ranked.emplace_back(count_of(each.entry, words), &each);
+    best = std::max(best, ranked.back().first);
+  }
+  const std::size_t enough = std::min(best, (words.size() + 1) / 2);
+  std::erase_if(ranked, [&](const auto& each) { return each.first == 0 || each.first < enough; });
+  std::ranges::stable_sort(ranked, std::greater<>(), [](const auto& each) { return each.first; });
+  if (ranked.size() > sought.most.value_or(usually_near)) ranked.resize(sought.most.value_or(usually_near));
+  for (const auto& [count, each] : ranked) all.most_words.push_back(std::move(*each));
+  all.have_all = best == words.size();
   return all;
+}
+
+std::vector<std::string> stimuli_here() {
+  std::vector<std::string> stimuli = shipped_project().stimuli;
+  if (const std::string folder = project_over("here"); !folder.empty())
+    if (const auto own = project_of_library(folder)) stimuli.insert(stimuli.end(), own->stimuli.begin(), own->stimuli.end());
+  return stimuli;
+}
+
+bool is_of_these(const std::vector<std::string>& kinds, std::string_view kind, std::string_view module) {
+  return std::ranges::any_of(kinds, [&](const std::string& each) {
+    return is_of_sought_kind(kind, each) || is_of_sought_kind(module, each);
+  });
+}
+
+std::vector<std::string> kinds_left_out(std::string_view kind, std::string_view module) {
+  std::vector<std::string> stimuli = stimuli_here();
+  if (is_of_these(stimuli, kind, module)) stimuli.clear();
+  return stimuli;
 }
 
 Result<FoundBetween> seek_between(const MaterialIndex& index, const FileRequest& request, const std::string& one,
@@ -183,6 +211,8 @@ Result<FoundBetween> seek_between(const MaterialIndex& index, const FileRequest&
   const BetweenProbe probe(comparer, first->cues, second->cues);
   MaterialQuery query{.texts = {}, .kind = kind, .feel = &probe, .without = first->is, .most = most};
   query.without.insert(query.without.end(), second->is.begin(), second->is.end());
+  query.without_kinds = kinds_left_out(first->kind, first->module);
+  if (kinds_left_out(second->kind, second->module).empty()) query.without_kinds.clear();
   auto found = find_entries(index, query);
   if (!found) return found.error();
   FoundBetween between{.one = first->name, .other = second->name, .found = {}};

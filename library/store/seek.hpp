@@ -26,7 +26,7 @@ struct Seeking {
 
 /// What is felt of a material of the index, or of one of a Wale file of one's own: "my.wale", "my.wale:name".
 struct FeltMaterial {
-  std::string name;
+  std::string name, kind, module;
   Cues cues;
   std::vector<std::uint32_t> is;  ///< its number, if the index has it, also if its file was named
 };
@@ -42,11 +42,21 @@ Result<> can_be_felt(const LibraryIndex& catalogue, const FileRequest& request, 
 /// By feel, by words, or both, in an index. Errors: those of `felt_material`, `LevelProbe::make` and `find_entries`.
 Result<FoundEntries> seek_by_feel(const MaterialIndex& index, const FileRequest& request, const Seeking& sought);
 
-/// By words alone. Of texts of several words that no material has as they stand: those that have most of the words, the
-/// best first.
+/// The kinds of the stimuli of the shipped library and of the project here (`LibraryProject`), of which many feel alike.
+std::vector<std::string> stimuli_here();
+
+/// Whether a kind or a module is one of these, or below one.
+bool is_of_these(const std::vector<std::string>& kinds, std::string_view kind, std::string_view module);
+
+/// The kinds that are left out among what feels most like a material: stimuli, unless the material is one.
+std::vector<std::string> kinds_left_out(std::string_view kind, std::string_view module);
+
+/// By words alone. Of several words that no material has as they stand, in one text or in several: those that have at
+/// least half of them, or if there is none, those that have the most; the most words first, then the greatest score.
 struct FoundByWords {
   std::vector<FoundMaterial> as_they_stand;  ///< points into the catalogue
   std::vector<FoundEntry> most_words;
+  bool have_all = false;  ///< those of `most_words` have all words, each somewhere
 };
 FoundByWords seek_by_words(const LibraryIndex& catalogue, const Seeking& sought);
 

@@ -68,6 +68,10 @@ class SqliteStore final : public LibraryStore, MaterialIndex, WordTable {
   Result<StoreReport> bring_up_to_date(const std::vector<LibraryFile>& files, const FileRequest& request,
                                        const StoreProgress& tell, const Shelf& shelf) override;
   const MaterialIndex& index() const override { return *this; }
+  Result<> copy_to(const std::string& path) const override {
+    // As one transaction, also while another program writes to this file.
+    return database_.prepare("VACUUM INTO ?").bind(path).run();
+  }
   bool is_of_this_wale() const override { return fact("build") == compiler_build(); }
 
  private:

@@ -122,7 +122,7 @@ LibraryChanges changes_between(const std::vector<Entry>& before, const std::vect
                                const Comparer& comparer) {
   LibraryChanges changes;
   std::map<std::string, const Entry*> now, heirs;
-  std::set<std::string> known;
+  std::set<std::string> known, succeeds;
   for (const Entry& each : after) {
     now.emplace(each.name, &each);
     for (const std::string& old : each.replaces) heirs.emplace(old, &each);
@@ -137,13 +137,14 @@ LibraryChanges changes_between(const std::vector<Entry>& before, const std::vect
       else
         ++changes.same;
     } else if (const auto heir = heirs.find(old.name); heir != heirs.end()) {
+      succeeds.insert(heir->second->name);
       changes.superseded.push_back({old.name, heir->second->name, change_of(old, *heir->second, comparer)});
     } else {
       changes.removed.push_back(old.name);
     }
   }
   for (const auto& [name, entry] : now)
-    if (!known.contains(name)) changes.added.push_back(name);
+    if (!known.contains(name) && !succeeds.contains(name)) changes.added.push_back(name);
   if (changes.device.empty() && !after.empty()) changes.device = after.front().device;
   std::ranges::sort(changes.removed);
   std::ranges::stable_sort(changes.changed, std::greater<>(), &ChangedMaterial::noticeable);

@@ -6,13 +6,21 @@
 #include <iterator>
 #include <optional>
 
+#include "library/index/library_files.hpp"
 #include "library/review/contribution.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
 
 Result<Survey> survey(const std::vector<std::string>& paths, const FileRequest& request, SurveyDepth depth) {
-  const auto found = contribution_of(paths);
+  auto found = contribution_of(paths.empty() ? std::vector<std::string>{"."} : paths);
+  if (!found && paths.empty() && found.error().code == Code::unknown_material) {
+    Contribution shipped;
+    const auto files = library_files_in(std::vector<std::string>());
+    if (!files) return files.error();
+    for (const LibraryFile& each : *files) shipped.files.push_back(each.path);
+    found = std::move(shipped);
+  }
   if (!found) return found.error();
   struct OfFile {
     std::vector<Entry> entries;

@@ -24,7 +24,8 @@ enum class SurveyDepth {
 };
 
 /// Compiles all materials of files and of folders with all their `.wale` files, on all cores; the result does not depend
-/// on how many there are. `request.file` counts for nothing. Errors: those of `contribution_of`.
+/// on how many there are. Without paths it is the current folder, or, if that has no Wale file, the shipped library.
+/// `request.file` counts for nothing. Errors: those of `contribution_of`.
 Result<Survey> survey(const std::vector<std::string>& paths, const FileRequest& request, SurveyDepth depth);
 
 }  // namespace wale

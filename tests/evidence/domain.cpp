@@ -70,7 +70,7 @@ TEST(Domain, OfAPhotographIsExtrapolated) {
       "    patch 120 mm, 120 mm\n    height face = image(\"taken.pgm\", scale: 0.4 mm/px, height: 1 mm)\n"
       "    force = lateral(face)",
       files);
-  EXPECT_TRUE(found.domain_why.starts_with("a photograph, measured with gratings")) << found.domain_why;
+  EXPECT_TRUE(found.domain_why.starts_with("a picture, measured with gratings")) << found.domain_why;
   EXPECT_EQ(found.domain, Evidence::extrapolated);
   EXPECT_EQ(found.evidence(), Evidence::extrapolated);
   EXPECT_NEAR(found.level, 0.5, 0.02);

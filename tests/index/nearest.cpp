@@ -206,6 +206,29 @@ TEST(Told, NamesWhatIsUnknown) {
   EXPECT_EQ(told.unknown, (std::vector<std::string>{"period", "grain"}));
 }
 
+// A thing without a wall has no face that could be hard or soft; a thing without a texture is smooth.
+TEST(LevelProbe, KnowsNothingOfWhatIsAbsentWhereThePerceptSaysSo) {
+  Cues cues{.material = {}, .device = default_device, .values = {}};
+  cues[CueKind::amplitude] = 1;
+  const FeltColumns columns = FeltColumns::of({felt_row(felt_entry("cloth", cues), 7)});
+  Cues scratch;
+  const auto make = [](const char* percept, double low, double high) {
+    auto probe = LevelProbe::make({{percept, low, high}}, declarations(), default_device);
+    EXPECT_TRUE(probe) << in_words(probe.error());
+    return *std::move(probe);
+  };
+  const auto soft = make("softness", 0.8, 0.8), slippery = make("slipperiness", 0.9, 0.9);
+  const auto unknown = soft->distance(columns, 0, scratch), known = slippery->distance(columns, 0, scratch);
+  ASSERT_TRUE(unknown && known);
+  EXPECT_EQ(unknown->unknown, 1u);
+  EXPECT_EQ(unknown->low, 0);
+  EXPECT_EQ(soft->tell(columns, 0).unknown, std::vector<std::string>{"softness"});
+  EXPECT_GT(soft->tell(columns, 0).high, 0);
+  EXPECT_EQ(known->unknown, 0u);
+  EXPECT_FALSE(make("softness", 0.8, 1)->distance(columns, 0, scratch)) << "unknown is in no range";
+  EXPECT_TRUE(make("slipperiness", 0.8, 1)->distance(columns, 0, scratch)) << "none of it is in a range that has none";
+}
+
 TEST(LevelProbe, RefusesWhatIsNoPercept) {
   const auto probe = LevelProbe::make({{"roughnes", 0.6, 0.6}}, declarations(), default_device);
   ASSERT_FALSE(probe);

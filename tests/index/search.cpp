@@ -7,7 +7,9 @@
 #include <random>
 #include <set>
 
+#include "compiler/parse/parse.hpp"
 #include "library/index/find.hpp"
+#include "library/store/seek.hpp"
 
 namespace wale::search_test {
 namespace {
@@ -19,6 +21,35 @@ TEST(LogInSteps, IsTheBinaryLogarithm) {
     EXPECT_LE(log2_in_steps(x), std::log2(x) + 1e-9) << x;
     EXPECT_GT(log2_in_steps(x), std::log2(x) - 1.0 / 65536 - 1e-9) << x;
   }
+}
+
+// README.md: if no material has these words as they stand, the best for them, quoted or not.
+TEST(Words, FindThoseThatHaveMostOfThem) {
+  LibraryIndex catalogue;
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const std::string text =
+      "wale 1\nmaterial cord { representative { title \"Ribbed cotton\" kind fabric.woven } }\n"
+      "material towel { representative { title \"Rough cotton\" kind fabric.pile } }\n"
+      "material belt { representative { title \"Trousers belt\" kind leather.strap } }\n";
+  catalogue.add("trial", "trial.wale", parse(sources, sources.add("trial.wale", text), diagnostics));
+  ASSERT_EQ(catalogue.materials().size(), 3u);
+  const auto found = [&](std::vector<std::string> texts) {
+    const FoundByWords all = seek_by_words(catalogue, {.texts = std::move(texts), .kind = {}, .near = {}, .levels = {}, .most = {}});
+    std::vector<std::string> names;
+    for (const FoundMaterial& each : all.as_they_stand) names.push_back(each.material->name);
+    for (const FoundEntry& each : all.most_words) names.push_back(each.entry.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(found({"ribbed cotton"}), Names{"cord"});
+  EXPECT_EQ(found({"cotton ribbed"}), Names{"cord"});
+  EXPECT_EQ(found({"rough ribbed cotton"}).size(), 2u);
+  EXPECT_EQ(found({"rough ribbed cotton"}), found({"rough", "ribbed", "cotton"}));
+  EXPECT_EQ(found({"rough", "cotton", "trousers"}), Names{"towel"}) << "two of three words before one of them";
+  EXPECT_EQ(found({"velvet", "trousers", "blue", "wide"}), Names{"belt"}) << "none has half of them: the most";
+  EXPECT_EQ(found({"velvet"}), Names{});
+  EXPECT_EQ(found({"velvet", "silk"}), Names{});
 }
 
 /// Materials of a few words each, which often occur in several.

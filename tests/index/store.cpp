@@ -13,6 +13,7 @@
 #include "compiler/modules/load_modules.hpp"
 #include "library/index/find.hpp"
 #include "library/index/probe.hpp"
+#include "library/store/kept_index.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace wale::store_test {
@@ -55,6 +56,48 @@ class Store : public testing::Test {
   TemporaryFolder folder_;
   StoreReport report_;
 };
+
+TEST_F(Store, IsCopiedWithAllThatIsKnown) {
+  write("shelf/one.wale", "wale 1\n" + material("one", 0.4, 2));
+  write("shelf/two.wale", "wale 1\n" + material("two", 0.4, 3));
+  const auto store = updated();
+  ASSERT_TRUE(store->copy_to(folder_ / "copy.index"));
+  EXPECT_FALSE(store->copy_to(folder_ / "copy.index")) << "nothing is written over";
+  write("shelf/three.wale", "wale 1\n" + material("three", 0.4, 4));
+  auto copy = LibraryStore::open(folder_ / "copy.index", false);
+  ASSERT_TRUE(copy) << in_words(copy.error());
+  EXPECT_TRUE((*copy)->is_of_this_wale());
+  const auto report = (*copy)->bring_up_to_date(files(), {});
+  ASSERT_TRUE(report) << in_words(report.error());
+  EXPECT_EQ(report->read, 1u) << "what was known is not read again";
+  EXPECT_EQ(report->materials, 3u);
+}
+
+TEST_F(Store, BeginsInAnotherFolderWithWhatIsKnownOfTheShippedOnes) {
+  // The shipped library has hundreds of files; here two of them stand for it.
+  const auto shipped = *library_files_in(std::vector<std::string>{});
+  std::vector<LibraryFile> some;
+  for (const LibraryFile& each : shipped)
+    if (each.module == "fabric.denim" || each.module == "fluid.soda") some.push_back(each);
+  ASSERT_EQ(some.size(), 2u);
+  setenv("XDG_CACHE_HOME", (folder_ / "cache").c_str(), 1);
+  const fs::path before = fs::current_path();
+  std::size_t read = 0;
+  for (const char* place : {"a", "b"}) {
+    write(std::string(place) + "/own.wale", "wale 1\n" + material(place, 0.4, 2));
+    fs::current_path(folder_ / place);
+    std::vector<LibraryFile> here = some;
+    here.push_back({"own.wale", "own"});
+    IndexHere index;
+    const auto opened = refresh_kept(index, {}, here, {});
+    ASSERT_TRUE(opened) << in_words(opened.error());
+    EXPECT_EQ(index.report.materials, 3u);
+    read = index.report.read;
+  }
+  fs::current_path(before);
+  unsetenv("XDG_CACHE_HOME");
+  EXPECT_EQ(read, 1u) << "the folder's own";
+}
 
 TEST_F(Store, ReadsOnlyWhatChangesAndWhatRestsOnIt) {
   write("shelf/parts.wale", "wale 1\nexport let rib = 2 mm\n" + material("part", 0.4, 2));

@@ -80,6 +80,19 @@ TEST(Ratings, BecomeLevelsOfEachMaterial) {
   EXPECT_FALSE(has((*drafts)[1].text, "roughness"));
 }
 
+TEST(Ratings, AreReadAsSpreadsheetsWriteThem) {
+  // The same table, as one in German writes it, and with a column that is no percept.
+  const auto english = rating_drafts("r.csv", "material,roughness,notes\nOak,0.25,\"dry, old\"\n", percepts, {}, {});
+  const auto german = rating_drafts("r.csv", "material;roughness;notes\nOak;0,25;\"dry; old\"\n", percepts, {}, {});
+  const auto tabs = rating_drafts("r.csv", "material\troughness\tnotes\nOak\t0,25\tdry\n", percepts, {}, {});
+  ASSERT_TRUE(english && german && tabs);
+  EXPECT_TRUE(has((*english)[0].text, "roughness 0.250 transferred"));
+  EXPECT_EQ((*english)[0].text, (*german)[0].text);
+  EXPECT_EQ((*english)[0].text, (*tabs)[0].text);
+  EXPECT_TRUE(has((*english)[0].assumed.back(), "\"notes\""));
+  EXPECT_FALSE(rating_drafts("r.csv", "material,notes\nOak,dry\n", percepts, {}, {})) << "no column is a percept";
+}
+
 TEST(Ratings, SayInWhichRowTheyAreWrong) {
   const auto refused = [](const std::string& text) {
     const auto drafts = rating_drafts("r.csv", text, percepts, {}, {});

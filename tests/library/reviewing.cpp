@@ -175,6 +175,66 @@ TEST_F(Reviewing, LooksAtFoldersAndStyle) {
   EXPECT_TRUE(found.accepted()) << "that is a warning";
 }
 
+TEST_F(Reviewing, TellsOfEnergyAndShakingWhateverElseIsDoubted) {
+  // Two neighbouring noises have nothing in common, so the force may change by twice its amplitude from count to count.
+  std::string text = cord();
+  const std::string ribs = "grating(x, period: 3.3 mm)";
+  text.replace(text.find(ribs), ribs.size(), "noise(x / 5 mm, y / 5 mm)");
+  write("trial/cord.wale", text);
+  const Review found = review_all();
+  EXPECT_EQ(codes_of(found), (Codes{"W0313", "W0604", "W0913"}));
+  EXPECT_GT(found.files[0].materials[0].facts.given, 0);
+  EXPECT_NE(review_text(found).find("active: gives the hand up to "), std::string::npos);
+}
+
+TEST_F(Reviewing, SaysNothingOfWhatItDidNotCompile) {
+  std::string text = cord();
+  const std::string period = "3.3 mm";
+  text.replace(text.find(period), period.size(), "3.3 N");
+  write("trial/cord.wale", text);
+  const Review found = review_all();
+  for (const std::string& code : codes_of(found)) EXPECT_TRUE(code < "W09") << code;
+  const std::string told = review_text(found);
+  EXPECT_NE(told.find("not checked further, since it does not compile"), std::string::npos) << told;
+  EXPECT_EQ(told.find("none of its kind"), std::string::npos);
+  // What is not written at all is missing all the same.
+  text.erase(text.find("  perceptual"), std::string("  perceptual { roughness 0.6 estimated }\n").size());
+  write("trial/cord.wale", text);
+  EXPECT_EQ(codes_of(review_all()).count("W0901"), 1u);
+}
+
+TEST_F(Reviewing, AsksNoNamesOfFoldersThatAreApart) {
+  const std::string bare = "wale 1\n\nmaterial bare {\n  physical {\n    height ribs = grating(x, period: 3 mm)\n"
+                           "    force = lateral(ribs, amplitude: 0.2 N)\n  }\n}\n";
+  write("trial/bare.wale", bare);
+  EXPECT_FALSE(review_all().accepted());
+  for (const char* word : {"stimuli", "modules"}) {
+    write("wale.project", "licence \"CC0-1.0\"\n" + std::string(word) + " \"trial\"\n");
+    EXPECT_EQ(codes_of(review_all()), Codes{}) << word;
+  }
+  write("wale.project", "stimuli \"trial\"\n");
+  EXPECT_EQ(codes_of(review_all()), Codes{"W0902"}) << "a licence is needed all the same";
+  EXPECT_TRUE(shipped_project().is_apart("sandpaper") && shipped_project().is_apart("std"));
+  EXPECT_FALSE(shipped_project().is_apart("stone"));
+}
+
+TEST_F(Reviewing, TakesNoBlankTextsAndNoWordsThatSayNothing) {
+  std::string text = cord("broad_cord", "0.6 estimated", "3.3 mm", "    replaces broad_cord\n    licence \" \"\n");
+  const auto put = [&](const std::string& old, const std::string& with) { text.replace(text.find(old), old.size(), with); };
+  put("ribs: a ruler; level: an estimate", "");
+  put("trial.woven", "wovenfabric");
+  write("cord.wale", text);
+  const Review found = review_all();
+  EXPECT_EQ(codes_of(found), (Codes{"W0901", "W0902", "W0908"})) << review_text(found);
+  EXPECT_EQ(found.files[0].materials[0].nearest_kind, "fabric.woven");
+  text = cord();
+  put("Cordstoff broad_cord", "CORDED broad_cord");
+  write("cord.wale", text);
+  EXPECT_EQ(codes_of(review_all()), Codes{"W0909"}) << text;
+  EXPECT_EQ(nearest_licence("CC0"), "CC0-1.0");
+  EXPECT_EQ(nearest_licence("cc-by"), "CC-BY-4.0");
+}
+
 TEST_F(Reviewing, SaysTheSameInJson) {
   write("trial/cord.wale", cord("broad_cord", "0.6"));
   const Review found = review_all();

@@ -92,7 +92,7 @@ TEST_F(Changes, AreCountedInDifferencesThatPeopleNotice) {
   const LibraryChanges changes = changes_between(before, after, comparer_);
   EXPECT_EQ(changes.same, 1u);
   EXPECT_EQ(changes.removed, std::vector<std::string>{"gone"});
-  EXPECT_EQ(changes.added, (std::vector<std::string>{"fresh", "new_name"}));
+  EXPECT_EQ(changes.added, std::vector<std::string>{"fresh"}) << "what takes the place of another is counted once";
   ASSERT_EQ(changes.superseded.size(), 1u);
   EXPECT_EQ(changes.superseded[0].new_name, "new_name");
   ASSERT_EQ(changes.changed.size(), 1u);
