@@ -176,7 +176,7 @@ TEST(Trials, ReadUnitsWhereTheyStand) {
 }
 
 TEST(Trials, NoteWhoLacksStimuli) {
-  const auto trials = trials_of("participant,response,amplitude\nS1,10,0.2\nS1,20,0.8\nS1,20,0.8\nS2,5,0.2\n");
+  const auto trials = trials_of("participant,response,amplitude\nS1,10,0.2\nS1,20,0.8\nS1,21,0.8\nS2,5,0.2\n");
   ASSERT_TRUE(trials);
   ASSERT_EQ(trials->notes.size(), 1u);
   EXPECT_EQ(trials->notes[0], "S2 has answers to 1 of 2 stimuli");

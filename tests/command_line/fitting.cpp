@@ -456,7 +456,7 @@ experiment small {
   const Outcome reported =
       wale({"calibrate", "report", folder.write("t.csv", text), "--design", design, "-o", folder / "r.html"});
   ASSERT_EQ(reported.status, 0) << reported.err;
-  EXPECT_TRUE(contains(reported.out, "2 stimuli")) << reported.out;
+  EXPECT_TRUE(contains(reported.out, "2 drawn stimuli")) << reported.out;
   const std::string html = bytes_of(folder / "r.html");
   EXPECT_TRUE(contains(html, "data:image/png;base64,iVBORw0KGgo"));
   EXPECT_TRUE(contains(html, "factor   amplitude 0.2 N, 0.8 N"));

@@ -312,8 +312,6 @@ TEST(HostileText, InWordsOfTheCommandIsShown) {
                                                {"levels", hostile},
                                                {"levels", "roughness", "--device", hostile},
                                                {"levels", "roughness", "--steps", hostile},
-                                               {"find", hostile},
-                                               {"find", hostile, "--json"},
                                                {"find", "--kind", hostile},
                                                {"explain", hostile},
                                                {"compare", hostile, corduroy},
@@ -322,6 +320,9 @@ TEST(HostileText, InWordsOfTheCommandIsShown) {
                                                {"devices", "--identify", hostile},
                                                {"devices", "--devices", hostile}})
     EXPECT_NE(harmless(words).status, 0) << shown(testing::PrintToString(words));
+  // One of its words may be that of a material.
+  harmless({"find", hostile});
+  harmless({"find", hostile, "--json"});
 }
 
 TEST(HostileText, InDeclarationsOfDevicesIsShown) {
