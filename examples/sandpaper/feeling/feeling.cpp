@@ -124,7 +124,8 @@ void Feeling::record(const QString& file) {
 void Feeling::renew_stage() {
   stage_.reset();
   by_patch_.clear();
-  wale::StageOptions options;
+  // As `wale feel` asks for: what the window draws must not make the loop late.
+  wale::StageOptions options{.priority = wale::usual_priority, .lock_memory = true, .low_latency = true};
   if (profile_.force_newton > 0) options.max_force = max_force_;
   if (is_recording()) options.record = wale::RecordTo{.file = record_.toStdString(), .hand = {}};
   stage_ = std::make_unique<wale::Stage>(*heard_device_, options);
