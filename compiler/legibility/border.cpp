@@ -12,6 +12,7 @@ constexpr double deepest = 0.25;         // of the shorter side
 constexpr int places_of_period = 16;     // so that the mean of a wave is none
 constexpr int fewest_places = 16;
 constexpr std::size_t most_crossings = 64;
+constexpr double of_one_side = 0.7;      // the cosine of half a right angle: ways within it lead over one side
 
 /// The mean static force of a patch just within its border, which a hand leaves at `leaves` along `way` (of length 1).
 glm::dvec2 mean_push(const LaidPatch& patch, const Cues& cues, std::span<const glm::dvec2> leaves,
@@ -65,7 +66,7 @@ double border_step(const LaidPatch& a, const Cues& cues_of_a, const LaidPatch& b
   for (const glm::dvec2 side : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
     std::vector<glm::dvec2> from_a, from_b, along, against;
     for (std::size_t i = 0; i < ways.size(); ++i)
-      if (ways[i].x * side.x + ways[i].y * side.y > 0.7) {
+      if (ways[i].x * side.x + ways[i].y * side.y > of_one_side) {
         from_a.push_back(of_a[i]), from_b.push_back(of_b[i]), along.push_back(ways[i]), against.push_back(back[i]);
       }
     if (from_a.empty()) continue;

@@ -23,7 +23,7 @@ struct LibrarySheetOptions {
   Sandbox sandbox = Sandbox::required;
 };
 
-/// What a sheet is of, without the way there, which is of no use to others: "my library" of "/home/anna/my library/".
+/// What a sheet is of, without the way there, which is of no use to others: "stones" of "shelf/stones/".
 std::string titled(const std::vector<std::string>& paths) {
   std::error_code ignored;
   std::filesystem::path first =

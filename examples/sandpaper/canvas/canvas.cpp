@@ -246,13 +246,11 @@ void Canvas::draw_patch(QPainter& painter, const Placed& placed) {
                      : document_.is_stale() ? tr("an error in the text")
                                             : tr("an error in its material"));
   }
-  {
-    painter.setPen(QPen(is_chosen ? palette().color(QPalette::Highlight) : QColor(0, 0, 0, 110), is_chosen ? 2 : 1));
-    painter.setBrush(Qt::NoBrush);
-    if (is_plain) painter.drawRect(box);
-    else if (placed.patch.shape == "ellipse") painter.drawEllipse(box);
-    else if (is_chosen) painter.drawRect(box);
-  }
+  painter.setPen(QPen(is_chosen ? palette().color(QPalette::Highlight) : QColor(0, 0, 0, 110), is_chosen ? 2 : 1));
+  painter.setBrush(Qt::NoBrush);
+  if (is_plain) painter.drawRect(box);
+  else if (placed.patch.shape == "ellipse") painter.drawEllipse(box);
+  else if (is_chosen) painter.drawRect(box);
   const double reach = feeling_.profile().workspace_diameter / 2;
   const glm::dvec2 far = glm::abs(placed.patch.at) + 0.5 * size_of(placed);
   if (reach > 0 && std::max(far.x, far.y) > reach) {

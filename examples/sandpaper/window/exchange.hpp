@@ -39,7 +39,6 @@ class Exchange : public QObject {
   /// are taken get new ones.
   /// Asks which workspace of a file is to be merged, if it has several.
   void merge(const QString& file);
-  void merge(const QString& file, std::size_t which);
 
   void export_picture(const QString& file);
   /// The page of `wale preview` of the shown patch, in the format that the ending says.
@@ -62,6 +61,7 @@ class Exchange : public QObject {
   void refused(const wale::Error& error);
 
  private:
+  void merge(const QString& path, std::string text, const wale::Presentation& shown, const std::string& wanted);
   bool is_ready();
   /// Takes a text over as one step of undo if it has no errors.
   bool take(const Contents& next, const QString& what);

@@ -197,29 +197,25 @@ void Exchange::merge(const QString& path) {
   if (!is_ready()) return;
   const auto bytes = bytes_of(path, largest_text);
   if (!bytes) return emit refused(bytes.error());
-  const auto shown = library_.presentation(bytes->toStdString(), path.toStdString());
+  const std::string text = bytes->toStdString();
+  const auto shown = library_.presentation(text, path.toStdString());
   if (!shown) return emit refused(shown.error());
   if (shown->workspaces.empty()) return emit said(tr("%1 has no workspace to merge").arg(path));
-  if (shown->workspaces.size() == 1) return merge(path, 0);
+  if (shown->workspaces.size() == 1) return merge(path, text, *shown, shown->workspaces.front());
   QStringList names;
   for (const std::string& each : shown->workspaces) names << QString::fromStdString(each);
   question_.ask(tr("%1 has %2 workspaces").arg(QFileInfo(path).fileName()).arg(names.size()),
                 {{.label = tr("&workspace"), .choices = names}}, tr("Merge it"),
-                [this, path](const std::vector<double>& answers) { merge(path, static_cast<std::size_t>(answers[0])); });
+                [this, path, text, shown = *shown](const std::vector<double>& answers) {
+                  merge(path, text, shown, shown.workspaces[static_cast<std::size_t>(answers[0])]);
+                });
 }
 
-void Exchange::merge(const QString& path, std::size_t which) {
-  if (!is_ready()) return;
-  const auto bytes = bytes_of(path, largest_text);
-  if (!bytes) return emit refused(bytes.error());
-  std::string text = bytes->toStdString();
-  const auto shown = library_.presentation(text, path.toStdString());
-  if (!shown) return emit refused(shown.error());
-  if (which >= shown->workspaces.size()) return;
-  const std::string& wanted = shown->workspaces[which];
+void Exchange::merge(const QString& path, std::string text, const wale::Presentation& shown, const std::string& wanted) {
+  if (!is_ready()) return;  // it may have waited for an answer
   const bool leaves_out =
-      shown->workspaces.size() > 1 || !shown->movies.empty() || !shown->keys.empty() || !shown->groups.empty();
-  text = with_paths(without_presentation(std::move(text), *shown), QFileInfo(path).absolutePath().toStdString());
+      shown.workspaces.size() > 1 || !shown.movies.empty() || !shown.keys.empty() || !shown.groups.empty();
+  text = with_paths(without_presentation(std::move(text), shown), QFileInfo(path).absolutePath().toStdString());
   const WithRecipe merged = with_recipe(language_, document_.contents(), text, glm::dvec2(0), wanted);
   const QString name = QString::fromStdString(wanted);
   if (!take(merged.contents, tr("Merge %1").arg(name))) return;
