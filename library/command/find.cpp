@@ -149,9 +149,10 @@ int tell_found(const FindOptions& options, const Result<FoundEntries>& found) {
                         .sentence = "no material is like that",
                         .mend = "ask for a wider range, or for fewer things at once"});
   if (!options.json) print_out(felt_text(*found));
-  for (const auto& [percept, text] : options.levels) {
-    const auto lacks = [&](const FoundEntry& each) {
-      return each.apart && std::ranges::find(each.apart->unknown, percept) != each.apart->unknown.end();
+  for (const auto& level : options.levels) {
+    const auto& [percept, text] = level;
+    const auto lacks = [&asked = level.first](const FoundEntry& each) {
+      return each.apart && std::ranges::find(each.apart->unknown, asked) != each.apart->unknown.end();
     };
     if (!options.json && !text.empty() && std::ranges::all_of(found->entries, lacks))
       print_out("nothing is known of the {} of any of these: none has what carries it\n", percept);
