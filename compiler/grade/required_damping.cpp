@@ -139,7 +139,7 @@ double spectral_norm(const Slopes& s) {
 }
 
 double required_damping(const LinearProgram& program, const LoopTiming& timing) {
-  const double stiffness = spectral_norm(program.direct.place);
+  double stiffness = spectral_norm(program.direct.place);
   const auto uses = [&](Slopes HandSlopes::*quantity) {
     return !all_zero(program.direct.*quantity) ||
            std::ranges::any_of(program.input, [&](const HandSlopes& input) { return !all_zero(input.*quantity); });
@@ -153,6 +153,18 @@ double required_damping(const LinearProgram& program, const LoopTiming& timing) 
   const auto& windows = uses(&HandSlopes::velocity) ? timing.windows : one;
   const auto& parabolas = uses(&HandSlopes::acceleration) ? timing.parabolas : one;
   const double lowest = std::min(1.0, 2 * lowest_frequency * timing.period);  // of the Nyquist frequency
+  // What a hand that stays feels through the states: all of a brick's spring, which follows it, and of friction.
+  Slopes in_the_end{};
+  if (program.states > 0) {
+    const Complex z = std::polar(1.0, pi * lowest), raw = line_response(std::conj(z), 1, timing.period);
+    const auto slow = transfer(program, {raw, raw, raw * raw, raw * raw}, z);
+    if (!slow) return std::numeric_limits<double>::infinity();
+    Slopes at_rest = program.direct.place;
+    for (std::size_t row = 0; row < 2; ++row)
+      for (std::size_t column = 0; column < 2; ++column)
+        at_rest[row][column] += in_the_end[row][column] = (*slow)[row][column].real();
+    stiffness = spectral_norm(at_rest);
+  }
   double needed = 0;
   for (int i = 0; i < frequencies; ++i) {
     const double angle = pi * std::pow(lowest, 1 - static_cast<double>(i) / (frequencies - 1));
@@ -172,7 +184,8 @@ double required_damping(const LinearProgram& program, const LoopTiming& timing) 
         Matrix2 sum{};
         for (std::size_t row = 0; row < 2; ++row)
           for (std::size_t column = 0; column < 2; ++column)
-            sum[row][column] = late[row] * ((row == column ? stiffness : 0.0) - (*moving)[row][column]);
+            sum[row][column] =
+                late[row] * ((row == column ? stiffness : 0.0) + in_the_end[row][column] - (*moving)[row][column]);
         const double here = scale * greatest_eigenvalue(sum);
         if (std::isnan(here)) return std::numeric_limits<double>::infinity();
         needed = std::max(needed, here);

@@ -59,8 +59,9 @@ double spectral_norm(const Slopes& slopes);
 ///     T/2 / (1 - cos wT) * greatest eigenvalue of the Hermitian part of (1 - e^-jwT) L(w) H(e^jwT),  force = -H place
 ///
 /// (Colgate and Schenkel 1997, general form). L has e^-jwd / (1 + jwl) for each axis, with its delay d and its
-/// actuator's lag l. The direct dependence on place counts with its spectral norm, whatever its sign: a texture that
-/// pulls here pushes half a period further on. Infinite if the linear program has no frequency response. At least 0.
+/// actuator's lag l. What the force on a hand that stays depends on its place, with all that the states come to, counts with
+/// its spectral norm, whatever its sign: a texture that pulls here pushes half a period further on. What passes, as a
+/// bristle of friction that follows the hand, counts as it is. Infinite if the linear program has no frequency response. At least 0.
 double required_damping(const LinearProgram& program, const LoopTiming& timing);
 
 }  // namespace wale

@@ -143,6 +143,74 @@ TEST(RequiredDamping, OfStatesIsThatOfTheirResponse) {
   }
 }
 
+// Friction that slides to the right on a bristle (N = k stretch) and has another limit the other way, so that its pull
+// turns a little when the hand turns: next anchor = hand - S pull, pull = hand - anchor, force = -k S pull. It depends on
+// no place. Against the recurrence, run under a long sine along each axis, and the largest Re(u* A u) found over many
+// directions u.
+TEST(RequiredDamping, OfFrictionIsThatOfItsResponse) {
+  const double period = 1.0 / 900, k = 400;
+  for (const double across : {0.7, 0.95})
+    for (const double turned : {0.0, 0.1, 0.3}) {
+      const double s[2][2] = {{0, turned}, {0, across}};
+      LinearProgram program;
+      program.states = 2;
+      program.input.resize(1);
+      program.output.resize(4), program.carry.resize(4);
+      for (std::size_t row = 0; row < 2; ++row)
+        for (std::size_t column = 0; column < 2; ++column) {
+          program.direct.place[row][column] = -k * s[row][column];
+          program.output[2 * row + column] = k * s[row][column];
+          program.carry[2 * row + column] = s[row][column];
+          program.input[0].place[row][column] = (row == column) - s[row][column];
+        }
+      double expected = 0;
+      for (int i = 0; i < 200; ++i) {
+        const double angle = pi * std::pow(2e-3, 1 - i / 199.0);
+        std::complex<double> response[2][2];
+        for (int along = 0; along < 2; ++along) {
+          std::complex<double> anchor[2] = {};
+          for (int n = 0; n < 3000; ++n) {
+            const std::complex<double> hand = std::polar(1.0, angle * n);
+            const std::complex<double> pull[2] = {(along == 0 ? hand : 0.0) - anchor[0],
+                                                  (along == 1 ? hand : 0.0) - anchor[1]};
+            for (int row = 0; row < 2; ++row) {
+              const std::complex<double> stretch = s[row][0] * pull[0] + s[row][1] * pull[1];
+              response[row][along] = -k * stretch / hand;
+              anchor[row] = (along == row ? hand : 0.0) - stretch;
+            }
+          }
+        }
+        const std::complex<double> late = 1.0 - std::polar(1.0, -angle);
+        for (int turn = 0; turn < 60; ++turn)
+          for (int lag = 0; lag < 60; ++lag) {
+            const std::complex<double> u[2] = {std::cos(pi * turn / 60), std::polar(std::sin(pi * turn / 60), 2 * pi * lag / 60)};
+            std::complex<double> sum = 0;
+            for (int row = 0; row < 2; ++row)
+              for (int column = 0; column < 2; ++column)
+                sum += std::conj(u[row]) * late * -response[row][column] * u[column];
+            expected = std::max(expected, period / 2 / (1 - std::cos(angle)) * sum.real());
+          }
+      }
+      EXPECT_NEAR(required_damping(program, LoopTiming(device())), expected, 0.02 * expected + 1e-3)
+          << across << " " << turned;
+    }
+}
+
+// A lagging texture, force = k place (1 - f) of a moment ago: its sign is not known where the hand is next.
+TEST(RequiredDamping, IsThatOfTheStifferSignAlsoThroughAState) {
+  LinearProgram program;
+  program.states = 2;
+  program.output = {300, 0, 0, 300};  // it pulls here: a spring of 300 N/m on the place of the tick before
+  program.carry = {0, 0, 0, 0};
+  program.input.resize(1);
+  program.input[0].place = {{{1, 0}, {0, 1}}};
+  // As a spring that pushes: a tick late, b = K (T / 2 + T).
+  LinearProgram pushes = program;
+  pushes.output = {-300, 0, 0, -300};
+  EXPECT_NEAR(required_damping(pushes, LoopTiming(device())), 300 * 1.5 / 900, 1e-3);
+  EXPECT_GT(required_damping(program, LoopTiming(device())), 300 * 0.5 / 900 - 1e-6);
+}
+
 TEST(RequiredDamping, IsInfiniteWhereStatesGrow) {
   LinearProgram program = brick(120, 0.8, 0.3, 1.0 / 900);
   program.carry = {1, 0, 0, 1};
