@@ -105,6 +105,34 @@ void warn_of_reach(const CheckedPatch& patch, const PatchSize& size, const Devic
                           patch.name, 1e3 * beyond, device.name, 1e3 * device.workspace_diameter)));
 }
 
+/// The area in which the patches of keys are felt.
+void warn_of_reach(const CheckedKeys& keys, const DeviceProfile& device, Diagnostics& diagnostics) {
+  if (!device.has_position()) return;
+  const double radius = 0.5 * device.workspace_diameter;
+  const auto reach = [&](double share) {
+    return std::hypot(std::abs(keys.at[0]) + 0.5 * share * keys.area[0],
+                      std::abs(keys.at[1]) + 0.5 * share * keys.area[1]);
+  };
+  const double beyond = reach(1) - radius;
+  constexpr double told = 1e-6;  // m
+  if (!(beyond > told)) return;
+  double fits = 0, too_large = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double share = 0.5 * (fits + too_large);
+    (reach(share) <= radius ? fits : too_large) = share;
+  }
+  const auto millimetres = [&](double metres) { return 1e3 * place_step * std::trunc(fits * metres / place_step); };
+  const double width = millimetres(keys.area[0]), height = millimetres(keys.area[1]);
+  diagnostics.report(
+      (width > 0 && height > 0 ? Advice(typeable("`area {:.4g} mm, {:.4g} mm` is within reach there", width, height))
+                               : Advice("move it nearer to the centre, as in `at 0 mm, 0 mm`"))
+          .fact("high", 1e3 * device.workspace_diameter, "mm")
+          .about(Code::beyond_reach, keys.named.span,
+                 readable("the area of `{}` lies up to {:.3g} mm beyond the reach of `{}`, whose workspace is {:.4g} mm "
+                          "across",
+                          keys.named.name, 1e3 * beyond, device.name, 1e3 * device.workspace_diameter)));
+}
+
 /// The size on the stage: the program's, with the rim of a workspace.
 PatchSize size_of(const CheckedPatch& patch, const Program& program) {
   PatchSize size = program.default_size();
@@ -199,6 +227,9 @@ std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& 
     laid.push_back({&patch, program->second, laid_size, *std::move(shape)});
     if (declared) warn_of_reach(patch, laid.back().size, declared->profile, diagnostics);
   }
+  if (declared)
+    for (const CheckedKeys& keys : module.keys)
+      if (keys.workspace.name == workspace.name) warn_of_reach(keys, declared->profile, diagnostics);
   return good ? std::optional(std::move(laid)) : std::nullopt;
 }
 

@@ -90,19 +90,53 @@ bool Ground::is_slit(std::size_t patch) const {
   return covered_[patch] == 0 && std::hypot(at[0], at[1]) < radius_;
 }
 
+double Ground::gap_between(int one, int other, glm::dvec2 of_one, glm::dvec2 of_other) const {
+  if (!is_on(one, of_one) || !is_on(other, of_other)) return HUGE_VAL;
+  const glm::dvec2 gap = edge_of(other, of_other, of_one) - edge_of(one, of_one, of_other);
+  return std::max(0.0, gap.x + gap.y);
+}
+
+double Ground::gap_beside(const Gap& gap) const {
+  constexpr double golden = 0.618033988749895, told = 1e-6;  // m
+  const glm::dvec2 along = gap.of_other - gap.of_one;
+  const glm::dvec2 aside = along.x > along.y ? glm::dvec2(0, 1) : glm::dvec2(1, 0);
+  const auto width = [&](double shift) {
+    return gap_between(gap.one, gap.other, gap.of_one + shift * aside, gap.of_other + shift * aside);
+  };
+  double least = gap.width;
+  for (const double sign : {-1.0, 1.0}) {
+    double near = 0, far = step_;
+    while (far - near > told) {
+      const double a = far - golden * (far - near), b = near + golden * (far - near);
+      const double at_a = width(sign * a), at_b = width(sign * b);
+      least = std::min({least, at_a, at_b});
+      (at_a <= at_b ? far : near) = at_a <= at_b ? b : a;
+    }
+  }
+  return least;
+}
+
 std::map<std::pair<int, int>, double> Ground::gaps() const {
-  std::map<std::pair<int, int>, double> all;
+  std::map<std::pair<int, int>, Gap> all;
   std::set<std::pair<int, int>> touching;
   each_way([&](int here, int there, int between, glm::dvec2 last, glm::dvec2 first) {
     const std::pair<int, int> both = std::minmax(here, there);
     if (between == 0) touching.insert(both);
-    const auto [known, is_new] = all.emplace(both, HUGE_VAL);
-    if ((between - 1) * step_ >= known->second) return;
-    const glm::dvec2 gap = edge_of(there, first, last) - edge_of(here, last, first);
-    known->second = std::min(known->second, std::max(0.0, gap.x + gap.y));
+    const auto [known, is_new] = all.emplace(both, Gap{});
+    if ((between - 1) * step_ >= known->second.width) return;
+    const double width = gap_between(here, there, last, first);
+    if (width < known->second.width) known->second = {here, there, last, first, width};
   });
-  std::erase_if(all, [&](const auto& each) { return touching.contains(each.first) || each.second < 1e-5; });
-  return all;
+  std::map<std::pair<int, int>, double> widths;
+  for (const auto& [both, gap] : all) {
+    if (touching.contains(both)) continue;
+    const auto is_straight = [&](int patch) {
+      return std::holds_alternative<RectangleOutline>(laid_[static_cast<std::size_t>(patch)].patch->outline);
+    };
+    const double width = is_straight(gap.one) && is_straight(gap.other) ? gap.width : gap_beside(gap);
+    if (width >= 1e-5) widths.emplace(both, width);
+  }
+  return widths;
 }
 
 std::vector<double> Ground::widths() const {

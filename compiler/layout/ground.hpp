@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -51,6 +52,16 @@ class Ground {
   bool is_on(int patch, glm::dvec2 place) const;
   /// The last place of a patch on the way from one of its own to one beyond, to a micrometre.
   glm::dvec2 edge_of(int patch, glm::dvec2 within, glm::dvec2 beyond) const;
+  /// The narrowest way found between two patches, along x or y: from a place of `one` to a later one of `other`.
+  struct Gap {
+    int one = 0, other = 0;
+    glm::dvec2 of_one{0}, of_other{0};
+    double width = HUGE_VAL;  // m
+  };
+  /// The way over nothing between two places, along x or y, m; infinite where a place is not of its patch.
+  double gap_between(int one, int other, glm::dvec2 of_one, glm::dvec2 of_other) const;
+  /// The narrowest such way within a square to either side, where the tip of a shape may be.
+  double gap_beside(const Gap& gap) const;
   /// Calls visit(here, there, squares between, last place of the one, first place of the other) for each two patches
   /// that follow each other in a row to the right, or in a column upwards.
   template <class Visit>

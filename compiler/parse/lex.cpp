@@ -280,6 +280,7 @@ void Lexer::number() {
            fmt::format("write `{0}` or `{0}.0`", text_.substr(begin, at_ - 1 - begin)),
            {replace(span(at_ - 1, at_), "")});
   }
+  if (at_ + 1 < text_.size() && text_[at_] == '.' && is_digit(text_[at_ + 1])) return several_points(begin);
   if (text_[begin] == '.') {
     report(Code::unexpected_character, begin, at_, "a number begins with a digit",
            fmt::format("write `0{}`", text_.substr(begin, at_ - begin)), leading_zero(begin));
@@ -290,6 +291,25 @@ void Lexer::number() {
   const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (status == std::errc::result_out_of_range) return out_of_range(begin, digits);
   add(TokenKind::number, begin, add_number(value));
+}
+
+/// Reads `1.2.3`. What it means is not known, so that nothing else is said of it; groups of three digits are thousands.
+void Lexer::several_points(std::size_t begin) {
+  bool thousands = text_[begin] != '.';
+  for (std::size_t group = text_.find('.', begin); group < text_.size() && text_[group] == '.'; group = at_) {
+    if (group + 1 >= text_.size() || !is_digit(text_[group + 1])) break;
+    at_ = group + 1;
+    digits();
+    thousands = thousands && at_ - group == 4;
+  }
+  std::string without(text_.substr(begin, at_ - begin));
+  std::erase(without, '.');
+  report(Code::unexpected_character, begin, at_,
+         fmt::format("`{}` has more than one point", text_.substr(begin, at_ - begin)),
+         thousands ? fmt::format("write `{}`, without points between thousands", without)
+                   : std::string("a number has one point, before its decimals"),
+         {});
+  add(TokenKind::unreadable, begin);
 }
 
 void Lexer::digits() {

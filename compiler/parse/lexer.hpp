@@ -34,6 +34,7 @@ class Lexer {
   void block_comment();
   void number();
   void digits();
+  void several_points(std::size_t begin);
   void exponent();
   void name();
   /// `fabric.denim` is one name; the dots of `low..high` do not belong to a name.

@@ -98,6 +98,26 @@ TEST(WorkspacesOnTheCommandLine, ShapesAreFeltWhereTheyAre) {
   }
 }
 
+TEST(WorkspacesOnTheCommandLine, AGapIsAsNarrowAsItsNarrowestPlace) {
+  const Desk desk;
+  // A tip points at a straight edge, 0.3 mm away; its height, y = 0.07 to 0.47 mm, is between what a scan would meet.
+  for (const double y : {0.07, 0.13, 0.2, 0.29, 0.33, 0.47}) {
+    const std::string file = desk.folder.write(
+        "tip.wale",
+        "wale 1\nworkspace tip {\n  patch left = corduroy { at -20 mm, " + std::to_string(y) +
+            " mm; shape polygon(-20 mm, -20 mm, 20 mm, 0 mm, -20 mm, 20 mm) }\n"
+            "  patch right = oak { at 20.3 mm, 0 mm; size 40 mm, 40 mm }\n}\n");
+    const Outcome outcome = wale({"check", file, "--json"});
+    bool told = false;
+    for (const auto& each : outcome.json()) {
+      if (each["code"] != "W0435") continue;
+      told = true;
+      EXPECT_NEAR(each["facts"][0]["value"].get<double>(), 0.3, 0.005) << y << "\n" << each;
+    }
+    EXPECT_TRUE(told) << y << outcome.out;
+  }
+}
+
 TEST(WorkspacesOnTheCommandLine, AreBuiltToOneFileThatFeelsTheSame) {
   const Desk desk;
   const std::string built = desk.folder / "desk.wws";

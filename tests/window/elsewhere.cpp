@@ -3,6 +3,7 @@
 #include <QToolButton>
 
 #include "driven_window.hpp"
+#include "window/announcement.hpp"
 
 namespace sandpaper {
 namespace {
@@ -106,6 +107,37 @@ TEST_F(SharedFile, TheCanvasStaysWhereItIsUnderAMessage) {
   EXPECT_EQ(canvas().pixels_per_metre(), scale);
   trigger("feel");  // now it would be untrue
   EXPECT_FALSE(window->findChild<QLabel*>("announcement")->isVisible());
+}
+
+TEST(ALineOfTheWindow, WhatIsOfferedComesBackUntilItIsClosedOrWithdrawn) {
+  QWidget window;
+  Announcement line(&window);
+  window.show();
+  const auto button = [&](const QString& text) -> QToolButton* {
+    for (QToolButton* each : line.findChildren<QToolButton*>())
+      if (each->text() == text && !each->isHidden()) return each;
+    return nullptr;
+  };
+  int taken = 0;
+  line.keep_offering("Work was kept.", "Restore", [&] { ++taken; });
+  line.say("Another thing.");
+  EXPECT_EQ(line.text(), "Another thing.");
+  EXPECT_FALSE(button("Restore"));
+  button("✕")->click();
+  EXPECT_EQ(line.text(), "Work was kept.");
+  ASSERT_TRUE(button("Restore"));
+  // Taken up without success, as when one keeps what is open instead: it is still offered.
+  button("Restore")->click();
+  EXPECT_EQ(taken, 1);
+  EXPECT_TRUE(line.isVisible());
+  line.offer("Sure?", "Yes", [&] { line.withdraw("Work was kept."); });
+  button("Yes")->click();
+  EXPECT_FALSE(line.isVisible());
+  line.keep_offering("Work was kept.", "Restore", [&] { ++taken; });
+  button("✕")->click();
+  line.say("Another thing.");
+  button("✕")->click();
+  EXPECT_FALSE(line.isVisible());
 }
 
 TEST_F(SharedFile, TheKeyThatTakesForceAwayIsNotTyped) {

@@ -28,12 +28,13 @@ Announcement::Announcement(QWidget* over) : QFrame(over), words_(new QLabel), bu
   layout->addWidget(button_);
   layout->addWidget(close);
   timer_.setSingleShot(true);
-  connect(&timer_, &QTimer::timeout, this, &QWidget::hide);
-  connect(close, &QToolButton::clicked, this, &QWidget::hide);
+  connect(&timer_, &QTimer::timeout, this, &Announcement::go_on);
+  connect(close, &QToolButton::clicked, this, [this] { withdraw(text()); });
   connect(button_, &QToolButton::clicked, this, [this] {
     hide();
     const std::function<void()> act = act_;  // it may replace itself
     if (act) act();
+    if (isHidden()) go_on();
   });
   hide();
 }
@@ -50,24 +51,44 @@ void Announcement::take_place() {
 }
 
 void Announcement::say(const QString& words) {
-  offer(words, {}, {});
+  show_line({words, {}, {}});
   timer_.start(std::max(least_milliseconds, for_each_letter * static_cast<int>(words.size())));
 }
 
 void Announcement::offer(const QString& words, const QString& button, const std::function<void()>& act) {
+  show_line({words, button, act});
+}
+
+void Announcement::keep_offering(const QString& words, const QString& button, const std::function<void()>& act) {
+  kept_ = Offer{words, button, act};
+  show_line(*kept_);
+}
+
+void Announcement::withdraw(const QString& words) {
+  if (kept_ && kept_->words == words) kept_.reset();
+  if (text() == words) go_on();
+}
+
+void Announcement::go_on() {
   timer_.stop();
-  act_ = act;
-  words_->setText(words);
-  words_->setAccessibleName(words);
-  button_->setText(button);
-  button_->setVisible(!button.isEmpty());
+  hide();
+  if (kept_) show_line(*kept_);
+}
+
+void Announcement::show_line(const Offer& line) {
+  timer_.stop();
+  act_ = line.act;
+  words_->setText(line.words);
+  words_->setAccessibleName(line.words);
+  button_->setText(line.button);
+  button_->setVisible(!line.button.isEmpty());
   take_place();
   show();
   raise();
   if (quiet_) return;
   QAccessibleEvent alert(words_, QAccessible::Alert);
   QAccessible::updateAccessibility(&alert);
-  emit read_out(words);
+  emit read_out(line.words);
 }
 
 }  // namespace sandpaper

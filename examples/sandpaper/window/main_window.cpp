@@ -223,7 +223,7 @@ void MainWindow::make_safety_bar() {
 
 void MainWindow::update_safety() {
   const bool on = feeling_.is_on();
-  if (on && announcement_->text() == no_force()) announcement_->hide();
+  if (on) announcement_->withdraw(no_force());
   force_button_->setText(on ? tr("Take all force away (Space)") : tr("Feel it (Ctrl+Space)"));
   force_button_->setAccessibleName(on ? tr("Take all force away") : tr("Feel it"));
   QPalette colours = palette();
@@ -329,20 +329,21 @@ void MainWindow::offer_left_behind() {
   const auto left = Autosave::left_behind();
   if (!left) return;
   const QString name = left->file.isEmpty() ? tr("an unsaved workspace") : left->file;
-  announcement_->offer(tr("A window was closed by force. Its work on %1 from %2 was kept.")
-                           .arg(name, left->time.toString(Qt::ISODate)),
-                       tr("Restore it"), [this, left = *left] {
-                         editor_->commit();
-                         when_saved(tr("restore what was kept"), [this, left] {
-                           if (!QFile::exists(left.kept_in))  // another window was faster
-                             return announcement_->say(tr("It was restored already."));
-                           document_.restore(left.file, left.text.toStdString());
-                           autosave_.save_now();
-                           Autosave::forget(left);
-                           announcement_->say(tr("Restored what was not saved, from %1. It is not saved yet.")
-                                                  .arg(left.time.toString(Qt::ISODate)));
-                         });
-                       });
+  const QString words = tr("A window was closed by force. Its work on %1 from %2 was kept.")
+                            .arg(name, left->time.toString(Qt::ISODate));
+  announcement_->keep_offering(words, tr("Restore it"), [this, words, left = *left] {
+    editor_->commit();
+    when_saved(tr("restore what was kept"), [this, words, left] {
+      announcement_->withdraw(words);
+      if (!QFile::exists(left.kept_in))  // another window was faster
+        return announcement_->say(tr("It was restored already."));
+      document_.restore(left.file, left.text.toStdString());
+      autosave_.save_now();
+      Autosave::forget(left);
+      announcement_->say(tr("Restored what was not saved, from %1. It is not saved yet.")
+                             .arg(left.time.toString(Qt::ISODate)));
+    });
+  });
 }
 
 void MainWindow::show_page(const QString& page) {
