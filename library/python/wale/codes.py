@@ -130,7 +130,7 @@ class Code(enum.IntEnum):
     unfit_file = 910  # a link, or a file with a name that no library can hold
     not_for_class = 911  # a material that cannot be built for a class of devices
     reads_otherwise = 912  # a material that does not feel as it asks
-    unstable_material = 913  # a material whose force makes the handle shake by itself
+    unstable_material = 913  # a material whose force needs more damping than device and hand have
     blank_material = 914  # a material that never pushes
     simulated_figures = 915  # a material that rests on what no person felt
 
@@ -265,7 +265,7 @@ _titles: dict[int, str] = {
     910: "a link, or a file with a name that no library can hold",
     911: "a material that cannot be built for a class of devices",
     912: "a material that does not feel as it asks",
-    913: "a material whose force makes the handle shake by itself",
+    913: "a material whose force needs more damping than device and hand have",
     914: "a material that never pushes",
     915: "a material that rests on what no person felt",
 }
