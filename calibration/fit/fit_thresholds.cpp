@@ -276,8 +276,8 @@ class ThresholdAnalyst {
     if (fit && fit->mean && 2 * without.size() <= own.size()) {
       result.law = {decision_, fit->mean->threshold, fit->exponent, fit->lapse, 0};
       result.all = {"all", fit->mean->threshold, fit->mean->interval, {}};
-      result.how = fmt::format("geometric mean of {} observers, t on {} degrees of freedom", fit->mean->observers,
-                               fit->mean->observers - 1);
+      result.how = fmt::format("geometric mean of the population of {} observers, profile likelihood as t on {} degrees of "
+                               "freedom", fit->mean->observers, fit->mean->observers - 1);
       if (!without.empty()) {
         std::string names;
         for (std::size_t i = 0; i < without.size() && i < 5; ++i) names += (i == 0 ? "" : ", ") + without[i];
