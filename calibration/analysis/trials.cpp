@@ -174,17 +174,18 @@ class TrialReader {
     trials_.file.reserve(rows);
   }
 
-  void exclude(std::size_t row, const std::string& rule) {
+  void exclude(std::size_t row, const std::string& rule, std::optional<std::size_t> selection = {}) {
     auto at = std::ranges::find(trials_.rules, rule);
     if (at == trials_.rules.end()) at = trials_.rules.insert(at, rule);
-    trials_.exclusions.push_back({trials_.files.size() - 1, table_->line(row), static_cast<std::size_t>(at - trials_.rules.begin())});
+    trials_.exclusions.push_back({trials_.files.size() - 1, table_->line(row), static_cast<std::size_t>(at - trials_.rules.begin()),
+                                  selection});
   }
 
   Result<> read_row(std::size_t row) {
     for (std::size_t i = 0; i < keep_.size(); ++i) {
       const Selection& each = columns_.keep[i];
       if ((table_->cell(row, keep_[i]) == each.text) == each.is) continue;
-      exclude(row, "only rows whose " + each.column + (each.is ? " is " : " is not ") + visible_text(each.text));
+      exclude(row, "only rows whose " + each.column + (each.is ? " is " : " is not ") + visible_text(each.text), i);
       return {};
     }
     if (excluded_ && !is_missing(table_->cell(row, *excluded_))) {

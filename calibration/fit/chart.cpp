@@ -90,6 +90,12 @@ Result<std::unique_ptr<Canvas>> draw_chart(const Chart& chart) {
       canvas.stroke(points, {2, series.colour});
       continue;
     }
+    if (series.labels.size() == points.size())
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool right = points[i].x > frame.right - 120;
+        canvas.write({points[i].x + (right ? -8 : 8), points[i].y - 6}, series.labels[i],
+                     {Face::sans, 13.5, series.colour}, right ? Align::right : Align::left);
+      }
     for (const PagePoint& at : points) {
       const PagePoint corners[] = {{at.x - 4, at.y}, {at.x, at.y - 4}, {at.x + 4, at.y}, {at.x, at.y + 4}};
       canvas.area(corners, series.colour, 0.75f);

@@ -27,14 +27,6 @@ std::optional<double> standard_in_name(std::string_view name, const std::string&
   return value;
 }
 
-/// What a cell of the column `standard` says: a number, with its unit or without, or the name of a presentation.
-std::optional<double> standard_in_cell(std::string_view cell, const std::string& argument, const std::string& unit) {
-  if (const auto named = standard_in_name(cell, argument, unit)) return named;
-  const auto space = cell.find(' ');
-  if (space != std::string_view::npos && cell.substr(space + 1) != unit) return std::nullopt;
-  return number_in(cell.substr(0, space));
-}
-
 /// Trials about one standard.
 struct About {
   double size = 0;
@@ -99,17 +91,16 @@ class ThresholdAnalyst {
 
   /// Rows that are read as trials of one kind are excluded as the other kind, and are no exclusions of the study.
   void state_exclusions(const Trials& noises) {
-    const auto is_by_target = [](const Trials& trials, const Exclusion& each) {
-      return trials.rules[each.rule].starts_with("only rows whose target is ");
-    };
+    // The selection by target is the one behind those of the request, for signals and noises alike.
+    const auto is_by_target = [&](const Exclusion& each) { return each.selection == columns_.keep.size(); };
     std::set<std::pair<std::size_t, std::size_t>> by_target;
     for (const Exclusion& each : fit_.trials.exclusions)
-      if (is_by_target(fit_.trials, each)) by_target.insert({each.file, each.line});
+      if (is_by_target(each)) by_target.insert({each.file, each.line});
     std::vector<std::pair<Exclusion, std::string>> all;
     for (const Exclusion& each : fit_.trials.exclusions)
-      if (!is_by_target(fit_.trials, each)) all.emplace_back(each, fit_.trials.rules[each.rule]);
+      if (!is_by_target(each)) all.emplace_back(each, fit_.trials.rules[each.rule]);
     for (const Exclusion& each : noises.exclusions) {
-      if (!is_by_target(noises, each))
+      if (!is_by_target(each))
         all.emplace_back(each, noises.rules[each.rule]);
       else if (by_target.contains({each.file, each.line}))
         all.emplace_back(each, "only rows whose target is 0 or 1");
@@ -359,6 +350,13 @@ class ThresholdAnalyst {
 };
 
 }  // namespace
+
+std::optional<double> standard_in_cell(std::string_view cell, const std::string& argument, const std::string& unit) {
+  if (const auto named = standard_in_name(cell, argument, unit)) return named;
+  const auto space = cell.find(' ');
+  if (space != std::string_view::npos && cell.substr(space + 1) != unit) return std::nullopt;
+  return number_in(cell.substr(0, space));
+}
 
 Result<> fit_thresholds(const Study& study, const FitRequest& request, const TrialColumns& columns, StudyFit& fit) {
   return ThresholdAnalyst(study, request, columns, fit).analyse();

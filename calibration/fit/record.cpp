@@ -78,7 +78,9 @@ class RecordWriter {
                        "give the size a name of letters, as in --size amplitude=COLUMN");
     }
     provenance();
-    const Result<> done = fit_.magnitudes ? map() : !fit_.thresholds.empty() ? threshold() : rule();
+    const Result<> done = fit_.magnitudes ? map() : !fit_.thresholds.empty()  ? threshold()
+                          : !fit_.settings.empty() ? adjusted()
+                                                   : rule();
     if (!done) return done.error();
     return std::move(text_);
   }
@@ -250,6 +252,39 @@ class RecordWriter {
     return {};
   }
 
+  /// What a setting is told from equality by, and what nothing is told from.
+  Result<> adjusted() {
+    const SizeValues* over = fit_.trials.size_named(fit_.over);
+    const std::string quantity_name = dimension_of(fit_.over_unit);
+    if (quantity_name.empty() || !is_identifier(fit_.over))
+      return problem(fmt::format("`{}` is the unit of no quantity of thresholds", visible_text(fit_.over_unit)),
+                     "name the column of the settings and its unit, as in --size amplitude=response:N");
+    double low = HUGE_VAL, high = 0;
+    for (const SettingsFit& each : fit_.settings) {
+      comment(fmt::format("Like {}: {:.4g}, 95 % {:.4g} to {:.4g}, {} observers.",
+                          each.standard.empty() ? "the standard" : each.standard, each.settings.equal,
+                          each.settings.equal_interval.low, each.settings.equal_interval.high,
+                          each.settings.observers.size()));
+      low = std::min(low, each.size.value_or(each.settings.equal)), high = std::max(high, each.size.value_or(each.settings.equal));
+    }
+    comment(fmt::format("Weber fraction: the standard deviation of the natural logarithm of one observer's settings, 95 % {:.4g} to "
+                        "{:.4g}.", fit_.settings_interval.low, fit_.settings_interval.high));
+    const std::string cue = !request_.about.empty() ? request_.about : over != nullptr ? over->name : fit_.over;
+    text_ += fmt::format("\n/// {}: {} settings of {} observers.\nexport threshold {} {{\n", name_of_study(),
+                         fit_.trials.size(), fit_.trials.observers.size(), cue);
+    setting("quantity", quantity_name);
+    setting("weber", number(*fit_.settings_scatter));
+    setting("task", "adjustment");
+    setting("criterion", "84.134 %");  // one standard deviation of a normal distribution
+    if (low > 0 && high > low) setting("valid", range(low, high, fit_.over_unit));
+    setting("observers", std::to_string(fit_.trials.observers.size()));
+    setting("evidence", fmt::format("slope {0}, handle {0}", fit_.evidence));
+    setting("on", on());
+    source();
+    text_ += "}\n";
+    return {};
+  }
+
   /// What tells the stimulus of a trial from others: the ranges of its sizes halfway to their neighbours by ratio, or
   /// its name.
   Result<std::string> conditions_of(std::size_t trial) const {
@@ -290,6 +325,19 @@ class RecordWriter {
             fmt::format("{}{}, confidence {:.4g} %{}", in_quotes(each.name), *conditions, each.mean,
                         std::isfinite(each.deviation) ? fmt::format(", spread {:.4g} %", each.deviation) : ""));
       }
+    } else if (fit_.descriptions) {
+      const DescriptionFit& described = *fit_.descriptions;
+      for (std::size_t i = 0; i < described.stimuli.size(); ++i) {
+        const auto conditions = conditions_of(described.trials[i]);
+        if (!conditions) return conditions.error();
+        const auto words = by_frequency(described.is_coded ? described.stimuli[i].codes : described.stimuli[i].words);
+        if (words.empty()) continue;
+        std::string says;
+        for (std::size_t k = 0; k < std::min<std::size_t>(5, words.size()); ++k)
+          says += fmt::format("{}{} {}", k == 0 ? "" : ", ", words[k].first, words[k].second);
+        cases.push_back(fmt::format("{}{}, says {}", in_quotes(words.front().first), *conditions,
+                                    in_quotes(fmt::format("{} of {} descriptions", says, described.stimuli[i].descriptions))));
+      }
     } else {
       const SortingFit& sorting = *fit_.sorting;
       comment(fmt::format(
@@ -303,7 +351,7 @@ class RecordWriter {
     }
     const std::string name = !request_.about.empty() ? request_.about : identifier_of(name_of_study(), "study");
     text_ += fmt::format("\n/// {}: {} of {} observers.\nexport rule {} {{\n", name_of_study(),
-                         fit_.confidence ? "ratings" : "sorts", fit_.trials.observers.size(), name);
+                         fit_.confidence ? "ratings" : fit_.descriptions ? "descriptions" : "sorts", fit_.trials.observers.size(), name);
     for (const std::string& each : cases) setting("case", each);
     setting("evidence", fit_.evidence);
     setting("on", on());
