@@ -206,7 +206,7 @@ std::vector<Chart> of_sorting(const StudyFit& fit) {
     for (Eigen::Index i = 0; i < sorting.map->points.rows(); ++i)
       mapped.push_back({sorting.map->points(i, 0), sorting.map->points(i, 1)});
     grouped({.file = "map",
-             .title = fmt::format("Stimuli that were seldom apart lie near each other: stress {:.3g}", sorting.map->stress),
+             .title = fmt::format("Seldom apart, near each other: stress {:.2g}", sorting.map->stress),
              .x_name = "first dimension",
              .y_name = "second dimension"},
             mapped, sorting.clusters, sorting.groups);

@@ -122,6 +122,10 @@ Result<> fit_sorts(const Study& study, StudyFit& fit) {
   }
   if (auto map = scale(apart)) sorting.map = *std::move(map);
   else sorting.map_refused = map.error().sentence;
+  constexpr double degenerate = 0.02;  // below what smacof's authors call perfect
+  if (sorting.map && sorting.map->stress < degenerate)
+    fit.notes.push_back("the stress of the map is near zero: with so few or so similar sorts, stimuli fall together on points, "
+                        "and the distances between these say little");
   fit.sorting = std::move(sorting);
   return {};
 }
