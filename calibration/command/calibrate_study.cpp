@@ -249,7 +249,11 @@ OrStatus<FittedStudy> fitted_study(const StudyChoice& choice) {
     made.design = *std::move(file);
   }
   auto fit = fit_study(made.study, made.request);
-  if (!fit) return refuse_study(fit.error());
+  if (!fit) {
+    Error error = fit.error();
+    if (error.place.name.empty()) error.place.name = choice.files.front();  // of what all trials together do not say
+    return refuse_study(error);
+  }
   made.fit = *std::move(fit);
   if (!made.fit.no_record.empty()) return made;
   auto record = record_of(made.study, made.fit, made.request);

@@ -308,7 +308,7 @@ class ThresholdAnalyst {
     if (result.all.value < low.size || result.all.value > high.size)
       fit_.notes.push_back(of + "the threshold lies outside of the sizes that were presented");
     if (!(result.all.interval.low > 0) || !std::isfinite(result.all.interval.high))
-      fit_.notes.push_back(of + "the answers do not bound the threshold on both sides");
+      fit_.notes.push_back(of + "the answers do not bound the threshold on both sides: more people would, or more answers of each");
     if (!(fit && fit->exponent_is_held) && (result.law.exponent > 9.5 || result.law.exponent < 0.21))
       fit_.notes.push_back(of + "the exponent is at the end of its range, 0.2 to 10: the answers do not tell it");
     if (result.law.lapse > 0.098)
