@@ -67,6 +67,15 @@ std::string json_of(const Plan& plan, const PlanRequest& request, const std::str
       {"share", request.share},
       {"seed", request.seed},
       {"studies", request.studies},
+      {"assumed",
+       {{"exponent", request.exponent},
+        {"spread", request.spread},
+        {"noise", request.noise},
+        {"threshold", request.threshold ? nlohmann::ordered_json(*request.threshold) : nlohmann::ordered_json(nullptr)},
+        {"threshold_spread", request.threshold_spread},
+        {"growth", request.growth},
+        {"lapse", request.lapse},
+        {"criterion", request.criterion}}},
       {"trials_of_one_person", plan.trials},
       {"people", plan.people ? nlohmann::ordered_json(*plan.people) : nlohmann::ordered_json(nullptr)}};
   json["steps"] = nlohmann::ordered_json::array();
