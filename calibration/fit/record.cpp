@@ -43,6 +43,15 @@ std::string range(double low, double high, const std::string& unit) {
   return quantity(low, unit) + " .. " + quantity(high, unit);
 }
 
+/// The ends of an interval in a comment, which has no infinite numbers.
+std::string bounds_of(const Interval& interval) {
+  const bool is_low = interval.low > 0, is_high = std::isfinite(interval.high);
+  if (!is_low && !is_high) return "not bounded by the answers";
+  if (!is_low) return fmt::format("95 % below {:.4g}", interval.high);
+  return is_high ? fmt::format("95 % {:.4g} to {:.4g}", interval.low, interval.high)
+                 : fmt::format("95 % above {:.4g}", interval.low);
+}
+
 /// A unit as Wale writes it: letters, digits, `/`, `^`, spaces and a sign.
 bool is_unit(const std::string& unit) {
   return std::ranges::all_of(unit, [](char c) {
@@ -221,9 +230,8 @@ class RecordWriter {
       return problem(fmt::format("`{}` is the unit of no quantity of thresholds", visible_text(of->unit)),
                      "convert the sizes to SI");
     for (const ThresholdFit& each : fit_.thresholds)
-      comment(fmt::format("{}{:.4g}, 95 % {:.4g} to {:.4g}; {}",
-                          each.standard.empty() ? "At d' = 1: " : each.standard + ": ", each.all.value,
-                          each.all.interval.low, each.all.interval.high, each.how));
+      comment(fmt::format("{}{:.4g}, {}; {}", each.standard.empty() ? "At d' = 1: " : each.standard + ": ", each.all.value,
+                          bounds_of(each.all.interval), each.how));
     text_ += fmt::format("\n/// {}: {} trials of {} observers.\nexport threshold {} {{\n", name_of_study(),
                          fit_.trials.size(), fit_.trials.observers.size(), cue);
     setting("quantity", quantity_name);
@@ -261,10 +269,8 @@ class RecordWriter {
                      "name the column of the settings and its unit, as in --size amplitude=response:N");
     double low = HUGE_VAL, high = 0;
     for (const SettingsFit& each : fit_.settings) {
-      comment(fmt::format("Like {}: {:.4g}, 95 % {:.4g} to {:.4g}, {} observers.",
-                          each.standard.empty() ? "the standard" : each.standard, each.settings.equal,
-                          each.settings.equal_interval.low, each.settings.equal_interval.high,
-                          each.settings.observers.size()));
+      comment(fmt::format("Like {}: {:.4g}, {}, {} observers.", each.standard.empty() ? "the standard" : each.standard,
+                          each.settings.equal, bounds_of(each.settings.equal_interval), each.settings.observers.size()));
       low = std::min(low, each.size.value_or(each.settings.equal)), high = std::max(high, each.size.value_or(each.settings.equal));
     }
     comment(fmt::format("Weber fraction: the standard deviation of the natural logarithm of one observer's settings, 95 % {:.4g} to "
