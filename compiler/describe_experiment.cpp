@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "compiler/check/check_experiment.hpp"
 #include "compiler/compare/compare.hpp"
 #include "compiler/text/json_text.hpp"
 #include "compiler/text/readable.hpp"
@@ -79,6 +80,7 @@ ExperimentDescription describe_experiment(const CheckedExperiment& experiment, c
   described.at_most = experiment.method != TrialMethod::constant_stimuli;
   described.trials = described.practice + trials_after_practice(experiment);
   described.seconds = session_seconds(experiment, described.trials);
+  described.presentation = experiment.seconds, described.to_and_fro = seconds_to_and_fro(declarations);
   for (const ExperimentFactor& factor : experiment.factors) {
     std::vector<std::string> levels;
     for (const ExperimentLevel& level : factor.levels) levels.push_back(level.text);
@@ -140,6 +142,9 @@ std::string experiment_text(const ExperimentDescription& description) {
                    description.trials, description.practice, description.blocks, description.blocks == 1 ? "" : "s");
   text += readable("  time      {}{:.0f} minutes, with the assumed time for answers\n",
                    description.at_most ? "at most " : "about ", std::ceil(description.seconds / 60));
+  if (description.is_short())
+    text += readable("  short     a presentation takes {:.3g} s, and a hand moves to and fro once in {:.3g} s\n",
+                     description.presentation, description.to_and_fro);
   if (description.pairs > 0)
     text += description.alike == 0
                 ? readable("  pairs     none of {} is known to be under one just noticeable difference\n", description.pairs)
@@ -179,6 +184,8 @@ std::string experiments_json(const std::vector<ExperimentDescription>& descripti
                    {"practice", each.practice},
                    {"blocks", each.blocks},
                    {"seconds", each.seconds},
+                   {"presentation_seconds", each.presentation},
+                   {"presentation_is_short", each.is_short()},
                    {"pairs", each.pairs},
                    {"pairs_alike", each.alike},
                    {"nearest", nearest},

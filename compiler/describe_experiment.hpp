@@ -26,6 +26,8 @@ struct ExperimentDescription {
   std::size_t trials = 0;    ///< practice included; of an adaptive method at most
   bool at_most = false;      ///< the answers decide how many there are
   double seconds = 0;        ///< that a session takes, breaks included, with the assumed times for answers
+  double presentation = 0, to_and_fro = 0;  ///< s, of one presentation, and of one movement of the simulated hand
+  bool is_short() const { return presentation < to_and_fro; }  ///< so that a hand passes over a part of it only
   std::vector<std::string> factors;  ///< "amplitude 0.2 N, 0.8 N, 2 N"
   std::size_t pairs = 0;             ///< that were compared
   std::size_t alike = 0;             ///< of them, under one just noticeable difference

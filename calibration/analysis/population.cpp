@@ -64,17 +64,21 @@ std::vector<double> Population::log_likelihoods(const Place& at) {
     if (!counts_.empty()) along_choices(std::exp(at[0]), at[1]);
     else
       for (std::size_t i = 0; i < observers_.size(); ++i) observers_[i]->along(grid_, std::exp(at[0]), at[1], along_[i]);
+    most_.clear();
+    for (auto& along : along_) {
+      most_.push_back(*std::ranges::max_element(along));
+      for (double& each : along) each = std::exp(each - most_.back());
+    }
   }
   const double spread = std::exp(at[3]);
   std::vector<double> weights;
   double all = 0;
   for (const double each : grid_) weights.push_back(std::exp(-std::pow((each - at[2]) / spread, 2) / 2)), all += weights.back();
   std::vector<double> result;
-  for (const auto& along : along_) {
-    const double most = *std::ranges::max_element(along);
+  for (std::size_t i = 0; i < along_.size(); ++i) {
     double sum = 0;
-    for (std::size_t g = 0; g < grid_.size(); ++g) sum += weights[g] * std::exp(along[g] - most);
-    result.push_back(most + std::log(sum / all));
+    for (std::size_t g = 0; g < grid_.size(); ++g) sum += weights[g] * along_[i][g];
+    result.push_back(most_[i] + std::log(sum / all));
   }
   return result;
 }
@@ -85,9 +89,33 @@ double Population::sum(const Place& at) {
   return sum;
 }
 
+std::pair<Population::Place, double> Population::climbed(const Place& from, std::optional<double> fixed, double tolerance) {
+  std::vector<double> start = {from[3]}, steps = {0.3};
+  if (!fixed) start.push_back(from[2]), steps.push_back(0.1);
+  if (!options_.exponent) start.push_back(from[0]), steps.push_back(fixed ? 0.1 : 0.3);
+  // At a rate of 0 the slope along the coordinate is zero.
+  if (!options_.lapse)
+    start.push_back(lapse_coordinate(std::max(from[1], 0.01 * options_.most_lapse), options_.most_lapse)), steps.push_back(0.3);
+  const auto read = [&](const VectorXd& at) {
+    Eigen::Index i = 0;
+    Place place{};
+    place[3] = std::clamp(at(i++), std::log(least_spread), std::log(most_spread));
+    place[2] = fixed ? *fixed : std::clamp(at(i++), grid_.front(), grid_.back());
+    place[0] = options_.exponent ? std::log(*options_.exponent)
+                                : std::clamp(at(i++), std::log(least_exponent), std::log(most_exponent));
+    place[1] = options_.lapse ? *options_.lapse : lapse_at(at(i++), options_.most_lapse);
+    return place;
+  };
+  const auto count = static_cast<Eigen::Index>(start.size());
+  const Minimum found =
+      minimise([&](const VectorXd& at) { return -sum(read(at)); }, Eigen::Map<VectorXd>(start.data(), count),
+               Eigen::Map<VectorXd>(steps.data(), count), tolerance, 800);
+  return {read(found.at), -found.value};
+}
+
 Shared Population::best() {
-  Shared best;
-  const auto from = [&](double exponent, double lapse) {
+  for (const double exponent : options_.exponent ? std::vector<double>{*options_.exponent} : std::vector<double>{1, 2.5}) {
+    const double lapse = options_.lapse.value_or(0.2 * options_.most_lapse);
     double mean = 0, squares = 0;
     const auto n = static_cast<double>(observers_.size());
     for (const OneObserver* each : observers_) {
@@ -95,41 +123,46 @@ Shared Population::best() {
       mean += log / n, squares += log * log / n;
     }
     const double spread = std::clamp(std::sqrt(std::max(squares - mean * mean, 0.0)), 0.1, 1.0);
-    std::vector<double> start = {mean, std::log(spread)}, steps = {0.1, 0.3};
-    if (!options_.exponent) start.push_back(std::log(exponent)), steps.push_back(0.3);
-    if (!options_.lapse) start.push_back(lapse_coordinate(lapse, options_.most_lapse)), steps.push_back(0.3);
-    const auto read = [&](const VectorXd& at) {
-      Eigen::Index i = 2;
-      Place place{0, 0, std::clamp(at(0), grid_.front(), grid_.back()),
-                  std::clamp(at(1), std::log(least_spread), std::log(most_spread))};
-      place[0] = options_.exponent ? std::log(*options_.exponent)
-                                  : std::clamp(at(i++), std::log(least_exponent), std::log(most_exponent));
-      place[1] = options_.lapse ? *options_.lapse : lapse_at(at(i++), options_.most_lapse);
-      return place;
-    };
-    const auto count = static_cast<Eigen::Index>(start.size());
-    const Minimum found =
-        minimise([&](const VectorXd& at) { return -sum(read(at)); }, Eigen::Map<VectorXd>(start.data(), count),
-                 Eigen::Map<VectorXd>(steps.data(), count), 1e-6, 800);
-    if (-found.value <= best.log_likelihood) return;
-    place_ = read(found.at);
-    best = {std::exp(place_[0]), place_[1], -found.value};
-  };
-  for (const double exponent : options_.exponent ? std::vector<double>{*options_.exponent} : std::vector<double>{1, 2.5})
-    from(exponent, options_.lapse.value_or(0.2 * options_.most_lapse));
-  return best;
+    const auto [place, likelihood] = climbed({std::log(exponent), lapse, mean, std::log(spread)}, std::nullopt, 1e-6);
+    if (likelihood > best_) place_ = place, best_ = likelihood;
+  }
+  return {std::exp(place_[0]), place_[1], best_};
 }
 
-std::vector<std::size_t> Population::inner() const {
-  const auto is_inside = [](double value, double low, double high, double step) {
-    return value > low + 1.5 * step && value < high - 1.5 * step;
+double Population::end_of_mean(double loss, double direction) {
+  // The root of what is lost is nearly in proportion to the distance, so that straight lines find the end in few steps.
+  const double wanted = std::sqrt(loss), last = direction > 0 ? grid_.back() : grid_.front();
+  double near = place_[2], near_root = 0, far = 0, far_root = -1;
+  double step = 2 * std::max(std::exp(place_[3]), 0.1) / std::sqrt(static_cast<double>(observers_.size()));
+  Place warm = place_;
+  const auto root_at = [&](double mean) {
+    const auto [place, likelihood] = climbed(warm, mean, 1e-3);
+    warm = place;
+    return std::sqrt(std::max(best_ - likelihood, 0.0));
   };
-  std::vector<std::size_t> result;
-  if (!options_.exponent && is_inside(place_[0], std::log(least_exponent), std::log(most_exponent), steps[0])) result.push_back(0);
-  if (!options_.lapse && is_inside(place_[1], 0, options_.most_lapse, steps[1])) result.push_back(1);
-  result.push_back(2);
-  if (is_inside(place_[3], std::log(least_spread), std::log(most_spread), steps[3])) result.push_back(3);
-  return result;
+  for (int round = 0; round < 40 && far_root < 0; ++round) {
+    const double at = direction > 0 ? std::min(near + step, last) : std::max(near - step, last);
+    const double root = root_at(at);
+    if (root >= wanted) {
+      far = at, far_root = root;
+    } else {
+      if (at == last) return direction * HUGE_VAL;
+      const double rise = root - near_root;
+      step = std::clamp(rise > 0 ? 1.1 * (wanted - root) * std::abs(at - near) / rise : step, step / 2, 3 * step);
+      near = at, near_root = root;
+    }
+  }
+  for (int round = 0; round < 20 && far_root >= 0; ++round) {
+    if (far_root - wanted < 3e-3 * wanted || std::abs(far - near) < 1e-4) return far;
+    const double at = near + (far - near) * std::clamp((wanted - near_root) / (far_root - near_root), 0.1, 0.98);
+    const double root = root_at(at);
+    if (std::abs(root - wanted) < 3e-3 * wanted) return at;
+    (root < wanted ? near : far) = at;
+    (root < wanted ? near_root : far_root) = root;
+  }
+  return far_root < 0 ? direction * HUGE_VAL : far;
 }
+
+Interval Population::ends_of_mean(double loss) { return {end_of_mean(loss, -1), end_of_mean(loss, 1)}; }
 
 }  // namespace wale::analysis

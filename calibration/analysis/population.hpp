@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "calibration/analysis/one_observer.hpp"
@@ -35,19 +37,23 @@ class Population {
   /// Of each chosen observer, in their order.
   std::vector<double> log_likelihoods(const Place& at);
   const Place& place() const { return place_; }
-  /// Which of the four are estimated and away from the ends of their range.
-  std::vector<std::size_t> inner() const;
-  static constexpr Place steps = {0.02, 0.001, 0.01, 0.02};
+  /// Where the profile of the mean's likelihood has lost so much, below and above the best place: for each mean with the
+  /// exponent, lapse rate and spread that suit it best. Infinite where it never loses as much. Call it after `best`.
+  Interval ends_of_mean(double loss);
 
  private:
   double sum(const Place& at);
+  /// The place with the greatest likelihood from a start, with `fixed` for the mean if it is there.
+  std::pair<Place, double> climbed(const Place& start, std::optional<double> fixed, double tolerance);
+  double end_of_mean(double loss, double direction);
 
   SensitivityOptions options_;
   std::vector<const OneObserver*> observers_;
   std::vector<double> grid_;
   void along_choices(double exponent, double lapse);
 
-  std::vector<std::vector<double>> along_;  ///< of each observer at the grid, for `known_`
+  std::vector<std::vector<double>> along_;  ///< of each observer at the grid, for `known_`; over the most of them
+  std::vector<double> most_;                ///< of each observer: the greatest logarithm of those
   std::vector<double> sizes_;               ///< logarithms of all sizes, rising
   struct Counts {
     std::size_t size;
@@ -56,6 +62,7 @@ class Population {
   std::vector<std::vector<Counts>> counts_;  ///< of each observer
   std::array<double, 2> known_ = {HUGE_VAL, HUGE_VAL};
   Place place_{};
+  double best_ = -HUGE_VAL;
 };
 
 }  // namespace wale::analysis

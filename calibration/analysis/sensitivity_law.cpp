@@ -1,6 +1,6 @@
 #include "calibration/analysis/sensitivity_law.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -191,69 +191,12 @@ Result<> require_sound(const std::vector<ObserverAnswers>& observers) {
   return {};
 }
 
-/// The mean of the logarithms of the chosen observers' thresholds, and the variance of each observer's influence on it:
-/// their own threshold, and their part in the common exponent and lapse rate, which move all thresholds (Huber 1967).
-struct MeanLog {
-  double mean = 0, error = 0;
-};
-MeanLog mean_log_of(const SensitivityFitter& fitter, const std::vector<bool>& chosen, const Shared& shared,
-                    Population& population) {
-  std::vector<std::size_t> who;
-  for (std::size_t i = 0; i < chosen.size(); ++i)
-    if (chosen[i]) who.push_back(i);
-  const auto n = static_cast<double>(who.size());
-  std::vector<Own> middle;
-  for (const std::size_t i : who) middle.push_back(fitter.observers()[i].best(shared.exponent, shared.lapse));
-  MeanLog result;
-  for (const Own& each : middle) result.mean += each.log / n;
-  const auto moved = [&](std::initializer_list<std::pair<std::size_t, double>> by) {
-    Population::Place place = population.place();
-    for (const auto& [i, times] : by) place[i] += times * Population::steps[i];
-    return place;
-  };
-  const std::vector<std::size_t> inner = population.inner();
-  const auto count = static_cast<Eigen::Index>(inner.size());
-  Eigen::MatrixXd slopes(static_cast<Eigen::Index>(who.size()), count), curvature(count, count);
-  VectorXd moves = VectorXd::Zero(count);  // of the mean
-  const auto total = [&](const Population::Place& at) {
-    double sum = 0;
-    for (const double each : population.log_likelihoods(at)) sum += each;
-    return sum;
-  };
-  const double here = total(population.place());
-  for (Eigen::Index a = 0; a < count; ++a) {
-    const std::size_t i = inner[static_cast<std::size_t>(a)];
-    const auto up = population.log_likelihoods(moved({{i, 1}})), down = population.log_likelihoods(moved({{i, -1}}));
-    curvature(a, a) = 2 * here;
-    for (std::size_t k = 0; k < who.size(); ++k) {
-      slopes(static_cast<Eigen::Index>(k), a) = (up[k] - down[k]) / 2;
-      curvature(a, a) -= up[k] + down[k];
-    }
-    if (i < 2)
-      for (std::size_t k = 0; k < who.size(); ++k) {
-        const auto log_at = [&](double times) {
-          const auto place = moved({{i, times}});
-          return fitter.observers()[who[k]].best(std::exp(place[0]), place[1], &middle[k]).log;
-        };
-        moves(a) += (log_at(1) - log_at(-1)) / 2 / n;
-      }
-    for (Eigen::Index b = 0; b < a; ++b) {
-      const std::size_t j = inner[static_cast<std::size_t>(b)];
-      curvature(a, b) = curvature(b, a) = -(total(moved({{i, 1}, {j, 1}})) - total(moved({{i, 1}, {j, -1}})) -
-                                            total(moved({{i, -1}, {j, 1}})) + total(moved({{i, -1}, {j, -1}}))) / 4;
-    }
-  }
-  VectorXd pull = VectorXd::Zero(count);
-  const Eigen::LDLT<Eigen::MatrixXd> solver(curvature);
-  if (solver.info() == Eigen::Success && solver.isPositive()) pull = solver.solve(moves);
-  double squares = 0;
-  for (std::size_t k = 0; k < who.size(); ++k) {
-    const double influence =
-        (middle[k].log - result.mean) / n + slopes.row(static_cast<Eigen::Index>(k)).dot(pull);
-    squares += influence * influence;
-  }
-  result.error = std::sqrt(squares * n / (n - 1));
-  return result;
+/// How much less likely the ends of the interval of a mean of n logarithms are. Of a normal sample it is what the profile
+/// loses at the ends of Student's interval: with few observers their spread is not known, which the chi-squared
+/// distribution would forget.
+double allowed_loss_of_mean(double n) {
+  const double t = t_quantile(0.975, n - 1);
+  return n / 2 * std::log1p(t * t / (n - 1));
 }
 
 /// The interval of an estimate by its pseudo-values (Miller 1974): all n of them, t on n - 1 degrees of freedom.
@@ -306,9 +249,8 @@ Result<SensitivityFit> fit_sensitivity(const std::vector<ObserverAnswers>& obser
   }
   const auto count = static_cast<std::size_t>(std::ranges::count(chosen, true));
   if (count < 2) return fit;
-  const MeanLog mean = mean_log_of(fitter, chosen, shared, *population);
-  const double reach = t_quantile(0.975, static_cast<double>(count) - 1) * mean.error;
-  fit.mean = SensitivityFit::Mean{std::exp(mean.mean), {std::exp(mean.mean - reach), std::exp(mean.mean + reach)}, count};
+  const Interval logs = population->ends_of_mean(allowed_loss_of_mean(static_cast<double>(count)));
+  fit.mean = SensitivityFit::Mean{std::exp(population->place()[2]), {std::exp(logs.low), std::exp(logs.high)}, count};
   return fit;
 }
 

@@ -51,8 +51,10 @@ struct SensitivityFit {
   bool exponent_is_held = false;  ///< at 1, since no observer felt two sizes
   double log_likelihood = 0;
   std::vector<ObserverSensitivity> observers;
-  /// With two thresholds or more: their geometric mean, with a 95 % interval by Student's t on one degree of freedom
-  /// less. Its error counts what each observer adds to the common exponent and lapse rate, too.
+  /// With two thresholds or more: the geometric mean of the population that they come from, whose logarithms are taken
+  /// as normal. Its 95 % interval is the profile's, over exponent, lapse rate and spread: an adaptive track tells them
+  /// only together with the threshold, so that an error about the best place would be too small. The ends are as much
+  /// less likely as those of Student's interval of a normal sample of as many observers.
   struct Mean {
     double threshold = 0;
     Interval interval;

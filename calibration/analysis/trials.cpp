@@ -103,6 +103,7 @@ class TrialReader {
     if (const auto varied = require_varied(); !varied) return varied.error();
     number_stimuli();
     note_missing_trials();
+    note_short_runs();
     note_equal_rows();
     return std::move(trials_);
   }
@@ -174,17 +175,18 @@ class TrialReader {
     trials_.file.reserve(rows);
   }
 
-  void exclude(std::size_t row, const std::string& rule) {
+  void exclude(std::size_t row, const std::string& rule, std::optional<std::size_t> selection = {}) {
     auto at = std::ranges::find(trials_.rules, rule);
     if (at == trials_.rules.end()) at = trials_.rules.insert(at, rule);
-    trials_.exclusions.push_back({trials_.files.size() - 1, table_->line(row), static_cast<std::size_t>(at - trials_.rules.begin())});
+    trials_.exclusions.push_back({trials_.files.size() - 1, table_->line(row), static_cast<std::size_t>(at - trials_.rules.begin()),
+                                  selection});
   }
 
   Result<> read_row(std::size_t row) {
     for (std::size_t i = 0; i < keep_.size(); ++i) {
       const Selection& each = columns_.keep[i];
       if ((table_->cell(row, keep_[i]) == each.text) == each.is) continue;
-      exclude(row, "only rows whose " + each.column + (each.is ? " is " : " is not ") + visible_text(each.text));
+      exclude(row, "only rows whose " + each.column + (each.is ? " is " : " is not ") + visible_text(each.text), i);
       return {};
     }
     if (excluded_ && !is_missing(table_->cell(row, *excluded_))) {
@@ -199,6 +201,7 @@ class TrialReader {
     if (is_missing(observer)) return table_error(*table_, row, "this row names no observer", "write an identifier");
     if (const auto once = require_once(row, observer); !once) return once;
     const std::string_view answer_cell = table_->cell(row, answer_);
+    if (run_) ++presented_[{std::string(observer), std::string(table_->cell(row, *run_))}];
     if (is_missing(answer_cell)) {
       exclude(row, "no answer");
       return {};
@@ -282,7 +285,7 @@ class TrialReader {
       return table_error(*table_, row, "expected a rating from 0 to 100, found " + as_code(cell), "correct it, or leave the row out");
     if (columns_.answers == Answers::magnitudes && *value <= 0 && !columns_.leave_out_nonpositive)
       return table_error(*table_, row, "expected a magnitude above zero, found " + as_code(cell),
-                         "a magnitude has a logarithm; leave such answers out by rule, which the report then states");
+                         "a magnitude has a logarithm; leave such answers out by rule, --leave-out-nonpositive, which the report then states");
     return *value;
   }
 
@@ -375,6 +378,25 @@ class TrialReader {
     trials_.stimuli = numbers.size();
   }
 
+  /// Names runs with fewer rows than most have, whose other trials are in no file. Of tasks with right answers, a method
+  /// may end a run early.
+  void note_short_runs() {
+    if (columns_.answers == Answers::choices) return;
+    std::map<std::size_t, std::size_t> sizes;
+    for (const auto& [of, rows] : presented_) ++sizes[rows];
+    std::size_t usual = 0, runs = 0;
+    for (const auto& [rows, count] : sizes)
+      if (count >= runs) usual = rows, runs = count;
+    if (2 * runs <= presented_.size()) return;
+    std::size_t fewer = 0;
+    std::string first;
+    for (const auto& [of, rows] : presented_)
+      if (rows < usual && fewer++ == 0)
+        first = visible_text(of.first) + " has " + std::to_string(rows) + " trials in run " + visible_text(of.second) +
+                ", and most runs have " + std::to_string(usual);
+    if (fewer > 0) trials_.notes.push_back(first + (fewer > 1 ? "; " + std::to_string(fewer - 1) + " other runs are short too" : ""));
+  }
+
   /// Names observers who lack some of the stimuli.
   void note_missing_trials() {
     if (columns_.answers == Answers::choices) return;  // adaptive methods present to each what they need
@@ -413,6 +435,7 @@ class TrialReader {
   const TrialColumns& columns_;
   Trials trials_;
   std::size_t observer_ = 0, answer_ = 0, device_line_ = 0;
+  std::map<std::pair<std::string, std::string>, std::size_t> presented_;  ///< rows by observer and run
   std::optional<std::size_t> run_, trial_, device_, grade_, excluded_, type_;
   std::vector<std::size_t> sizes_, factors_, keep_;
   std::vector<bool> stated_;  // the unit of a size does not depend on the cells

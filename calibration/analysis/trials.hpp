@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct Exclusion {
   std::size_t file = 0;  ///< index in `Trials::files`
   std::size_t line = 0;  ///< of the file, from 1
   std::size_t rule = 0;  ///< index in `Trials::rules`
+  std::optional<std::size_t> selection = {};  ///< which of `TrialColumns::keep` left it out; nothing for other rules
 };
 
 /// A varied number in each trial.

@@ -62,15 +62,17 @@ int calibrate_fit(const CalibrateFitOptions& options) {
   print_out(fit_text(study->study, study->fit, study->request));
   if (!has_record)
     return refuse(Error{.code = Code::not_measured,
-                        .sentence = fmt::format("no {} is made: {}", study->fit.magnitudes ? "map" : "rule",
+                        .sentence = fmt::format("no {} is made: {}", study->fit.magnitudes          ? "map"
+                                                                          : study->fit.settings.empty() ? "rule"
+                                                                                                        : "threshold",
                                                 study->fit.no_record),
                         .mend = "look at the answers; collect more, or vary the sizes more",
                         .place = {.name = options.study.files.front()}});
   if (!options.out.empty())
     print_out("{} has the {}\n", visible_text(options.out),
               study->fit.magnitudes           ? "map"
-              : study->fit.thresholds.empty() ? "rule"
-                                              : "threshold");
+              : study->fit.thresholds.empty() && study->fit.settings.empty() ? "rule"
+                                                                             : "threshold");
   return done;
 }
 
@@ -82,9 +84,9 @@ Run declare_calibrate_fit(CLI::App& verb) {
            "the path of a folder");
   offer_json(verb, options->json, "prints estimates, exclusions and the record as JSON");
   verb.footer(
-      "Magnitude estimates become a map, forced choices a threshold, ratings and sorts a rule. What a planted observer "
-      "says, and\n"
-      "what anybody says on a simulated device, is graded `simulated`, the worst grade.\n"
+      "Magnitude estimates become a map, forced choices and adjustments a threshold, ratings, sorts and descriptions a\n"
+      "rule. What a planted observer says, and what anybody says on a simulated device, is graded `simulated`, the worst\n"
+      "grade.\n"
       "for example: wale calibrate fit crossed-*.trials -o crossed.wale --plots plots\n"
       "             wale calibrate fit study.csv --task magnitude_estimation --answer slider.response --size "
       "amplitude=amp:N");

@@ -7,10 +7,12 @@
 #include <string_view>
 #include <utility>
 
+#include "calibration/analysis/descriptions.hpp"
 #include "calibration/command/experiment_file.hpp"
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "compiler/expression/checked_experiment.hpp"
+#include "compiler/text/resolver.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale::command {
@@ -107,6 +109,30 @@ DesignFacts facts_of(const CheckedExperiment& experiment) {
   return facts;
 }
 
+/// What the words of descriptions mean, by a table.
+Result<std::vector<analysis::WordCode>> read_codes(const std::string& path) {
+  auto file = read_file(path);
+  if (!file) return std::move(file).error();
+  const auto table = analysis::read_table(path, std::move(file->bytes));
+  if (!table) return table.error();
+  const auto word = table->column("word"), code = table->column("code");
+  if (!word || !code)
+    return analysis::table_error(*table, 0, fmt::format("the table of codes has no column `{}`", word ? "code" : "word"),
+                                 "it has a word, or several, and what they are counted as");
+  std::vector<analysis::WordCode> codes;
+  for (std::size_t row = 0; row < table->rows(); ++row) {
+    analysis::WordCode each{analysis::words_in(table->cell(row, *word)), std::string(table->cell(row, *code))};
+    if (each.words.empty() || analysis::is_missing(each.code))
+      return analysis::table_error(*table, row, "expected a word and its code", "fill both cells, or leave the row out");
+    for (const analysis::WordCode& before : codes)
+      if (before.words == each.words && before.code != each.code)
+        return analysis::table_error(*table, row, "this word has another code above", "keep one of them",
+                                     table->cell(row, *word));
+    codes.push_back(std::move(each));
+  }
+  return codes;
+}
+
 /// A row that makes no sense is an error that was found, and no word of the command.
 int refuse_study(const Error& error) {
   const int status = refuse(error);
@@ -134,6 +160,11 @@ void offer_study(CLI::App& verb, StudyChoice& choice) {
   must_say(verb.add_option("--stimuli", choice.stimuli,
                            "a table with a column `stimulus` and the sizes of each, for designs whose stimuli are "
                            "named and have no factors")
+               ->type_name("FILE"),
+           "the path of a table");
+  must_say(verb.add_option("--codes", choice.codes,
+                           "a table with the columns `word` and `code`: the words of descriptions that mean one thing are "
+                           "counted as their code")
                ->type_name("FILE"),
            "the path of a table");
   offer_name(verb, "--model", choice.model, {"mixed", "thesis", "thesis_equalised"},
@@ -198,6 +229,11 @@ OrStatus<FittedStudy> fitted_study(const StudyChoice& choice) {
     return misused;
   }
   made.request = *std::move(request);
+  if (!choice.codes.empty()) {
+    auto codes = read_codes(choice.codes);
+    if (!codes) return refuse_study(codes.error());
+    made.request.codes = *std::move(codes);
+  }
   auto study = read_study(choice.files, choice.stimuli);
   if (!study) return refuse_study(study.error());
   made.study = *std::move(study);
@@ -213,7 +249,11 @@ OrStatus<FittedStudy> fitted_study(const StudyChoice& choice) {
     made.design = *std::move(file);
   }
   auto fit = fit_study(made.study, made.request);
-  if (!fit) return refuse_study(fit.error());
+  if (!fit) {
+    Error error = fit.error();
+    if (error.place.name.empty()) error.place.name = choice.files.front();  // of what all trials together do not say
+    return refuse_study(error);
+  }
   made.fit = *std::move(fit);
   if (!made.fit.no_record.empty()) return made;
   auto record = record_of(made.study, made.fit, made.request);

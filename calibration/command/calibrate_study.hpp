@@ -16,7 +16,7 @@ namespace wale::command {
 /// The words of `calibrate fit` and `calibrate report` that say which study it is and how it is read.
 struct StudyChoice {
   std::vector<std::string> files, sizes, factors, keep, drop;
-  std::string design, experiment, stimuli, participant, answer, run, trial, task, model, over, about, carrier, name,
+  std::string design, experiment, stimuli, codes, participant, answer, run, trial, task, model, over, about, carrier, name,
       domain;
   std::optional<double> standard;
   bool leave_out_nonpositive = false;

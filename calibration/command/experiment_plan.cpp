@@ -21,7 +21,7 @@ namespace {
 struct ExperimentPlanOptions {
   Choice choice;
   std::string experiment, over, stimuli;
-  std::optional<double> precision, share, exponent, spread, noise, threshold, threshold_spread;
+  std::optional<double> precision, share, exponent, spread, noise, threshold, threshold_spread, growth, lapse, criterion;
   std::optional<std::uint64_t> seed, studies, most;
   bool json = false;
 };
@@ -67,6 +67,15 @@ std::string json_of(const Plan& plan, const PlanRequest& request, const std::str
       {"share", request.share},
       {"seed", request.seed},
       {"studies", request.studies},
+      {"assumed",
+       {{"exponent", request.exponent},
+        {"spread", request.spread},
+        {"noise", request.noise},
+        {"threshold", request.threshold ? nlohmann::ordered_json(*request.threshold) : nlohmann::ordered_json(nullptr)},
+        {"threshold_spread", request.threshold_spread},
+        {"growth", request.growth},
+        {"lapse", request.lapse},
+        {"criterion", request.criterion}}},
       {"trials_of_one_person", plan.trials},
       {"people", plan.people ? nlohmann::ordered_json(*plan.people) : nlohmann::ordered_json(nullptr)}};
   json["steps"] = nlohmann::ordered_json::array();
@@ -95,6 +104,8 @@ int experiment_plan(const ExperimentPlanOptions& options) {
   request.spread = options.spread.value_or(request.spread);
   request.noise = options.noise.value_or(request.noise), request.threshold = options.threshold;
   request.threshold_spread = options.threshold_spread.value_or(request.threshold_spread);
+  request.growth = options.growth.value_or(request.growth), request.lapse = options.lapse.value_or(request.lapse);
+  request.criterion = options.criterion.value_or(request.criterion);
   request.over = options.over;
   if (!options.stimuli.empty()) {
     auto sizes = sizes_in(options, experiment);
@@ -114,11 +125,18 @@ int experiment_plan(const ExperimentPlanOptions& options) {
   print_out("{}", readable("{}: {}, {} trials a person; assumed: {}\n", experiment.name, plan->sought, plan->trials,
                            is_law ? readable("exponent {:.3g} ± {:.3g} between people, noise {:.3g} of log10 answers",
                                              request.exponent, request.spread, request.noise)
-                                  : readable("threshold {}, {:.3g} of its logarithm between people; d' in proportion "
-                                             "to the difference, lapse rate 0.02",
+                                  : readable("threshold {}, {:.3g} of its logarithm between people; d' {}, lapse rate "
+                                             "{:.3g}{}",
                                              request.threshold ? readable("{:.3g}", *request.threshold)
                                                                : "in the middle of the levels",
-                                             request.threshold_spread)));
+                                             request.threshold_spread,
+                                             request.growth == 1 ? std::string("in proportion to the difference")
+                                                                 : readable("as the difference to the power of {:.3g}",
+                                                                            request.growth),
+                                             request.lapse,
+                                             experiment.task == TrialTask::two_interval
+                                                 ? std::string()
+                                                 : readable(", criterion {:.3g}", request.criterion))));
   auto steps = plan->steps;
   std::ranges::sort(steps, {}, &PlanStep::people);
   for (const PlanStep& each : steps)
@@ -160,6 +178,12 @@ Run declare_experiment_plan(CLI::App& verb) {
       "the threshold: a size in SI, or a fraction where the factor is a ratio (default: the middle of the levels)");
   offer_number(verb, "--threshold-spread", options->threshold_spread, {.least = 0, .most = 5, .example = 0.3},
                "the standard deviation of its natural logarithm between people (default: 0.3)");
+  offer_number(verb, "--growth", options->growth, {.least = 0.2, .most = 10, .example = 1.5},
+               "how d' grows with the difference, as its power: 1 in proportion (default: 1)");
+  offer_number(verb, "--lapse", options->lapse, {.least = 0, .most = 0.1, .example = 0.02},
+               "how far answers about thresholds stay from 0 and 1 (default: 0.02)");
+  offer_number(verb, "--criterion", options->criterion, {.least = -3, .most = 6, .example = 1},
+               "of \"yes\", or half of that of \"different\", in units of d' (default: 1, \"yes\" to nothing in 16 %)");
   must_say(verb.add_option("--over", options->over,
                            "the factor that is sought (default: the first with quantities, or the method's)")
                ->type_name("NAME"),

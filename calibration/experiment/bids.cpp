@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* missing = "n/a";
 constexpr const char* bids_version = "1.9.0";
+constexpr const char* own_design = "WaleDesign";
 constexpr const char* own_task = "WaleTask";  // of the sidecar: the name before it became a label
 
 /// A cell: no tabs and line ends, and `n/a` for nothing. A text that is "n/a" itself gets a space, which a reader
@@ -106,6 +107,7 @@ Result<std::vector<BidsFile>> beh_files(const TrialTable& table, int run) {
   if (!table.instructions.empty()) sidecar["Instructions"] = table.instructions;
   sidecar["WaleDevice"] = table.device;
   sidecar["WaleGrade"] = table.grade;
+  if (Json design = Json::parse(table.design, nullptr, false); design.is_object()) sidecar[own_design] = std::move(design);
   for (const TrialColumn& each : table.columns) {
     Json column = {{"Description", each.description}};
     if (!each.units.empty()) column["Units"] = each.units;
@@ -218,6 +220,8 @@ Result<TrialTable> read_beh(std::string_view text, std::string_view sidecar, con
   table.task_description = text_in(described, "TaskDescription");
   table.instructions = text_in(described, "Instructions");
   table.device = text_in(described, "WaleDevice"), table.grade = text_in(described, "WaleGrade");
+  if (const auto design = described.find(own_design); design != described.end() && design->is_object())
+    table.design = design->dump();
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte-order mark of a spreadsheet
   std::size_t number = 0;
   while (!text.empty()) {

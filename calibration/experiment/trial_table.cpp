@@ -119,6 +119,10 @@ class TableReader {
 
   void take_design(const SessionEntry& entry, const Json& fields) {
     task_ = logged_text(fields, "task");
+    Json design = Json::object();  // without the text, which is long
+    for (const auto& [key, value] : fields.items())
+      if (key != "text" && key != "block" && key != "closing") design[key] = value;
+    table_.design = design.dump();
     if (task_.empty()) damaged(entry, "the design has no task");
     if (const auto longest = fields.find("longest"); longest != fields.end() && longest->is_number())
       longest_ = longest->get<double>();

@@ -23,6 +23,7 @@ struct TrialColumn {
 struct TrialTable {
   std::string participant, task, device, grade;
   std::string task_description, instructions;
+  std::string design;  ///< a JSON object of what was asked and presented, as the log has it; empty if nothing says it
   std::vector<TrialColumn> columns;
   std::vector<std::vector<std::string>> rows;
 

@@ -56,6 +56,27 @@ std::vector<Tick> ticks_of(const Scale& scale) {
   return ticks;
 }
 
+/// Words beside points. Of points that lie on each other, the first has a word, and how many more there are.
+void write_labels(Canvas& canvas, const ChartSeries& series, const std::vector<PagePoint>& points) {
+  const auto is_near = [&](std::size_t a, std::size_t b) {
+    return std::abs(points[a].x - points[b].x) < 40 && std::abs(points[a].y - points[b].y) < 12;
+  };
+  std::vector<std::size_t> shown, more;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto at = std::ranges::find_if(shown, [&](std::size_t each) { return is_near(each, i); });
+    if (at == shown.end()) shown.push_back(i), more.push_back(0);
+    else ++more[static_cast<std::size_t>(at - shown.begin())];
+  }
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const PagePoint at = points[shown[k]];
+    const bool is_right = at.x > frame.right - 120;
+    const std::string label =
+        series.labels[shown[k]] + (more[k] > 0 ? " and " + std::to_string(more[k]) + " more" : std::string());
+    canvas.write({at.x + (is_right ? -8 : 8), at.y - 6}, label, {Face::sans, 13.5, series.colour},
+                 is_right ? Align::right : Align::left);
+  }
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Canvas>> draw_chart(const Chart& chart) {
@@ -90,6 +111,7 @@ Result<std::unique_ptr<Canvas>> draw_chart(const Chart& chart) {
       canvas.stroke(points, {2, series.colour});
       continue;
     }
+    if (series.labels.size() == points.size()) write_labels(canvas, series, points);
     for (const PagePoint& at : points) {
       const PagePoint corners[] = {{at.x - 4, at.y}, {at.x, at.y - 4}, {at.x + 4, at.y}, {at.x, at.y + 4}};
       canvas.area(corners, series.colour, 0.75f);

@@ -16,6 +16,7 @@ struct ChartSeries {
   bool line = false;
   Colour colour;
   std::string name;  ///< for the key; may be empty
+  std::vector<std::string> labels;  ///< beside the points; may be empty
 };
 
 /// A chart of a fit. On a logarithmic axis, points at or below zero are left out.
@@ -31,7 +32,7 @@ struct Chart {
 Result<std::unique_ptr<Canvas>> draw_chart(const Chart& chart);
 
 /// The charts of a study: raw answers, means with the law, residuals, the observers' exponents; psychometric functions;
-/// ratings; the tree of sorts.
+/// ratings; the tree of sorts, their map and their groups; settings; words.
 std::vector<Chart> charts_of(const StudyFit& fit, FitModel model);
 
 }  // namespace wale

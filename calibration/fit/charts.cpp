@@ -149,7 +149,30 @@ std::vector<Chart> of_confidence(const ConfidenceAnalysis& analysis) {
   return {std::move(chart), std::move(histogram)};
 }
 
-std::vector<Chart> of_sorting(const SortingFit& sorting) {
+/// The corners of the convex region of some points as they are drawn, closed; of two points their line.
+std::vector<glm::dvec2> hull_of(std::vector<glm::dvec2> points, bool log_x, bool log_y) {
+  const auto drawn = [&](glm::dvec2 at) { return glm::dvec2(log_x ? std::log(at.x) : at.x, log_y ? std::log(at.y) : at.y); };
+  std::ranges::sort(points, [](glm::dvec2 a, glm::dvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  if (points.size() < 3) return points;
+  std::vector<glm::dvec2> hull;
+  for (const bool back : {false, true}) {
+    const std::size_t first = hull.size();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const glm::dvec2 at = points[back ? points.size() - 1 - i : i];
+      while (hull.size() > first + 1) {
+        const glm::dvec2 a = drawn(hull[hull.size() - 2]), b = drawn(hull.back()), c = drawn(at);
+        if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0) break;
+        hull.pop_back();
+      }
+      hull.push_back(at);
+    }
+    if (!back) hull.pop_back();
+  }
+  return hull;
+}
+
+std::vector<Chart> of_sorting(const StudyFit& fit) {
+  const SortingFit& sorting = *fit.sorting;
   Chart tree{.file = "tree",
              .title = "Single linkage of the sorts",
              .x_name = "stimuli",
@@ -166,7 +189,88 @@ std::vector<Chart> of_sorting(const SortingFit& sorting) {
         {.points = {a, {a.x, each.distance}, {b.x, each.distance}, b}, .line = true, .colour = style::force});
     tops.push_back({(a.x + b.x) / 2, each.distance});
   }
-  return {std::move(tree)};
+  std::vector<Chart> charts = {std::move(tree)};
+  const auto grouped = [&](Chart chart, const std::vector<glm::dvec2>& places, const Grouping& clusters, std::size_t groups) {
+    for (std::size_t group = 0; group < groups; ++group) {
+      ChartSeries series{.colour = colour_of(group), .name = fmt::format("group {}", group + 1)};
+      for (std::size_t i = 0; i < places.size(); ++i)
+        if (clusters[i] == group) series.points.push_back(places[i]), series.labels.push_back(sorting.stimuli[i]);
+      ChartSeries hull{.points = hull_of(series.points, chart.log_x, chart.log_y), .line = true, .colour = colour_of(group)};
+      if (hull.points.size() > 1) chart.series.push_back(std::move(hull));
+      chart.series.push_back(std::move(series));
+    }
+    charts.push_back(std::move(chart));
+  };
+  std::vector<glm::dvec2> mapped;
+  if (sorting.map) {
+    for (Eigen::Index i = 0; i < sorting.map->points.rows(); ++i)
+      mapped.push_back({sorting.map->points(i, 0), sorting.map->points(i, 1)});
+    grouped({.file = "map",
+             .title = fmt::format("Seldom apart, near each other: stress {:.2g}", sorting.map->stress),
+             .x_name = "first dimension",
+             .y_name = "second dimension"},
+            mapped, sorting.clusters, sorting.groups);
+  }
+  // The groups of the sorts into two, three and four, over the sizes of the stimuli where two are known, else on the map.
+  const Trials& trials = fit.trials;
+  std::vector<glm::dvec2> placed = mapped;
+  Chart plane{.x_name = "first dimension", .y_name = "second dimension"};
+  if (trials.sizes.size() >= 2) {
+    placed.clear();
+    for (const std::size_t trial : sorting.trials)
+      placed.push_back({trials.sizes[1].values[trial], trials.sizes[0].values[trial]});
+    plane.x_name = with_unit(trials.sizes[1].name, trials.sizes[1].unit);
+    plane.y_name = with_unit(trials.sizes[0].name, trials.sizes[0].unit);
+    plane.log_x = std::ranges::all_of(placed, [](const auto& each) { return each.x > 0; });
+    plane.log_y = std::ranges::all_of(placed, [](const auto& each) { return each.y > 0; });
+  }
+  if (!placed.empty())
+    for (const GroupsFit& each : sorting.by_groups) {
+      Chart chart = plane;
+      chart.file = fmt::format("groups-{}", each.groups);
+      chart.title = fmt::format("{} groups of {} sorts; {} of them are the same", each.groups, each.sorts,
+                                std::ranges::count(each.distances, 0u));
+      grouped(std::move(chart), placed, each.clusters, each.groups);
+    }
+  return charts;
+}
+
+std::vector<Chart> of_settings(const StudyFit& fit) {
+  Chart chart{.file = "settings",
+              .title = "Settings, and their geometric means with 95 %",
+              .x_name = "standards",
+              .y_name = with_unit(fit.over, fit.over_unit),
+              .log_y = true};
+  ChartSeries single{.colour = style::force, .name = "settings"}, equal{.colour = style::moving, .name = "all observers"};
+  for (std::size_t i = 0; i < fit.settings.size(); ++i) {
+    const SettingsFit& each = fit.settings[i];
+    const auto at = static_cast<double>(i);
+    chart.x_words.push_back(each.standard.empty() ? "standard" : each.standard);
+    for (const ObserverSettings& own : each.settings.observers)
+      for (const double setting : own.settings) single.points.push_back({at, setting});
+    equal.points.push_back({at, each.settings.equal});
+    const Interval& interval = each.settings.equal_interval;
+    if (interval.low > 0 && std::isfinite(interval.high))
+      chart.series.push_back({.points = {{at, interval.low}, {at, interval.high}}, .line = true, .colour = style::moving});
+  }
+  chart.series.push_back(std::move(single)), chart.series.push_back(std::move(equal));
+  return {std::move(chart)};
+}
+
+std::vector<Chart> of_descriptions(const DescriptionFit& described) {
+  Chart chart{.file = "words",
+              .title = described.is_coded ? "In how many descriptions each code is" : "In how many descriptions each word is",
+              .y_name = "descriptions"};
+  ChartSeries points{.colour = style::force};
+  const auto words = by_frequency(described.is_coded ? described.all.codes : described.all.words);
+  for (std::size_t i = 0; i < std::min<std::size_t>(12, words.size()); ++i) {
+    const auto at = static_cast<double>(i), count = static_cast<double>(words[i].second);
+    chart.x_words.push_back(words[i].first);
+    chart.series.push_back({.points = {{at, 0}, {at, count}}, .line = true, .colour = style::rule});
+    points.points.push_back({at, count});
+  }
+  chart.series.push_back(std::move(points));
+  return {std::move(chart)};
 }
 
 }  // namespace
@@ -175,7 +279,9 @@ std::vector<Chart> charts_of(const StudyFit& fit, FitModel model) {
   if (fit.magnitudes) return of_magnitudes(fit, model);
   if (!fit.thresholds.empty()) return of_thresholds(fit);
   if (fit.confidence) return of_confidence(*fit.confidence);
-  if (fit.sorting) return of_sorting(*fit.sorting);
+  if (fit.sorting) return of_sorting(fit);
+  if (!fit.settings.empty()) return of_settings(fit);
+  if (fit.descriptions) return of_descriptions(*fit.descriptions);
   return {};
 }
 

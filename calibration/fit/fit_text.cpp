@@ -136,11 +136,76 @@ void add_sorting(std::string& text, const SortingFit& sorting) {
       if (sorting.clusters[i] == group) text += " " + visible_text(sorting.stimuli[i]);
     text += "\n";
   }
+  for (const GroupsFit& each : sorting.by_groups) {
+    std::map<std::size_t, std::size_t> counts;
+    for (const std::size_t distance : each.distances) ++counts[distance];
+    std::string told;
+    for (const auto& [distance, count] : counts)
+      told += readable("{}{} sort{} {} away", told.empty() ? "" : ", ", count, count == 1 ? "" : "s", distance);
+    text += readable("  {:<14} of the sorts into {}: {}\n", readable("{} groups", each.groups), each.groups, told);
+    for (std::size_t group = 0; group < each.groups; ++group) {
+      text += fmt::format("    group {}:", group + 1);
+      for (std::size_t i = 0; i < sorting.stimuli.size(); ++i)
+        if (each.clusters[i] == group) text += " " + visible_text(sorting.stimuli[i]);
+      text += "\n";
+    }
+  }
+  if (sorting.map)
+    text += readable("  {:<14} ordinal scaling in two dimensions, stress-1 {:.3g}; {} of {} starts end there\n", "map",
+                     sorting.map->stress, sorting.map->near_best, sorting.map->starts);
+  else
+    text += fmt::format("  {:<14} none: {}\n", "map", sorting.map_refused);
   for (const auto& [name, merges] : {std::pair("average", &sorting.average), std::pair("complete", &sorting.complete)})
     text += fmt::format("  {:<14} {}\n", name,
                         adjusted_rand_index(cut(*merges, sorting.groups), sorting.clusters) == 1
                             ? "linkage gives the same groups"
                             : "linkage gives other groups");
+}
+
+std::string interval_words(const Interval& each) {
+  if (!(each.low > 0) && !std::isfinite(each.high)) return "not bounded by the answers";
+  return readable("95 % {:.4g} to {:.4g}", each.low, each.high);
+}
+
+void add_settings(std::string& text, const StudyFit& fit) {
+  text += fmt::format("  {:<14} geometric means of settings of {}{}; Student's t over observers\n", "model",
+                      visible_text(fit.over), fit.over_unit.empty() ? "" : ", " + visible_text(fit.over_unit));
+  for (const SettingsFit& each : fit.settings) {
+    const Settings& settings = each.settings;
+    text += fmt::format("  {:<14} {}, {}, like {}{}\n", "equal",  readable("{:.4g}", settings.equal),
+                        interval_words(settings.equal_interval),
+                        each.standard.empty() ? "the standard" : visible_text(each.standard),
+                        each.size && *each.size > 0
+                            ? readable(": {:+.3g} % from it", 100 * (settings.equal / *each.size - 1))
+                            : std::string());
+    for (const ObserverSettings& own : settings.observers)
+      text += readable("    {:<20} {:.4g}, {} setting{}\n", visible_text(own.observer), own.equal, own.settings.size(),
+                       own.settings.size() == 1 ? "" : "s");
+  }
+  if (fit.settings_scatter)
+    text += readable("  {:<14} {:.4g} of the natural logarithm of one observer's settings, 95 % {:.4g} to {:.4g}\n", "scatter",
+                     *fit.settings_scatter, fit.settings_interval.low, fit.settings_interval.high);
+}
+
+std::string counted(const std::map<std::string, std::size_t>& counts, std::size_t most) {
+  std::string text;
+  const auto sorted = by_frequency(counts);
+  for (std::size_t i = 0; i < std::min(most, sorted.size()); ++i)
+    text += readable("{}{} {}", i == 0 ? "" : ", ", visible_text(sorted[i].first), sorted[i].second);
+  if (sorted.size() > most) text += readable(" and {} more", sorted.size() - most);
+  return text.empty() ? "none" : text;
+}
+
+void add_descriptions(std::string& text, const DescriptionFit& described) {
+  text += fmt::format("  {:<14} in how many descriptions a word is\n", "model");
+  for (std::size_t i = 0; i < described.stimuli.size(); ++i) {
+    const DescribedStimulus& each = described.stimuli[i];
+    text += readable("    {:<32} {} description{}; {}\n", visible_text(described.names[i]), each.descriptions,
+                     each.descriptions == 1 ? "" : "s", described.is_coded ? counted(each.codes, 8) : counted(each.words, 8));
+  }
+  text += fmt::format("  {:<14} {}\n", described.is_coded ? "codes" : "words",
+                      counted(described.is_coded ? described.all.codes : described.all.words, 12));
+  if (described.is_coded) text += fmt::format("  {:<14} {}\n", "without a code", counted(described.all.words, 12));
 }
 
 Json json_of(const Coefficient& each) {
@@ -207,6 +272,8 @@ std::string fit_text(const Study& study, const StudyFit& fit, const FitRequest& 
   if (!fit.thresholds.empty()) add_thresholds(text, fit);
   if (fit.confidence) add_confidence(text, *fit.confidence);
   if (fit.sorting) add_sorting(text, *fit.sorting);
+  if (!fit.settings.empty()) add_settings(text, fit);
+  if (fit.descriptions) add_descriptions(text, *fit.descriptions);
   text += fmt::format("  {:<14} {}: {}\n", "evidence", fit.evidence, fit.evidence_reason);
   text += readable("  {:<14} {} rows\n", "excluded", fit.trials.exclusions.size());
   for (std::size_t rule = 0; rule < fit.trials.rules.size(); ++rule) {
@@ -256,6 +323,40 @@ std::string fit_json(const Study& study, const StudyFit& fit, const FitRequest& 
     for (std::size_t i = 0; i < fit.sorting->stimuli.size(); ++i)
       json["sorting"]["clusters"][fit.sorting->stimuli[i]] = fit.sorting->clusters[i] + 1;
   }
+  if (fit.sorting) {
+    for (const GroupsFit& each : fit.sorting->by_groups) {
+      Json one = {{"groups", each.groups}, {"sorts", each.sorts}, {"distances", each.distances}, {"clusters", Json::object()}};
+      for (std::size_t i = 0; i < fit.sorting->stimuli.size(); ++i)
+        one["clusters"][fit.sorting->stimuli[i]] = each.clusters[i] + 1;
+      json["sorting"]["by_groups"].push_back(std::move(one));
+    }
+    json["sorting"]["stress"] = fit.sorting->map ? Json(fit.sorting->map->stress) : Json(nullptr);
+    json["sorting"]["map"] = Json::object();
+    if (fit.sorting->map)
+      for (std::size_t i = 0; i < fit.sorting->stimuli.size(); ++i)
+        json["sorting"]["map"][fit.sorting->stimuli[i]] = {fit.sorting->map->points(static_cast<Eigen::Index>(i), 0),
+                                                           fit.sorting->map->points(static_cast<Eigen::Index>(i), 1)};
+  }
+  for (const SettingsFit& each : fit.settings) {
+    Json one = {{"standard", each.standard},
+                {"size", each.size ? Json(*each.size) : Json(nullptr)},
+                {"equal", each.settings.equal},
+                {"interval", json_of(each.settings.equal_interval)},
+                {"scatter", each.settings.scatter ? Json(*each.settings.scatter) : Json(nullptr)}};
+    for (const ObserverSettings& own : each.settings.observers)
+      one["observers"].push_back({{"observer", own.observer}, {"equal", own.equal}, {"settings", own.settings}});
+    json["settings"].push_back(std::move(one));
+  }
+  if (fit.settings_scatter)
+    json["scatter"] = {{"value", *fit.settings_scatter}, {"interval", json_of(fit.settings_interval)}};
+  if (fit.descriptions)
+    for (std::size_t i = 0; i < fit.descriptions->stimuli.size(); ++i) {
+      const DescribedStimulus& each = fit.descriptions->stimuli[i];
+      json["descriptions"].push_back({{"stimulus", fit.descriptions->names[i]},
+                                      {"descriptions", each.descriptions},
+                                      {"words", each.words},
+                                      {"codes", each.codes}});
+    }
   json["exclusions"] = Json::array();
   for (const Exclusion& each : fit.trials.exclusions)
     json["exclusions"].push_back(

@@ -27,14 +27,6 @@ std::optional<double> standard_in_name(std::string_view name, const std::string&
   return value;
 }
 
-/// What a cell of the column `standard` says: a number, with its unit or without, or the name of a presentation.
-std::optional<double> standard_in_cell(std::string_view cell, const std::string& argument, const std::string& unit) {
-  if (const auto named = standard_in_name(cell, argument, unit)) return named;
-  const auto space = cell.find(' ');
-  if (space != std::string_view::npos && cell.substr(space + 1) != unit) return std::nullopt;
-  return number_in(cell.substr(0, space));
-}
-
 /// Trials about one standard.
 struct About {
   double size = 0;
@@ -99,17 +91,16 @@ class ThresholdAnalyst {
 
   /// Rows that are read as trials of one kind are excluded as the other kind, and are no exclusions of the study.
   void state_exclusions(const Trials& noises) {
-    const auto is_by_target = [](const Trials& trials, const Exclusion& each) {
-      return trials.rules[each.rule].starts_with("only rows whose target is ");
-    };
+    // The selection by target is the one behind those of the request, for signals and noises alike.
+    const auto is_by_target = [&](const Exclusion& each) { return each.selection == columns_.keep.size(); };
     std::set<std::pair<std::size_t, std::size_t>> by_target;
     for (const Exclusion& each : fit_.trials.exclusions)
-      if (is_by_target(fit_.trials, each)) by_target.insert({each.file, each.line});
+      if (is_by_target(each)) by_target.insert({each.file, each.line});
     std::vector<std::pair<Exclusion, std::string>> all;
     for (const Exclusion& each : fit_.trials.exclusions)
-      if (!is_by_target(fit_.trials, each)) all.emplace_back(each, fit_.trials.rules[each.rule]);
+      if (!is_by_target(each)) all.emplace_back(each, fit_.trials.rules[each.rule]);
     for (const Exclusion& each : noises.exclusions) {
-      if (!is_by_target(noises, each))
+      if (!is_by_target(each))
         all.emplace_back(each, noises.rules[each.rule]);
       else if (by_target.contains({each.file, each.line}))
         all.emplace_back(each, "only rows whose target is 0 or 1");
@@ -276,8 +267,8 @@ class ThresholdAnalyst {
     if (fit && fit->mean && 2 * without.size() <= own.size()) {
       result.law = {decision_, fit->mean->threshold, fit->exponent, fit->lapse, 0};
       result.all = {"all", fit->mean->threshold, fit->mean->interval, {}};
-      result.how = fmt::format("geometric mean of {} observers, t on {} degrees of freedom", fit->mean->observers,
-                               fit->mean->observers - 1);
+      result.how = fmt::format("geometric mean of the population of {} observers, profile likelihood as t on {} degrees of "
+                               "freedom", fit->mean->observers, fit->mean->observers - 1);
       if (!without.empty()) {
         std::string names;
         for (std::size_t i = 0; i < without.size() && i < 5; ++i) names += (i == 0 ? "" : ", ") + without[i];
@@ -317,7 +308,7 @@ class ThresholdAnalyst {
     if (result.all.value < low.size || result.all.value > high.size)
       fit_.notes.push_back(of + "the threshold lies outside of the sizes that were presented");
     if (!(result.all.interval.low > 0) || !std::isfinite(result.all.interval.high))
-      fit_.notes.push_back(of + "the answers do not bound the threshold on both sides");
+      fit_.notes.push_back(of + "the answers do not bound the threshold on both sides: more people would, or more answers of each");
     if (!(fit && fit->exponent_is_held) && (result.law.exponent > 9.5 || result.law.exponent < 0.21))
       fit_.notes.push_back(of + "the exponent is at the end of its range, 0.2 to 10: the answers do not tell it");
     if (result.law.lapse > 0.098)
@@ -359,6 +350,13 @@ class ThresholdAnalyst {
 };
 
 }  // namespace
+
+std::optional<double> standard_in_cell(std::string_view cell, const std::string& argument, const std::string& unit) {
+  if (const auto named = standard_in_name(cell, argument, unit)) return named;
+  const auto space = cell.find(' ');
+  if (space != std::string_view::npos && cell.substr(space + 1) != unit) return std::nullopt;
+  return number_in(cell.substr(0, space));
+}
 
 Result<> fit_thresholds(const Study& study, const FitRequest& request, const TrialColumns& columns, StudyFit& fit) {
   return ThresholdAnalyst(study, request, columns, fit).analyse();

@@ -43,6 +43,15 @@ std::string range(double low, double high, const std::string& unit) {
   return quantity(low, unit) + " .. " + quantity(high, unit);
 }
 
+/// The ends of an interval in a comment, which has no infinite numbers.
+std::string bounds_of(const Interval& interval) {
+  const bool is_low = interval.low > 0, is_high = std::isfinite(interval.high);
+  if (!is_low && !is_high) return "not bounded by the answers";
+  if (!is_low) return fmt::format("95 % below {:.4g}", interval.high);
+  return is_high ? fmt::format("95 % {:.4g} to {:.4g}", interval.low, interval.high)
+                 : fmt::format("95 % above {:.4g}", interval.low);
+}
+
 /// A unit as Wale writes it: letters, digits, `/`, `^`, spaces and a sign.
 bool is_unit(const std::string& unit) {
   return std::ranges::all_of(unit, [](char c) {
@@ -78,7 +87,9 @@ class RecordWriter {
                        "give the size a name of letters, as in --size amplitude=COLUMN");
     }
     provenance();
-    const Result<> done = fit_.magnitudes ? map() : !fit_.thresholds.empty() ? threshold() : rule();
+    const Result<> done = fit_.magnitudes ? map() : !fit_.thresholds.empty()  ? threshold()
+                          : !fit_.settings.empty() ? adjusted()
+                                                   : rule();
     if (!done) return done.error();
     return std::move(text_);
   }
@@ -219,9 +230,8 @@ class RecordWriter {
       return problem(fmt::format("`{}` is the unit of no quantity of thresholds", visible_text(of->unit)),
                      "convert the sizes to SI");
     for (const ThresholdFit& each : fit_.thresholds)
-      comment(fmt::format("{}{:.4g}, 95 % {:.4g} to {:.4g}; {}",
-                          each.standard.empty() ? "At d' = 1: " : each.standard + ": ", each.all.value,
-                          each.all.interval.low, each.all.interval.high, each.how));
+      comment(fmt::format("{}{:.4g}, {}; {}", each.standard.empty() ? "At d' = 1: " : each.standard + ": ", each.all.value,
+                          bounds_of(each.all.interval), each.how));
     text_ += fmt::format("\n/// {}: {} trials of {} observers.\nexport threshold {} {{\n", name_of_study(),
                          fit_.trials.size(), fit_.trials.observers.size(), cue);
     setting("quantity", quantity_name);
@@ -242,6 +252,37 @@ class RecordWriter {
     } else {
       setting("valid", range(fit_.weber->low, fit_.weber->high * high, of->unit));
     }
+    setting("observers", std::to_string(fit_.trials.observers.size()));
+    setting("evidence", fmt::format("slope {0}, handle {0}", fit_.evidence));
+    setting("on", on());
+    source();
+    text_ += "}\n";
+    return {};
+  }
+
+  /// What a setting is told from equality by, and what nothing is told from.
+  Result<> adjusted() {
+    const SizeValues* over = fit_.trials.size_named(fit_.over);
+    const std::string quantity_name = dimension_of(fit_.over_unit);
+    if (quantity_name.empty() || !is_identifier(fit_.over))
+      return problem(fmt::format("`{}` is the unit of no quantity of thresholds", visible_text(fit_.over_unit)),
+                     "name the column of the settings and its unit, as in --size amplitude=response:N");
+    double low = HUGE_VAL, high = 0;
+    for (const SettingsFit& each : fit_.settings) {
+      comment(fmt::format("Like {}: {:.4g}, {}, {} observers.", each.standard.empty() ? "the standard" : each.standard,
+                          each.settings.equal, bounds_of(each.settings.equal_interval), each.settings.observers.size()));
+      low = std::min(low, each.size.value_or(each.settings.equal)), high = std::max(high, each.size.value_or(each.settings.equal));
+    }
+    comment(fmt::format("Weber fraction: the standard deviation of the natural logarithm of one observer's settings, 95 % {:.4g} to "
+                        "{:.4g}.", fit_.settings_interval.low, fit_.settings_interval.high));
+    const std::string cue = !request_.about.empty() ? request_.about : over != nullptr ? over->name : fit_.over;
+    text_ += fmt::format("\n/// {}: {} settings of {} observers.\nexport threshold {} {{\n", name_of_study(),
+                         fit_.trials.size(), fit_.trials.observers.size(), cue);
+    setting("quantity", quantity_name);
+    setting("weber", number(*fit_.settings_scatter));
+    setting("task", "adjustment");
+    setting("criterion", "84.134 %");  // one standard deviation of a normal distribution
+    if (low > 0 && high > low) setting("valid", range(low, high, fit_.over_unit));
     setting("observers", std::to_string(fit_.trials.observers.size()));
     setting("evidence", fmt::format("slope {0}, handle {0}", fit_.evidence));
     setting("on", on());
@@ -290,6 +331,19 @@ class RecordWriter {
             fmt::format("{}{}, confidence {:.4g} %{}", in_quotes(each.name), *conditions, each.mean,
                         std::isfinite(each.deviation) ? fmt::format(", spread {:.4g} %", each.deviation) : ""));
       }
+    } else if (fit_.descriptions) {
+      const DescriptionFit& described = *fit_.descriptions;
+      for (std::size_t i = 0; i < described.stimuli.size(); ++i) {
+        const auto conditions = conditions_of(described.trials[i]);
+        if (!conditions) return conditions.error();
+        const auto words = by_frequency(described.is_coded ? described.stimuli[i].codes : described.stimuli[i].words);
+        if (words.empty()) continue;
+        std::string says;
+        for (std::size_t k = 0; k < std::min<std::size_t>(5, words.size()); ++k)
+          says += fmt::format("{}{} {}", k == 0 ? "" : ", ", words[k].first, words[k].second);
+        cases.push_back(fmt::format("{}{}, says {}", in_quotes(words.front().first), *conditions,
+                                    in_quotes(fmt::format("{} of {} descriptions", says, described.stimuli[i].descriptions))));
+      }
     } else {
       const SortingFit& sorting = *fit_.sorting;
       comment(fmt::format(
@@ -303,7 +357,7 @@ class RecordWriter {
     }
     const std::string name = !request_.about.empty() ? request_.about : identifier_of(name_of_study(), "study");
     text_ += fmt::format("\n/// {}: {} of {} observers.\nexport rule {} {{\n", name_of_study(),
-                         fit_.confidence ? "ratings" : "sorts", fit_.trials.observers.size(), name);
+                         fit_.confidence ? "ratings" : fit_.descriptions ? "descriptions" : "sorts", fit_.trials.observers.size(), name);
     for (const std::string& each : cases) setting("case", each);
     setting("evidence", fit_.evidence);
     setting("on", on());

@@ -158,6 +158,7 @@ class StudyReader {
                    .sentence = "no trial of this session has begun",
                    .mend = "leave the file out",
                    .place = {.name = path}};
+    if (const auto same = is_asked_alike(path, *table); !same) return same;
     if (const auto units = take_units(table->columns, path); !units) return units;
     return add_table(path, std::move(text));
   }
@@ -169,6 +170,9 @@ class StudyReader {
     if (!table) return table.error();
     if (const auto same = is_of(path, table->task, table->task_description); !same) return same;
     if (!table->device.empty()) study_.device = table->device;
+    if (!table->design.empty())
+      if (const auto same = is_designed_alike(path, nlohmann::json::parse(table->design, nullptr, false)); !same) return same;
+    if (const auto same = is_asked_alike(path, *table); !same) return same;
     if (const auto units = take_units(table->columns, path); !units) return units;
     return add_table(path, std::move(bytes));
   }
@@ -218,13 +222,75 @@ class StudyReader {
       if (has == had && (!has || *here == *before)) continue;
       return other_design(path, fmt::format("this session differs from `{}` in its {}", visible_text(design_path_), words));
     }
-    if (fields.value("text", std::string()) != design_.value("text", std::string()))
+    const auto text_of = [](const nlohmann::json& design) { return design.value("text", std::string()); };
+    if (!text_of(fields).empty() && !text_of(design_).empty() && text_of(fields) != text_of(design_))
       study_.notes.push_back(fmt::format("{}: the text of the design is not that of {}; task, questions, method and "
                                          "presentation are the same",
                                          visible_text(path), visible_text(design_path_)));
     if (fields.value("practice", 0) != design_.value("practice", 0))
       study_.notes.push_back(fmt::format("{}: there was another number of practice trials than in {}",
                                          visible_text(path), visible_text(design_path_)));
+    return {};
+  }
+
+  /// The same of what every table says: its question, and what was varied. Tables of other programs say no more.
+  Result<> is_asked_alike(const std::string& path, const TrialTable& table) {
+    std::vector<std::string> varied;
+    const auto stimulus = table.column("stimulus");
+    for (std::size_t i = stimulus ? *stimulus + 1 : table.columns.size(); i < table.columns.size(); ++i) {
+      if (ends_varied(table.columns[i].name)) break;
+      varied.push_back(table.columns[i].name);
+    }
+    if (!asked_) {
+      asked_ = AskedIn{path, table.instructions, std::move(varied)};
+      return {};
+    }
+    if (!table.instructions.empty() && !asked_->question.empty() && table.instructions != asked_->question)
+      return other_design(path, fmt::format("the question was \"{}\" here and \"{}\" in `{}`",
+                                            visible_text(table.instructions), visible_text(asked_->question),
+                                            visible_text(asked_->path)));
+    if (asked_->question.empty()) asked_->question = table.instructions;
+    if (varied == asked_->varied) return {};
+    const auto list = [](const std::vector<std::string>& names) {
+      std::string text;
+      for (const std::string& each : names) text += (text.empty() ? "`" : ", `") + visible_text(each) + "`";
+      return text.empty() ? std::string("nothing") : text;
+    };
+    return other_design(path, fmt::format("{} was varied here, and {} in `{}`", list(varied), list(asked_->varied),
+                                          visible_text(asked_->path)));
+  }
+
+  static bool ends_varied(std::string_view name) {
+    return name == "standard" || name == "target" || name == "response" || name == "groups";
+  }
+
+  /// Tables that nothing describes: PsychoPy's name the experiment in each row, and all have columns.
+  Result<> is_of_one_kind(const Table& table) {
+    if (const auto column = table.column("expName"))
+      for (std::size_t row = 0; row < table.rows(); ++row) {
+        const std::string name(table.cell(row, *column));
+        if (analysis::is_missing(name)) continue;
+        if (psychopy_name_.empty()) psychopy_name_ = name;
+        if (name != psychopy_name_)
+          return analysis::table_error(table, row,
+                                       fmt::format("this row is of the experiment `{}`, and those before are of `{}`",
+                                                   visible_text(name), visible_text(psychopy_name_)),
+                                       "analyse each experiment alone, in files of its own");
+      }
+    if (study_.tables.empty()) return {};
+    const Table& first = study_.tables.front();
+    std::string only;
+    std::size_t count = 0;
+    const auto add_missing = [&](const Table& has, const Table& lacks) {
+      for (const std::string& name : has.columns())
+        if (!lacks.column(name) && ++count <= 5) only += (only.empty() ? "`" : ", `") + visible_text(name) + "`";
+    };
+    add_missing(table, first), add_missing(first, table);
+    if (count > 0)
+      study_.notes.push_back(fmt::format("{}: its columns are not those of {}: {}{} {} in one of them only",
+                                         visible_text(table.file()), visible_text(first.file()), only,
+                                         count > 5 ? fmt::format(" and {} more", count - 5) : std::string(),
+                                         count == 1 ? "is" : "are"));
     return {};
   }
 
@@ -259,6 +325,8 @@ class StudyReader {
       if (!joined) return joined.error();
       table = std::move(joined);
     }
+    if (study_.files.back().form == std::string_view("table"))
+      if (const auto same = is_of_one_kind(*table); !same) return same;
     study_.says_grade = study_.says_grade && table->column("grade").has_value();
     if (const auto date = table->column("date"))  // as PsychoPy writes it: 2026-11-24_14h03.11.123
       for (std::size_t row = 0; row < table->rows(); ++row)
@@ -273,7 +341,7 @@ class StudyReader {
     const auto stimulus = table.column("stimulus");
     for (std::size_t i = stimulus ? *stimulus + 1 : table.columns().size(); i < table.columns().size(); ++i) {
       const std::string& name = table.columns()[i];
-      if (name == "standard" || name == "target" || name == "response" || name == "groups") break;
+      if (ends_varied(name)) break;
       (is_all_numbers(table, i) ? study_.varied : study_.words).push_back(name);
     }
     if (stimuli_)
@@ -324,7 +392,12 @@ class StudyReader {
   std::unordered_map<std::string, std::size_t> stimulus_rows_;
   std::set<std::string> versions_;
   nlohmann::json design_;                                             ///< of the first log
-  std::string design_path_, noted_;
+  std::string design_path_, noted_, psychopy_name_;
+  struct AskedIn {
+    std::string path, question;
+    std::vector<std::string> varied;
+  };
+  std::optional<AskedIn> asked_;  ///< in the first table that says it
   std::map<std::string, std::pair<std::uint64_t, std::string>> felt_;  ///< by stimulus: its program, and where first
   Study study_;
 };

@@ -110,6 +110,22 @@ Result<> fit_sorts(const Study& study, StudyFit& fit) {
   sorting.clusters = cut(sorting.single, sorting.groups);
   for (const Grouping& each : sorting.groupings)
     sorting.agreement += adjusted_rand_index(each, sorting.clusters) / static_cast<double>(sorting.groupings.size());
+  for (const auto& [groups, count] : sizes) {
+    if (groups < 2 || groups >= names->levels.size()) continue;
+    GroupsFit each{.groups = groups, .sorts = count};
+    std::vector<Grouping> alike;
+    for (const Grouping& sort : sorting.groupings)
+      if (std::set<std::size_t>(sort.begin(), sort.end()).size() == groups) alike.push_back(sort);
+    each.clusters = cut(cluster(times_apart(alike), Linkage::single), groups);
+    for (const Grouping& sort : alike) each.distances.push_back(distance_from_prototype(sort, each.clusters));
+    sorting.by_groups.push_back(std::move(each));
+  }
+  if (auto map = scale(apart)) sorting.map = *std::move(map);
+  else sorting.map_refused = map.error().sentence;
+  constexpr double degenerate = 0.02;  // below what smacof's authors call perfect
+  if (sorting.map && sorting.map->stress < degenerate)
+    fit.notes.push_back("the stress of the map is near zero: with so few or so similar sorts, stimuli fall together on points, "
+                        "and the distances between these say little");
   fit.sorting = std::move(sorting);
   return {};
 }
@@ -183,6 +199,15 @@ Result<StudyFit> fit_study(const Study& study, const FitRequest& request) {
     if (!add_stimulus()) return unknown("there is no column `stimulus`", "name the stimuli in one of that name", study);
     if (const auto done = read(); !done) return done.error();
     if (const auto done = fit_sorts(study, fit); !done) return done.error();
+  } else if (fit.task == "adjustment") {
+    columns.answers = Answers::magnitudes;
+    if (const auto done = read(); !done) return done.error();
+    if (const auto done = fit_settings(study, request, fit); !done) return done.error();
+  } else if (fit.task == "description") {
+    columns.answers = Answers::labels;
+    if (columns.sizes.empty()) add_stimulus();
+    if (const auto done = read(); !done) return done.error();
+    if (const auto done = fit_descriptions(study, request, fit); !done) return done.error();
   } else if (fit.task == "two_interval" || fit.task == "one_interval" || fit.task == "same_different") {
     if (const auto done = fit_thresholds(study, request, columns, fit); !done) return done.error();
     grade(study, fit);
@@ -190,8 +215,8 @@ Result<StudyFit> fit_study(const Study& study, const FitRequest& request) {
     return unknown("the files do not say what the task was", "name it with --task, or the design with --design", study);
   } else {
     return unknown(fmt::format("nothing is fitted to trials of the task `{}`", visible_text(fit.task)),
-                   "magnitude_estimation gives a map; two_interval, one_interval and same_different a threshold; "
-                   "confidence, rating and sorting a rule",
+                   "magnitude_estimation gives a map; two_interval, one_interval, same_different and adjustment a "
+                   "threshold; confidence, rating, sorting and description a rule",
                    study);
   }
   fit.notes.insert(fit.notes.end(), fit.trials.notes.begin(), fit.trials.notes.end());

@@ -5,9 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/analysis/adjustment.hpp"
 #include "calibration/analysis/confidence.hpp"
+#include "calibration/analysis/descriptions.hpp"
 #include "calibration/analysis/detection.hpp"
 #include "calibration/analysis/magnitude.hpp"
+#include "calibration/analysis/scaling.hpp"
 #include "calibration/analysis/sensitivity_law.hpp"
 #include "calibration/analysis/sorting.hpp"
 #include "calibration/fit/study.hpp"
@@ -31,6 +34,7 @@ struct FitRequest {
   std::string about;               ///< the percept of a map, the cue of a threshold, the name of a rule
   std::string carrier;             ///< the argument of the map
   std::string name, domain;        ///< of the record
+  std::vector<analysis::WordCode> codes;  ///< of descriptions
 };
 
 /// A threshold of one observer, or of all their answers.
@@ -53,6 +57,29 @@ struct ThresholdFit {
   std::string how;        ///< which of them
 };
 
+/// What was set to be like one standard.
+struct SettingsFit {
+  std::string standard;          ///< its name, and the conditions
+  std::optional<double> size;    ///< of the standard, if the trials say it
+  analysis::Settings settings;
+};
+
+/// What stimuli were called.
+struct DescriptionFit {
+  std::vector<std::string> names;    ///< of the stimuli
+  std::vector<std::size_t> trials;   ///< the first trial with each
+  std::vector<analysis::DescribedStimulus> stimuli;
+  analysis::DescribedStimulus all;
+  bool is_coded = false;
+};
+
+/// The sorts into one number of groups, and their common groups: single linkage of these sorts alone, cut into so many.
+struct GroupsFit {
+  std::size_t groups = 0, sorts = 0;
+  analysis::Grouping clusters;
+  std::vector<std::size_t> distances;  ///< of each sort from the clusters: how many stimuli would have to be moved
+};
+
 struct SortingFit {
   std::vector<std::string> stimuli;  ///< their names
   std::vector<std::size_t> trials;   ///< a trial with each
@@ -61,9 +88,13 @@ struct SortingFit {
   std::size_t groups = 2;       ///< that most sorts have
   analysis::Grouping clusters;  ///< of single linkage, so many
   double agreement = 0;         ///< mean adjusted Rand index of the sorts with the clusters
+  std::vector<GroupsFit> by_groups;
+  /// A map in two dimensions of how often stimuli were apart, ordinal; nothing where there is none, and then why.
+  std::optional<analysis::Configuration> map;
+  std::string map_refused;
 };
 
-/// A study as it was analysed. One of the last four is set.
+/// A study as it was analysed. What its task gives is set.
 struct StudyFit {
   std::string task, evidence;  ///< the grade: "simulated", "measured", "estimated"
   std::string evidence_reason;
@@ -79,6 +110,10 @@ struct StudyFit {
   std::optional<analysis::WeberRange> weber;
   std::optional<analysis::ConfidenceAnalysis> confidence;
   std::optional<SortingFit> sorting;
+  std::vector<SettingsFit> settings;
+  std::optional<double> settings_scatter;  ///< pooled over the standards
+  analysis::Interval settings_interval;
+  std::optional<DescriptionFit> descriptions;
 };
 
 /// Analyses a study by its task.
@@ -91,6 +126,13 @@ Result<StudyFit> fit_study(const Study& study, const FitRequest& request);
 /// Part of `fit_study`: thresholds of forced choice, one interval, and same or different.
 Result<> fit_thresholds(const Study& study, const FitRequest& request, const analysis::TrialColumns& columns,
                         StudyFit& fit);
+
+/// Parts of `fit_study`: settings of an adjustment, and words of descriptions.
+Result<> fit_settings(const Study& study, const FitRequest& request, StudyFit& fit);
+Result<> fit_descriptions(const Study& study, const FitRequest& request, StudyFit& fit);
+
+/// The size of a standard that a cell says: a number, with its unit or without, or the name of a presentation.
+std::optional<double> standard_in_cell(std::string_view cell, const std::string& argument, const std::string& unit);
 
 /// The record as a Wale file: a `map`, `threshold` or `rule` that compiles, with its provenance. The same trials and
 /// request give the same text.

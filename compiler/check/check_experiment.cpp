@@ -8,6 +8,7 @@
 
 #include "compiler/check/experiment_stimuli.hpp"
 #include "compiler/modules/declare_records.hpp"
+#include "compiler/text/readable.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale {
@@ -265,6 +266,15 @@ class ExperimentChecker {
       if (made_.seconds > longest)
         reader_.report(Code::value_out_of_range, present->span, "a presentation takes at most 10 minutes",
                        "write, for example, `present 3 s`");
+      const double stroke = seconds_to_and_fro(surroundings_.declarations);
+      if (made_.seconds < stroke)
+        reader_.report(Code::beyond_soft_range, present->span,
+                       readable("a presentation of {:.3g} s is shorter than one movement to and fro, {:.3g} s for the hand "
+                                "`normal`",
+                                made_.seconds, stroke),
+                       readable("write `present {:.3g} s` or more: a hand passes over a part of the stimulus only, and "
+                                "forces are read from what follows the first half second",
+                                std::ceil(stroke)));
     }
     if (const Setting* exclude = reader_.setting("exclude")) {
       if (exclude->items.size() != 1 || words_of(exclude->items.front()) != "over")
@@ -404,6 +414,11 @@ class ExperimentChecker {
 };
 
 }  // namespace
+
+double seconds_to_and_fro(const Declarations& declarations) {
+  const HandDeclaration* hand = declarations.hands.find("normal");
+  return hand != nullptr && hand->lateral_frequency > 0 ? 1 / hand->lateral_frequency : 0;
+}
 
 void check_experiments(const SyntaxTree& tree, const Surroundings& surroundings, CheckedModule& module) {
   std::map<std::string_view, Span> declared;

@@ -182,6 +182,20 @@ TEST(Trials, NoteWhoLacksStimuli) {
   EXPECT_EQ(trials->notes[0], "S2 has answers to 1 of 2 stimuli");
 }
 
+TEST(Trials, NoteRunsThatAreShort) {
+  std::string text = "participant,run,trial,size (N),response\n";
+  for (const char* who : {"A", "B"})
+    for (int run = 1; run <= 2; ++run)
+      for (int trial = 1; trial <= 4; ++trial)
+        if (!(*who == 'B' && run == 2 && trial == 4))
+          text += std::string(who) + "," + std::to_string(run) + "," + std::to_string(trial) + "," + std::to_string(trial) + ",5\n";
+  const auto table = read_table("t.csv", text);
+  ASSERT_TRUE(table);
+  const auto trials = read_trials(*table, {.sizes = {{"size", "size (N)", ""}}});
+  ASSERT_TRUE(trials) << in_words(trials.error());
+  EXPECT_EQ(trials->notes, std::vector<std::string>{"B has 3 trials in run 2, and most runs have 4"});
+}
+
 TEST(Trials, ReadAThousandColumns) {
   std::string header = "participant,response,amplitude", row1 = "S1,1,0.2", row2 = "S1,2,0.8";
   for (int i = 0; i < 1000; ++i) header += ",c" + std::to_string(i), row1 += ",x", row2 += ",\"y, z\"";

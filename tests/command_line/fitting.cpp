@@ -462,6 +462,43 @@ experiment small {
   EXPECT_TRUE(contains(html, "factor   amplitude 0.2 N, 0.8 N"));
 }
 
+TEST(Planning, TakesTheExponentThatIsAssumed) {
+  const TemporaryFolder folder;
+  const std::string design = folder.write(
+      "d.wale",
+      "wale 1\nmaterial bench { physical { param a = 0.8 N in 0 N .. 6 N; force = lateral(cos(x / 1 mm), amplitude: a) } }\n"
+      "experiment d { stimulus bench(a: a); standard bench(a: 0 N); factor a 0.05 N .. 0.6 N, steps 6; task two_interval; "
+      "repetitions 10; present 0.6 s }\n");
+  const auto words = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = {"experiment", "plan", design, "--studies", "20", "--most", "12", "--precision", "0.6"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const Outcome plain = wale(words({})), steep = wale(words({"--growth", "2.5", "--lapse", "0.01"}));
+  EXPECT_TRUE(contains(plain.out, "d' in proportion to the difference, lapse rate 0.02")) << plain.out << plain.err;
+  EXPECT_TRUE(contains(steep.out, "d' as the difference to the power of 2.5, lapse rate 0.01")) << steep.out << steep.err;
+  EXPECT_NE(plain.out.substr(plain.out.find('\n')), steep.out.substr(steep.out.find('\n')));
+  EXPECT_EQ(wale(words({"--growth", "0"})).status, 2);
+  const Outcome described = wale({"describe", design, "--experiment", "d"});
+  EXPECT_TRUE(contains(described.out, "short     a presentation takes 0.6 s, and a hand moves to and fro once in 1 s"))
+      << described.out;
+  EXPECT_TRUE(contains(described.err, "W0308")) << described.err;
+}
+
+TEST(Fitting, DescriptionsAreCodedByATable) {
+  const TemporaryFolder folder;
+  const std::string trials = folder.write("t.csv", "participant,stimulus,response\nA,ribs,rather rough\nB,ribs,Sharp\n"
+                                                   "A,oil,slippery\nB,oil,\n");
+  const Outcome coded = fit({trials, "--task", "description", "--codes", folder.write("c.csv", "word,code\nsharp,rough\nrough,rough\n")}, {});
+  EXPECT_EQ(coded.status, 0) << coded.err;
+  EXPECT_TRUE(contains(coded.out, "2 descriptions; rough 2")) << coded.out;
+  EXPECT_TRUE(contains(coded.out, "without a code rather 1, slippery 1")) << coded.out;
+  EXPECT_TRUE(contains(coded.out, "1 by the rule: no answer")) << coded.out;
+  const Outcome twice = fit({trials, "--task", "description", "--codes", folder.write("e.csv", "word,code\nrough,a\nRough,b\n")}, {});
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_TRUE(contains(twice.err, "e.csv:3: this word has another code above")) << twice.err;
+}
+
 TEST(Planning, MorePrecisionNeedsMorePeopleAndTheSameSeedGivesTheSamePlan) {
   const auto people = [](const std::string& precision) {
     const Outcome planned = wale({"experiment", "plan", designs + "crossed.wale", "--precision", precision, "--spread",

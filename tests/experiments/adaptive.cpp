@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "calibration/analysis/sensitivity_law.hpp"
+#include "calibration/experiment/level_chooser.hpp"
 #include "calibration/experiment/trial_session.hpp"
 #include "tests/experiments/texts.hpp"
 
@@ -73,6 +75,35 @@ TEST(QuestPlus, BeginsInTheMiddleAndGoesToTheThreshold) {
   }
   // Levels that tell the slope lie on both sides of the threshold. An eighth of a power of ten is two and a half levels.
   EXPECT_NEAR(error, 0, 0.125);
+}
+
+/// People whose d' is in proportion to the size, 40 answers each: a track tells threshold and exponent only together, and
+/// an interval about the most likely exponent held the mean of 200 such studies in 154 to 176 of them.
+TEST(QuestPlus, IntervalsOfItsTracksCoverThePopulationsMean) {
+  std::vector<double> levels;
+  for (int i = 0; i < 21; ++i) levels.push_back(0.05 * std::pow(40.0, i / 20.0));  // 0.05 to 2
+  int covered = 0;
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    std::vector<analysis::ObserverAnswers> people;
+    for (std::uint64_t person = 0; person < 6; ++person) {
+      const Draws draws(seed * 100 + static_cast<std::uint32_t>(person), 52);
+      const double own = 0.3 * std::exp(0.3 * draws.normal(1 << 20));
+      const auto track = quest_plus({levels, 0.5, 0.02, 40});
+      std::vector<analysis::Level> counts(levels.size());
+      for (std::uint64_t trial = 0; !track->over(); ++trial) {
+        const auto level = track->next();
+        // d' = size / threshold in two intervals, and 2 % lapses to either side: 0.5 erfc(-d' / 2).
+        const bool right = draws.uniform(trial) < 0.02 + 0.96 * 0.5 * std::erfc(-levels[level] / own / 2);
+        track->take(level, right);
+        counts[level].size = levels[level], ++counts[level].trials, counts[level].right += right ? 1 : 0;
+      }
+      std::erase_if(counts, [](const auto& each) { return each.trials == 0; });
+      people.push_back({.levels = counts});
+    }
+    const auto fit = analysis::fit_sensitivity(people, {.intervals = false});
+    covered += fit && fit->mean && fit->mean->interval.holds(0.3) ? 1 : 0;
+  }
+  EXPECT_GE(covered, 181);
 }
 
 /// A participant that is asked on numbers: right above the level, wrong below.

@@ -98,8 +98,9 @@ analysis::Trials study(std::uint32_t seed, PlantedLaw law, double exponent, doub
   return *trials;
 }
 
-TEST(VirtualStudies, IntervalsCoverWhatWasPlanted) {
-  constexpr double exponent = 0.76, spread = 0.15;
+/// In how many of 200 studies the intervals hold the planted exponent and spread.
+void expect_coverage(double exponent) {
+  constexpr double spread = 0.15;
   int covered = 0, spread_covered = 0;
   for (std::uint32_t seed = 1; seed <= 200; ++seed) {
     const auto fit = analysis::analyse_magnitudes(
@@ -109,8 +110,36 @@ TEST(VirtualStudies, IntervalsCoverWhatWasPlanted) {
     covered += fit->exponent.low() <= exponent && exponent <= fit->exponent.high();
     spread_covered += fit->spread_interval && fit->spread_interval->holds(spread);
   }
+  EXPECT_GE(covered, 181) << exponent;
+  EXPECT_GE(spread_covered, 181) << exponent;
+}
+
+TEST(VirtualStudies, IntervalsCoverWhatWasPlanted) {
+  for (const double exponent : {0.55, 0.76, 1.2}) expect_coverage(exponent);
+}
+
+/// Of those who feel the force between hand and handle, the truth is the regression of noise-free observers. With a law
+/// that is a power, their slopes are in proportion to their exponents, so that the mean of any number of them is that of
+/// one with the mean exponent.
+TEST(VirtualStudies, IntervalsOfInteractionCoverItsOwnTruth) {
+  constexpr double exponent = 0.76;
+  const double truth = analysis::regress_means(study(1, {.threshold = 0, .noise = 0}, exponent, 0), "amplitude", false)
+                           ->regression.coefficients[1]
+                           .value;
+  int covered = 0;
+  double mean = 0;
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    const auto fit = analysis::analyse_magnitudes(study(seed, {.threshold = 0, .noise = 0.2}, exponent, 0.15),
+                                                  {.size = {}, .intervals_of_spread = false, .alternatives = false});
+    ASSERT_TRUE(fit) << seed << ": " << fit.error().sentence;
+    covered += fit->exponent.low() <= truth && truth <= fit->exponent.high();
+    mean += fit->exponent.value / 200;
+  }
   EXPECT_GE(covered, 181);
-  EXPECT_GE(spread_covered, 181);
+  EXPECT_NEAR(mean, truth, 0.01);
+  // What the handle's mass and friction do to the exponent of the commanded force.
+  RecordProperty("bias_against_the_planted_exponent", fmt::format("{:.4f}", mean - exponent));
+  EXPECT_GT(std::abs(truth - exponent), 0.01);
 }
 
 /// Those who feel the force between hand and handle contradict the actuator's: the same exponent, and another slope
@@ -133,6 +162,58 @@ analysis::Coefficient interaction_exponent(const RoughnessDesign& of) {
   return analysis::analyse_magnitudes(study(5, law, 0.76, 0.02, of),
                                       {.size = {}, .intervals_of_spread = false, .alternatives = false})
       ->exponent;
+}
+
+/// The crossed design, executed: those whose roughness depends on the period are found out, and others are not. Without
+/// the period there is no such alternative to compare.
+TEST(VirtualStudies, TheCrossedDesignFindsOutWhoFeelsPeriods) {
+  const Design design(text_of("/calibration/experiments/crossed.wale"));
+  const CheckedExperiment& experiment = design.experiment();
+  const auto ready = design.ready();
+  DevicePresenter presenter(
+      [&](const Program& program) -> Result<FeltDevice> {
+        return FeltDevice{std::make_unique<SimulatedJoystick>(program.description().device, HandModel{0.55, 6.5, 135}, Lateral{0.04, 1}),
+                          nullptr, "simulated", "lateral", true};
+      },
+      {.seconds = 2, .virtual_time = true, .folder = {}, .recordings = {}});
+  std::vector<FeltSize> felt;
+  for (const Program& each : ready.stimuli) felt.push_back(*presenter.present(each, ""));
+  const Asked asked = questions_of_trial(experiment).front();
+  const auto level = [&](const Trial& trial, const char* name) {
+    const auto factor = std::ranges::find(experiment.factors, name, &ExperimentFactor::name) - experiment.factors.begin();
+    return *experiment.factors[static_cast<std::size_t>(factor)].levels[*experiment.stimuli[trial.stimulus].levels[static_cast<std::size_t>(factor)]].value;
+  };
+  const auto p_of_period = [&](double by_period, bool with_period) {
+    std::string text = "participant,run,trial,amplitude,period,response\n";
+    for (std::uint32_t person = 0; person < 8; ++person) {
+      PlantedLaw law{.threshold = 0, .noise = 0.15, .feels_actuator = true};
+      law.period = by_period;
+      law.exponent = 0.76 + 0.1 * Draws(person, 99).normal(0);
+      PlantedObserver observer(experiment, law, person);
+      for (const Trial& trial : trial_order(experiment, person)) {
+        observer.begin(trial, 0, 1, 1);
+        observer.felt({false, trial.stimulus}, felt[trial.stimulus]);
+        const auto answer = observer.say({.kind = Question::Kind::trial, .says = {}, .asked = &asked, .trial = &trial});
+        if (trial.block == 0) continue;
+        text += fmt::format("P{},{},{},{},{},{}\n", person, trial.block, trial.number, level(trial, "amplitude"),
+                            level(trial, "period"), *answer);
+      }
+    }
+    analysis::TrialColumns columns{.sizes = {{"amplitude", "", "N"}}};
+    if (with_period) columns.sizes.push_back({"period", "", "m"});
+    const auto table = analysis::read_table("crossed", text);
+    const auto trials = analysis::read_trials(*table, columns);
+    EXPECT_TRUE(trials) << trials.error().sentence;
+    const auto fit = analysis::analyse_magnitudes(*trials, {.size = "amplitude", .intervals_of_spread = false});
+    EXPECT_TRUE(fit) << fit.error().sentence;
+    std::optional<double> p;
+    for (const analysis::Alternative& each : fit->alternatives)
+      if (each.name.find("period") != std::string::npos && (!p || each.comparison.p < *p)) p = each.comparison.p;
+    return p;
+  };
+  EXPECT_LT(p_of_period(0.5, true).value_or(1), 1e-6);
+  EXPECT_GT(p_of_period(0, true).value_or(0), 1e-3);
+  EXPECT_FALSE(p_of_period(0.5, false)) << "without the period, nothing is said of it";
 }
 
 /// A handle with three times the friction gives another map, by more than the map's interval.
