@@ -82,21 +82,22 @@ FinishedMaterial finish(const CheckedMaterial& material, const CheckedModule& mo
   const auto make = [&](Diagnostics& into, const BandShares& shares) {
     finished.solved = solve(material, module, device, sources, resolver, into, shares);
     finished.program = program_of(finished.solved, material, module, sources, into);
-    if (!finished.program || std::ranges::none_of(finished.solved.percepts,
-                                                  [](const SolvedPercept& each) { return each.asked.has_value(); }))
-      return;
     finished.first = {};
-    finished.found = read_again(Bank(*finished.program), module.declarations(),
-                                parts_for(finished.program->description()), finished.first);
   };
   make(first, {});
   BandShares shares;
+  // What moving hands feel of a program that is made again need not be measured.
   if (finished.program)
-    shares = band_shares(Bank(*finished.program), finished.found, finished.solved, module.declarations());
+    shares = band_shares(Bank(*finished.program), finished.first, finished.solved, module.declarations());
   if (shares.empty())
     diagnostics = std::move(first);
   else
     make(diagnostics, shares);
+  const bool asks = std::ranges::any_of(finished.solved.percepts,
+                                        [](const SolvedPercept& each) { return each.asked.has_value(); });
+  if (finished.program && asks)
+    finished.found = read_again(Bank(*finished.program), module.declarations(),
+                                parts_for(finished.program->description()), finished.first);
   return finished;
 }
 

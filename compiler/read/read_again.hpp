@@ -30,4 +30,8 @@ struct ReadFirst {
 /// patch of the same size; fates and texts may differ.
 ForceReading read_again(const Bank& bank, const Declarations& declarations, ReadParts wanted, ReadFirst& first);
 
+/// The reading of the relief alone, as of `read_again`, which may be asked for all else afterwards: `first` gets what is
+/// measured, and `transcript` too. Nothing if what moving hands feel decides how much of the relief counts.
+std::optional<ForceReading> read_relief(const Bank& bank, ReadFirst& first, StaticTranscript& transcript);
+
 }  // namespace wale
