@@ -99,7 +99,7 @@ class SqliteStore final : public LibraryStore, MaterialIndex, WordTable {
   std::uint64_t generation() const { return std::strtoull(fact("generation").c_str(), nullptr, 10); }
   Result<> read_columns();
   Result<> forget(const std::string& path, std::size_t& materials) const;
-  Result<> keep(const LibraryFile& file, const ReadFile& read, const std::string& others) const;
+  Result<> keep(const LibraryFile& file, const ReadFile& read, const std::string& named, const std::string& others) const;
 
   Database database_;
   FeltColumns columns_;
@@ -177,8 +177,9 @@ Result<> SqliteStore::forget(const std::string& path, std::size_t& materials) co
   return database_.prepare("DELETE FROM files WHERE path = ?").bind(path).run();
 }
 
-Result<> SqliteStore::keep(const LibraryFile& file, const ReadFile& read, const std::string& others) const {
-  const std::string rests_on = rests_on_text(read.rests_on);
+Result<> SqliteStore::keep(const LibraryFile& file, const ReadFile& read, const std::string& named,
+                           const std::string& others) const {
+  const std::string rests_on = rests_on_text(read.rests_on, named);
   if (const auto kept = database_.prepare("INSERT INTO files VALUES(?, ?, ?, ?)")
                             .bind(file.path)
                             .bind(file.module)
@@ -220,8 +221,6 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
   report.files = files.size();
   std::vector<std::string> names;
   for (const LibraryFile& each : files) names.push_back(each.path);
-  const FileHashes hashes = hashes_of(files, names);
-
   // What was read by another compiler, with other maps, or for another device, is read again.
   const bool is_of_this = fact("build") == compiler_build() && fact("device") == request.device;
   std::map<std::string, KnownFile> known;
@@ -229,13 +228,17 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
   while (all.step())
     known[std::string(all.text(0))] = {std::string(all.text(1)), std::string(all.text(2)), std::string(all.text(3))};
   if (const auto came = all.trouble(); !came) return came.error();
+  std::vector<const KnownFile*> known_of(files.size());
+  for (std::size_t i = 0; i < files.size() && is_of_this; ++i)
+    if (const auto found = known.find(files[i].path); found != known.end()) known_of[i] = &found->second;
+  const FileHashes hashes = hashes_of(files, names, [&](std::size_t which) { return known_of[which]; });
 
   HashesOnce hashes_once;
   std::vector<char> changed(files.size(), 1);
   in_parallel(files.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (const auto found = known.find(files[i].path); is_of_this && found != known.end())
-        changed[i] = !is_unchanged(found->second, files[i].module, files[i].path, hashes.each[i], hashes.all, hashes_once,
+      if (known_of[i])
+        changed[i] = !is_unchanged(*known_of[i], files[i].module, files[i].path, hashes.each[i], hashes.others, hashes_once,
                                    [](const std::string& path) { return path; });
   });
   std::set<std::string> paths;
@@ -259,7 +262,7 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
     std::size_t replaced = 0, count = 0;
     return read_library_files(files, to_read, request, false, tell, [&](std::size_t which, ReadFile read) -> Result<> {
       if (const auto forgotten = forget(files[which].path, replaced); !forgotten) return forgotten;
-      if (const auto kept = keep(files[which], read, hashes.all); !kept) return kept;
+      if (const auto kept = keep(files[which], read, hashes.named[which], hashes.others); !kept) return kept;
       report.read += read.entries.size();
       constexpr std::size_t files_at_once = 32;
       return ++count % files_at_once == 0 ? database_.execute("COMMIT; BEGIN IMMEDIATE") : Result<>();

@@ -125,6 +125,29 @@ TEST_F(Store, ReadsOnlyWhatChangesAndWhatRestsOnIt) {
   EXPECT_FALSE(meant_entry(store->index(), "mixed"));
 }
 
+TEST_F(Store, ReadsWhatNamesOthersAgainWhenNamesChange) {
+  write("shelf/alone.wale", "wale 1\n" + material("alone", 0.6, 2.5));
+  write("shelf/beside.wale", "wale 1\n" + material("beside", 0.5, 3));
+  write("shelf/names.wale", "wale 1\nmaterial soft_one = alone {\n  representative { title \"Soft\" }\n}\n");
+  updated();
+  EXPECT_EQ(report_.read, 3u);
+  // What a name means does not depend on how another material feels.
+  write("shelf/beside.wale", "wale 1\n" + material("beside", 0.7, 3));
+  updated();
+  EXPECT_EQ(report_.read, 1u) << "beside";
+  write("shelf/beside.wale", "wale 1\n" + material("beside_it", 0.7, 3));
+  updated();
+  EXPECT_EQ(report_.read, 2u) << "beside_it and soft_one: it might have been called `alone`";
+  write("shelf/another.wale", "wale 1\n" + material("another", 0.3, 2));
+  updated();
+  EXPECT_EQ(report_.read, 2u) << "another and soft_one";
+  fs::remove(folder_ / "shelf/another.wale");
+  updated();
+  EXPECT_EQ(report_.read, 1u) << "soft_one";
+  updated();
+  EXPECT_EQ(report_.read, 0u);
+}
+
 TEST_F(Store, AnswersAsAnIndexInMemoryDoes) {
   for (int i = 0; i < 12; ++i)
     write("shelf/m" + std::to_string(i) + ".wale",
