@@ -76,13 +76,15 @@ struct FinishedMaterial {
 };
 
 FinishedMaterial finish(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
-                        const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
+                        const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics,
+                        KeptReadings* kept = nullptr) {
   Diagnostics first = diagnostics;  // replaced if the material is solved again
   FinishedMaterial finished;
   const auto make = [&](Diagnostics& into, const BandShares& shares) {
     finished.solved = solve(material, module, device, sources, resolver, into, shares);
     finished.program = program_of(finished.solved, material, module, sources, into);
     finished.first = {};
+    finished.first.kept = kept;
   };
   make(first, {});
   BandShares shares;
@@ -256,7 +258,8 @@ std::optional<Program> compiled(const CheckedMaterial& checked, const CheckedMod
   diagnostics.renew_budget();
   diagnostics.allow_text(sources[source].text.size());
   const std::size_t said = diagnostics.all().size();
-  FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics);
+  FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics,
+                                     first ? first->kept : nullptr);
   if (first) *first = std::move(finished.first);
   const SolvedMaterial& solved = finished.solved;
   if (!finished.program || solved.device.shaker) {  // the latter has no force

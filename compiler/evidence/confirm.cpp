@@ -19,7 +19,7 @@ namespace {
 /// The relief of these carriers' forces together and without any other, as far as no device limits it. `transcript` is
 /// of the reading of the whole material: where no other force pushes a resting hand, that one is the same.
 Relief relief_of(const SolvedMaterial& solved, const std::vector<std::array<TermId, 2>>& forces,
-                 StaticTranscript& transcript) {
+                 StaticTranscript& transcript, KeptReadings* kept) {
   SolvedMaterial alone = solved;
   alone.force = forces.front();
   for (std::size_t i = 1; i < forces.size(); ++i)
@@ -33,7 +33,11 @@ Relief relief_of(const SolvedMaterial& solved, const std::vector<std::array<Term
   auto program = emit(lowered, alone, diagnostics);
   if (!program) return {};
   const auto loaded = Program::load(std::move(*program));
-  return loaded ? static_force(Bank(*loaded), &transcript).relief : Relief{};
+  if (!loaded) return {};
+  ReadFirst first;
+  first.kept = kept;
+  (void)read_relief(Bank(*loaded), first, transcript);
+  return first.still ? first.still->relief : Relief{};
 }
 
 void report_outside(const PerceptRecord& record, const OutsideRange& outside, Span place, Diagnostics& diagnostics) {
@@ -96,7 +100,7 @@ BandShares band_shares(const Bank& bank, ReadFirst& first, const SolvedMaterial&
   }
   BandShares shares;
   if (as_aimed) return shares;
-  const Relief relief = relief_of(solved, forces, transcript);
+  const Relief relief = relief_of(solved, forces, transcript, first.kept);
   if (!(relief.amplitude > 0)) return shares;
   for (const auto& [record, aimed] : textures) {
     const Percept banded{

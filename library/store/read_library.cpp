@@ -9,6 +9,7 @@
 
 #include "compiler/modules/library_index.hpp"
 #include "compiler/parse/parse.hpp"
+#include "compiler/read/kept_readings.hpp"
 #include "compiler/text/resolver.hpp"
 #include "library/index/content_hash.hpp"
 #include "library/licence/passing_on.hpp"
@@ -16,7 +17,7 @@
 
 namespace wale {
 
-ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, bool to_pass_on) {
+ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, bool to_pass_on, KeptReadings* kept) {
   ReadFile result;
   // Before it is read: what changes meanwhile is found changed the next time.
   result.rests_on.emplace_back(file.path, hash_of_file(file.path));
@@ -27,7 +28,7 @@ ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, 
   }
   FileRequest watched = request;
   watched.file = file.path;
-  auto read = read_entries(watched, file.module);
+  auto read = read_entries(watched, file.module, felt_of, kept);
   if (!read) {
     Entry& lost = result.entries.emplace_back();
     lost.name = file.module.substr(file.module.rfind('.') + 1), lost.module = file.module, lost.file = file.path;
@@ -45,13 +46,14 @@ ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, 
 Result<> read_library_files(const std::vector<LibraryFile>& files, const std::vector<std::size_t>& which,
                             const FileRequest& request, bool to_pass_on, const StoreProgress& tell,
                             const std::function<Result<>(std::size_t which, ReadFile read)>& keep) {
+  KeptReadings kept;
   std::atomic<std::size_t> next{0};
   std::size_t done = 0;
   std::mutex lock;
   std::optional<Error> trouble;
   in_parallel(which.size(), [&](std::size_t, std::size_t) {
     for (std::size_t i; (i = next.fetch_add(1)) < which.size();) {
-      ReadFile read = read_library_file(files[which[i]], request, to_pass_on);
+      ReadFile read = read_library_file(files[which[i]], request, to_pass_on, &kept);
       {
         const std::lock_guard guard(lock);
         if (trouble) return;

@@ -19,8 +19,9 @@ struct ReadFile {
 };
 
 /// Reads one file. One that cannot be read is an entry with its trouble. `to_pass_on` asks whether its imports may be
-/// passed on. Thread-safe.
-ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, bool to_pass_on = false);
+/// passed on; `kept` has what was measured of equal programs. Thread-safe.
+ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, bool to_pass_on = false,
+                           KeptReadings* kept = nullptr);
 
 /// Reads `files[i]` for each `i` of `which`, on all cores, and hands each to `keep`, one at a time, in any order. Ends at
 /// the first error of `keep`, which it returns, or with W0706 where `tell` ends it.
