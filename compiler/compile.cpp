@@ -76,27 +76,30 @@ struct FinishedMaterial {
 };
 
 FinishedMaterial finish(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
-                        const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
+                        const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics,
+                        KeptReadings* kept = nullptr) {
   Diagnostics first = diagnostics;  // replaced if the material is solved again
   FinishedMaterial finished;
   const auto make = [&](Diagnostics& into, const BandShares& shares) {
     finished.solved = solve(material, module, device, sources, resolver, into, shares);
     finished.program = program_of(finished.solved, material, module, sources, into);
-    if (!finished.program || std::ranges::none_of(finished.solved.percepts,
-                                                  [](const SolvedPercept& each) { return each.asked.has_value(); }))
-      return;
     finished.first = {};
-    finished.found = read_again(Bank(*finished.program), module.declarations(),
-                                parts_for(finished.program->description()), finished.first);
+    finished.first.kept = kept;
   };
   make(first, {});
   BandShares shares;
+  // What moving hands feel of a program that is made again need not be measured.
   if (finished.program)
-    shares = band_shares(Bank(*finished.program), finished.found, finished.solved, module.declarations());
+    shares = band_shares(Bank(*finished.program), finished.first, finished.solved, module.declarations());
   if (shares.empty())
     diagnostics = std::move(first);
   else
     make(diagnostics, shares);
+  const bool asks = std::ranges::any_of(finished.solved.percepts,
+                                        [](const SolvedPercept& each) { return each.asked.has_value(); });
+  if (finished.program && asks)
+    finished.found = read_again(Bank(*finished.program), module.declarations(),
+                                parts_for(finished.program->description()), finished.first);
   return finished;
 }
 
@@ -255,7 +258,8 @@ std::optional<Program> compiled(const CheckedMaterial& checked, const CheckedMod
   diagnostics.renew_budget();
   diagnostics.allow_text(sources[source].text.size());
   const std::size_t said = diagnostics.all().size();
-  FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics);
+  FinishedMaterial finished = finish(*material, module, device, sources, resolver, diagnostics,
+                                     first ? first->kept : nullptr);
   if (first) *first = std::move(finished.first);
   const SolvedMaterial& solved = finished.solved;
   if (!finished.program || solved.device.shaker) {  // the latter has no force

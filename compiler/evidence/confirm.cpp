@@ -16,8 +16,10 @@
 namespace wale {
 namespace {
 
-/// The relief of these carriers' forces together and without any other, as far as no device limits it.
-Relief relief_of(const SolvedMaterial& solved, const std::vector<std::array<TermId, 2>>& forces) {
+/// The relief of these carriers' forces together and without any other, as far as no device limits it. `transcript` is
+/// of the reading of the whole material: where no other force pushes a resting hand, that one is the same.
+Relief relief_of(const SolvedMaterial& solved, const std::vector<std::array<TermId, 2>>& forces,
+                 StaticTranscript& transcript, KeptReadings* kept) {
   SolvedMaterial alone = solved;
   alone.force = forces.front();
   for (std::size_t i = 1; i < forces.size(); ++i)
@@ -31,7 +33,11 @@ Relief relief_of(const SolvedMaterial& solved, const std::vector<std::array<Term
   auto program = emit(lowered, alone, diagnostics);
   if (!program) return {};
   const auto loaded = Program::load(std::move(*program));
-  return loaded ? static_force(Bank(*loaded)).relief : Relief{};
+  if (!loaded) return {};
+  ReadFirst first;
+  first.kept = kept;
+  (void)read_relief(Bank(*loaded), first, transcript);
+  return first.still ? first.still->relief : Relief{};
 }
 
 void report_outside(const PerceptRecord& record, const OutsideRange& outside, Span place, Diagnostics& diagnostics) {
@@ -69,7 +75,7 @@ void report_difference(const PerceptRecord& record, const PerceptReading& told, 
 
 }  // namespace
 
-BandShares band_shares(const Bank& bank, const ForceReading& found, const SolvedMaterial& solved,
+BandShares band_shares(const Bank& bank, ReadFirst& first, const SolvedMaterial& solved,
                        const Declarations& declarations) {
   struct Texture {
     const PerceptRecord* record = nullptr;
@@ -78,19 +84,23 @@ BandShares band_shares(const Bank& bank, const ForceReading& found, const Solved
   std::vector<Texture> textures;
   std::vector<std::array<TermId, 2>> forces;
   bool as_aimed = true;
+  StaticTranscript transcript;
+  std::optional<ForceReading> found;
   for (std::size_t i = 0; i < solved.percepts.size(); ++i) {
     const SolvedPercept& percept = solved.percepts[i];
     const PerceptRecord& record = percept.record;
     const bool is_solved = record.parameter || record.blended;
     if (!percept.asked || !is_solved || record.extractor != Extractor::lateral_force) continue;
     if (std::ranges::find(forces, percept.force) != forces.end()) continue;
-    const PerceptReading told = percept_reading(bank, i, found, declarations);
+    if (!found) found = read_relief(bank, first, transcript);
+    if (!found) found = read_again(bank, declarations, parts_for(bank.program().description()), first);
+    const PerceptReading told = percept_reading(bank, i, *found, declarations);
     as_aimed = as_aimed && told.size == told.aimed;
     textures.push_back({&record, told.aimed}), forces.push_back(percept.force);
   }
   BandShares shares;
   if (as_aimed) return shares;
-  const Relief relief = relief_of(solved, forces);
+  const Relief relief = relief_of(solved, forces, transcript, first.kept);
   if (!(relief.amplitude > 0)) return shares;
   for (const auto& [record, aimed] : textures) {
     const Percept banded{

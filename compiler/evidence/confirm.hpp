@@ -4,15 +4,16 @@
 
 #include "compiler/diagnostics/diagnostic.hpp"
 #include "compiler/evidence/percept_reading.hpp"
+#include "compiler/read/read_again.hpp"
 #include "compiler/solve/solve.hpp"
 
 namespace wale {
 
 /// What the solved textures of a finished program have, over the amplitudes of their forces: a relief may hold parts
 /// that count for another percept, and several reliefs add up. Empty where all are nearly 1: to 3 %, of an irregular
-/// relief to a tenth. `found` is the reading of the bank, whose program was solved without them. What counts for a
-/// percept only by less than a tenth has no share.
-BandShares band_shares(const Bank& bank, const ForceReading& found, const SolvedMaterial& solved,
+/// relief to a tenth. The bank's program was solved without them; `first` gets what is measured of it, which is what the
+/// shares need and no more. What counts for a percept only by less than a tenth has no share.
+BandShares band_shares(const Bank& bank, ReadFirst& first, const SolvedMaterial& solved,
                        const Declarations& declarations);
 
 /// Compares what a material asks for with what its finished program reads. Warns of levels that people would notice to

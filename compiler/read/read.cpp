@@ -14,6 +14,7 @@
 #include "compiler/prove/later_force.hpp"
 #include "compiler/read/breakaway.hpp"
 #include "compiler/read/dependence.hpp"
+#include "compiler/read/kept_readings.hpp"
 #include "compiler/read/room.hpp"
 #include "compiler/read/sharp_step.hpp"
 #include "compiler/read/slow_sway.hpp"
@@ -327,11 +328,16 @@ AtFirst only_at_first(const Bank& bank, const std::vector<std::vector<Force>>& f
   return off;
 }
 
+/// N: all that pushes, on a device that gives so much at most along each axis.
+double all_that_pushes(const StaticForce& still, double most) {
+  return std::min(still.largest, std::numbers::sqrt2 * most);
+}
+
 /// Makes a relief no larger than all that pushes, N, times a tolerance: beside a trend that is fitted awry, or that the
 /// device cuts, it may seem so.
 void limit_relief(StaticForce& still, double most, double times) {
   Relief& relief = still.relief;
-  const double largest = std::min(still.largest, std::numbers::sqrt2 * most);
+  const double largest = all_that_pushes(still, most);
   if (relief.amplitude <= times * largest) return;
   const double share = largest / relief.amplitude;
   // What fills less than a hundredth of the patch is in none of these, and keeps its maximum.
@@ -404,6 +410,9 @@ ForceReading read(const Bank& bank, const Declarations& declarations, ReadParts 
 
 ForceReading read_again(const Bank& bank, const Declarations&, ReadParts wanted, ReadFirst& first) {
   if (bank.program().description().vibrates()) return {};  // such a program has no force
+  const bool has_all = (first.still || !wanted.still) && (first.moving || !wanted.moving);
+  const std::string key = first.kept && !has_all ? KeptReadings::key_of(bank) : std::string();
+  if (!key.empty()) first.kept->complete(key, first);
   ForceReading found;
   const bool remembers = remembers_anything(bank.program().description());
   AtFirst at_first;
@@ -450,6 +459,7 @@ ForceReading read_again(const Bank& bank, const Declarations&, ReadParts wanted,
     first.moving = found, first.at_first = at_first;
     first.moving->still = {};
   }
+  if (!key.empty() && (reads_still || reads_moving)) first.kept->keep(key, first);
   if (!wanted.still) {
     tell_held_button(bank, found);
     return found;
@@ -477,6 +487,22 @@ ForceReading read_again(const Bank& bank, const Declarations&, ReadParts wanted,
     tell_directions_of_drag(found.directions, bank, found.opposing, &*found.wall);
   }
   if (wanted.moving) tell_force_on_moving(bank, found), tell_held_button(bank, found);
+  return found;
+}
+
+std::optional<ForceReading> read_relief(const Bank& bank, ReadFirst& first, StaticTranscript& transcript) {
+  ForceReading found;
+  if (bank.program().description().vibrates()) return found;
+  const std::string key = first.kept && !first.still ? KeptReadings::key_of(bank) : std::string();
+  if (!key.empty()) first.kept->complete(key, first);
+  if (!first.still) {
+    first.still = static_force(bank, &transcript);
+    if (!key.empty()) first.kept->keep(key, first);
+  }
+  found.still = *first.still;
+  // Of a relief that is larger it depends on all other forces how much counts.
+  if (found.relief().amplitude > all_that_pushes(found.still, bank.program().description().device.most()))
+    return std::nullopt;
   return found;
 }
 

@@ -91,8 +91,21 @@ struct StaticForce {
   Relief relief;
 };
 
-/// Runs the program at this bank's parameters, at as many places as its detail needs. Deterministic.
-StaticForce static_force(const Bank& bank);
+/// What a field of forces was asked when it was read, and what it told. The reading follows from the answers alone, so
+/// another field that gives the same ones reads the same, to the bit.
+struct StaticTranscript {
+  struct Question {
+    std::vector<glm::dvec2> places, forces;  ///< m, N
+  };
+  PatchSize size{};
+  std::vector<Question> questions;
+  std::optional<StaticForce> found;  ///< nothing if limits had a part in it
+};
+
+/// Runs the program at this bank's parameters, at as many places as its detail needs. Deterministic. An empty
+/// `transcript` is written; of one that is full, `found` is given back where this program answers all its questions as
+/// they were answered. An analysis takes several times as long as the answers.
+StaticForce static_force(const Bank& bank, StaticTranscript* transcript = nullptr);
 
 /// The same of the surface that the program shows, with heights in place of forces: in micrometres, or
 /// millionths of a plain number.

@@ -1,8 +1,10 @@
 #include "compiler/read/strokes.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <glm/common.hpp>
 #include <span>
+#include <utility>
 
 #include "compiler/measure/hands.hpp"
 #include "compiler/read/dependence.hpp"
@@ -159,62 +161,86 @@ std::vector<std::vector<Force>> felt_in_the_middles(const Bank& bank, const std:
   const double rate = bank.program().description().device.rate;
   const auto longest =
       static_cast<std::size_t>(std::max(at_least, std::ranges::max(strokes, {}, &Stroke::ticks).ticks()));
-  Bank own = bank;
-  Memory memory(own.program());
-  const bool timed = goes_by_time(bank.program().description());
-  std::vector<std::vector<Force>> felt(strokes.size());
+  // Strokes side by side share their middles.
+  std::vector<Hand> hands;
+  std::vector<std::size_t> hand_of(strokes.size());
   for (std::size_t i = 0; i < strokes.size(); ++i) {
-    if (i > 0 && strokes[i].middle == strokes[i - 1].middle) {
-      felt[i] = felt[i - 1];
-      continue;
+    if (i == 0 || strokes[i].middle != strokes[i - 1].middle) {
+      Hand& hand = hands.emplace_back();
+      hand.position = hand.workspace = glm::vec2(strokes[i].middle);
     }
-    Hand still;
-    still.position = still.workspace = glm::vec2(strokes[i].middle);
-    memory.enter(own, still);
-    for (std::size_t now = 0; now < longest; ++now) {
-      still.time = static_cast<double>(now) / rate;
-      felt[i].push_back(tick(own, memory, still));
-      if (timed || now + 1 != some || std::ranges::any_of(felt[i], [&](Force each) { return each != felt[i].back(); })) continue;
-      felt[i].resize(1);
-      break;
-    }
+    hand_of[i] = hands.size() - 1;
   }
-  return felt;
+  const bool timed = goes_by_time(bank.program().description());
+  std::vector<std::vector<Force>> felt(hands.size());
+  std::vector<char> is_even(hands.size());
+  std::vector<Force> forces(hands.size());
+  Batch batch(bank, hands.size());
+  batch.enter(hands);
+  for (std::size_t now = 0; now < longest; ++now) {
+    for (Hand& hand : hands) hand.time = static_cast<double>(now) / rate;
+    batch.tick(hands, forces);
+    for (std::size_t i = 0; i < hands.size(); ++i)
+      if (!is_even[i]) felt[i].push_back(forces[i]);
+    if (timed || now + 1 != some) continue;
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+      is_even[i] = std::ranges::all_of(felt[i], [&](Force each) { return each == felt[i].back(); });
+      if (is_even[i]) felt[i].resize(1);
+    }
+    if (std::ranges::all_of(is_even, [](char each) { return each != 0; })) break;
+  }
+  std::vector<std::vector<Force>> of_strokes;
+  for (const std::size_t hand : hand_of) of_strokes.push_back(felt[hand]);
+  return of_strokes;
 }
 
-/// The same for a program that remembers in states only, tick by tick. The hands run one after another: there are too
-/// few to fill the lanes of a block.
-std::vector<glm::dvec2> opposed_one_by_one(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside,
-                                           double seconds) {
+/// The same for a program that remembers in states only, tick by tick, with all hands side by side.
+std::vector<glm::dvec2> opposed_side_by_side(const Bank& bank, const std::vector<Stroke>& strokes,
+                                             const Outside& outside, double seconds) {
   const double rate = bank.program().description().device.rate;
   const auto at_least = static_cast<long>(seconds * rate);
-  Bank own = bank;
-  Memory memory(own.program());
   const std::vector<std::vector<Force>> resting = felt_in_the_middles(bank, strokes, at_least);
-  std::vector<glm::dvec2> means(strokes.size());
-  for (std::size_t i = 0; i < strokes.size(); ++i) {
-    const Stroke& stroke = strokes[i];
-    glm::dvec2 sum{0};
-    long count = 0;
-    for (long now = 0; now < std::max(at_least, stroke.ticks()); ++now) {
-      const auto [along, forth] = stroke.at(now, rate);
-      Hand hand = stroke.hand(along, forth);
-      hand.time = static_cast<double>(now) / rate;
-      if (now == 0) memory.enter(own, hand);
-      const Force force = tick(own, memory, hand) - resting[i][std::min<std::size_t>(now, resting[i].size() - 1)];
-      if (now < stroke.pass / 2 || !stroke.counts_at(along) || !outside.at(glm::dvec2(hand.position))) continue;
-      sum -= (forth ? 1.0 : -1.0) * glm::dvec2(force);
-      ++count;
+  const auto ends = [&](const Stroke& stroke) { return std::max(at_least, stroke.ticks()); };
+  // The longest first, so that those that go on are the first lanes.
+  std::vector<std::size_t> order(strokes.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return ends(strokes[i]); });
+  std::vector<Hand> hands(strokes.size());
+  std::vector<Force> forces(strokes.size());
+  std::vector<glm::dvec2> sums(strokes.size());
+  std::vector<long> counts(strokes.size());
+  std::vector<std::pair<double, bool>> at(strokes.size());
+  Batch batch(bank, strokes.size());
+  std::size_t going = strokes.size();
+  for (long now = 0;; ++now) {
+    while (going > 0 && now >= ends(strokes[order[going - 1]])) --going;
+    if (going == 0) break;
+    for (std::size_t lane = 0; lane < going; ++lane) {
+      const Stroke& stroke = strokes[order[lane]];
+      at[lane] = stroke.at(now, rate);
+      hands[lane] = stroke.hand(at[lane].first, at[lane].second);
+      hands[lane].time = static_cast<double>(now) / rate;
     }
-    means[i] = sum / static_cast<double>(std::max(1L, count));
+    if (now == 0) batch.enter(hands);
+    batch.tick(std::span(hands).first(going), std::span(forces).first(going));
+    for (std::size_t lane = 0; lane < going; ++lane) {
+      const std::size_t i = order[lane];
+      const auto [along, forth] = at[lane];
+      if (now < strokes[i].pass / 2 || !strokes[i].counts_at(along) || !outside.at(glm::dvec2(hands[lane].position)))
+        continue;
+      const Force force = forces[lane] - resting[i][std::min<std::size_t>(now, resting[i].size() - 1)];
+      sums[i] -= (forth ? 1.0 : -1.0) * glm::dvec2(force);
+      ++counts[i];
+    }
   }
-  return means;
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= static_cast<double>(std::max(1L, counts[i]));
+  return sums;
 }
 
 /// The same for any program; memories stay as they are at the start.
 std::vector<glm::dvec2> opposed_on_the_way(const Bank& bank, const std::vector<Stroke>& strokes, const Outside& outside,
                                            double seconds) {
-  if (bank.program().description().grids.empty()) return opposed_one_by_one(bank, strokes, outside, seconds);
+  if (bank.program().description().grids.empty()) return opposed_side_by_side(bank, strokes, outside, seconds);
   const double rate = bank.program().description().device.rate;
   const long longest = std::ranges::max(strokes, {}, &Stroke::ticks).ticks();
   std::vector<glm::dvec2> sums(strokes.size());

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "compiler/text/source.hpp"
 #include "schema/regular_file.hpp"
@@ -91,7 +92,10 @@ class FileResolver final : public Resolver {
   }
 
   Result<ResolvedFile> listed_module(const std::string& path, const std::string& from) override {
+    // A listing is no question about one file: what it says is asked for again where it is used.
+    std::vector<std::string>* const told = std::exchange(looked_for_, nullptr);
     const auto found = look_for(file_of(path), from);
+    looked_for_ = told;
     if (!found) return found.error();
     return read_file(*found, largest_source);
   }

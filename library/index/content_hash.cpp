@@ -1,10 +1,10 @@
 #include "library/index/content_hash.hpp"
 
-#include <fmt/format.h>
 #include <nettle/sha2.h>
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace wale {
 
@@ -28,8 +28,9 @@ ContentHash& ContentHash::take(std::span<const std::byte> bytes) {
 std::string ContentHash::digits() {
   std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest;
   sha256_digest(&state_->context, digest.size(), digest.data());
+  constexpr std::string_view hexadecimal = "0123456789abcdef";
   std::string text;
-  for (const std::uint8_t byte : digest) text += fmt::format("{:02x}", byte);
+  for (const std::uint8_t byte : digest) text += hexadecimal[byte >> 4], text += hexadecimal[byte & 15];
   return text;
 }
 

@@ -104,10 +104,11 @@ EntryFeel felt_again(const Program& program, const Declarations& declarations, R
 }
 
 /// Builds one material and reads it.
-void compile_entry(Entry& entry, FileEntries& read, const FileRequest& request, const Feel& feel) {
+void compile_entry(Entry& entry, FileEntries& read, const FileRequest& request, const Feel& feel, KeptReadings* kept) {
   Diagnostics diagnostics;
   const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
   ReadFirst first;
+  first.kept = kept;
   const auto program = compile_to_read(*read.opened.module, entry.name, request.device, read.opened.sources,
                                        read.opened.source, *resolver, diagnostics, first);
   for (const Diagnostic& each : diagnostics.all()) read.opened.diagnostics.report(each);
@@ -157,7 +158,8 @@ Entry entry_of(const IndexedMaterial& material) {
   return entry;
 }
 
-Result<FileEntries> read_entries(const FileRequest& request, const std::string& module, const Feel& feel) {
+Result<FileEntries> read_entries(const FileRequest& request, const std::string& module, const Feel& feel,
+                                 KeptReadings* kept) {
   FileEntries read;
   FileRequest watched = request;
   watched.looked_for = &read.looked_for;
@@ -183,7 +185,7 @@ Result<FileEntries> read_entries(const FileRequest& request, const std::string& 
     entry.device = request.device;
     if (entry.licence.empty()) entry.licence = licence;
     if (!read.opened.diagnostics.has_errors()) {
-      compile_entry(entry, read, watched, feel);
+      compile_entry(entry, read, watched, feel, kept);
       continue;
     }
     entry.trouble = first_error(read.opened.diagnostics);

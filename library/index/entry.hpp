@@ -99,6 +99,8 @@ EntryFeel felt_of(const Program& program, const Declarations& declarations);
 /// What the text of a material says; nothing is compiled, so device, percepts, program and content are empty.
 Entry entry_of(const IndexedMaterial& material);
 
+class KeptReadings;
+
 /// The entries of one file.
 struct FileEntries {
   std::vector<Entry> entries;   ///< of each material that its text declares, in the order written
@@ -112,7 +114,9 @@ struct FileEntries {
 
 /// Compiles and reads all materials of the Wale file `request.file`, for `request.device`. `module` is the name by which
 /// imports find it, "fabric.denim". A material with an error has an entry too, which says so. Errors: those of
-/// `open_file`, and W0506 for a patch program. Thread-safe.
-Result<FileEntries> read_entries(const FileRequest& request, const std::string& module, const Feel& feel = felt_of);
+/// `open_file`, and W0506 for a patch program. What was measured of equal programs is taken from `kept`, if it is not null.
+/// Thread-safe.
+Result<FileEntries> read_entries(const FileRequest& request, const std::string& module, const Feel& feel = felt_of,
+                                 KeptReadings* kept = nullptr);
 
 }  // namespace wale

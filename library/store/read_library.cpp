@@ -7,6 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "compiler/modules/library_index.hpp"
+#include "compiler/parse/parse.hpp"
+#include "compiler/read/kept_readings.hpp"
 #include "compiler/text/resolver.hpp"
 #include "library/index/content_hash.hpp"
 #include "library/licence/passing_on.hpp"
@@ -14,7 +17,7 @@
 
 namespace wale {
 
-ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, bool to_pass_on) {
+ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, bool to_pass_on, KeptReadings* kept) {
   ReadFile result;
   // Before it is read: what changes meanwhile is found changed the next time.
   result.rests_on.emplace_back(file.path, hash_of_file(file.path));
@@ -25,7 +28,7 @@ ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, 
   }
   FileRequest watched = request;
   watched.file = file.path;
-  auto read = read_entries(watched, file.module);
+  auto read = read_entries(watched, file.module, felt_of, kept);
   if (!read) {
     Entry& lost = result.entries.emplace_back();
     lost.name = file.module.substr(file.module.rfind('.') + 1), lost.module = file.module, lost.file = file.path;
@@ -43,13 +46,14 @@ ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, 
 Result<> read_library_files(const std::vector<LibraryFile>& files, const std::vector<std::size_t>& which,
                             const FileRequest& request, bool to_pass_on, const StoreProgress& tell,
                             const std::function<Result<>(std::size_t which, ReadFile read)>& keep) {
+  KeptReadings kept;
   std::atomic<std::size_t> next{0};
   std::size_t done = 0;
   std::mutex lock;
   std::optional<Error> trouble;
   in_parallel(which.size(), [&](std::size_t, std::size_t) {
     for (std::size_t i; (i = next.fetch_add(1)) < which.size();) {
-      ReadFile read = read_library_file(files[which[i]], request, to_pass_on);
+      ReadFile read = read_library_file(files[which[i]], request, to_pass_on, &kept);
       {
         const std::lock_guard guard(lock);
         if (trouble) return;
@@ -67,14 +71,62 @@ Result<> read_library_files(const std::vector<LibraryFile>& files, const std::ve
   return trouble ? Result<>(*std::move(trouble)) : Result<>();
 }
 
-FileHashes hashes_of(const std::vector<LibraryFile>& files, const std::vector<std::string>& names) {
-  FileHashes hashes{std::vector<std::string>(files.size()), {}};
+namespace {
+
+constexpr std::size_t digits_of_a_hash = 64;
+
+/// The hash of a file's bytes, and of all by which its materials and its other exports are named.
+std::string named_in(const LibraryFile& file) {
+  const auto found = read_file(file.path, largest_source);
+  if (!found) return {};  // if it is in this binary, it changes with the build alone
+  ContentHash bytes, named;
+  bytes.take(found->bytes);
+  SourceSet sources;
+  Diagnostics ignored;
+  LibraryIndex index;
+  index.add(file.module, file.path, parse(sources, sources.add(file.path, found->bytes), ignored));
+  for (const IndexedMaterial& each : index.materials()) {
+    named.take(each.module).take(each.name).take(each.title).take(each.kind);
+    named.take("replaces");
+    for (const std::string& text : each.replaces) named.take(text);
+    named.take("called");
+    for (const std::string& text : each.called) named.take(text);
+    for (const auto& [language, called] : each.called_in) {
+      named.take(language);
+      for (const std::string& text : called) named.take(text);
+    }
+  }
+  // A name that no material has is told with what else has it.
+  for (const ExportedName& each : index.exports()) named.take(each.what).take(each.name);
+  return bytes.digits() + named.digits();
+}
+
+/// What an index noted of a file's names, if its bytes are as they were; otherwise empty.
+std::string_view noted_names(const KnownFile* known, const LibraryFile& file, const std::string& hash) {
+  constexpr std::string_view before = "[\"";
+  if (!known || known->module != file.module || hash.size() != digits_of_a_hash) return {};
+  std::string_view text = known->rests_on;
+  if (!text.starts_with(before)) return {};
+  text = text.substr(before.size(), 2 * digits_of_a_hash);
+  return text.size() == 2 * digits_of_a_hash && text.starts_with(hash) ? text : std::string_view();
+}
+
+}  // namespace
+
+FileHashes hashes_of(const std::vector<LibraryFile>& files, const std::vector<std::string>& names,
+                     const std::function<const KnownFile*(std::size_t which)>& known) {
+  FileHashes hashes{std::vector<std::string>(files.size()), std::vector<std::string>(files.size()), {}};
   in_parallel(files.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) hashes.each[i] = hash_of_file(files[i].path);
+    for (std::size_t i = begin; i < end; ++i) {
+      hashes.each[i] = hash_of_file(files[i].path);
+      hashes.named[i] = noted_names(known(i), files[i], hashes.each[i]);
+      if (hashes.named[i].empty()) hashes.named[i] = named_in(files[i]);
+    }
   });
   ContentHash hash;
-  for (std::size_t i = 0; i < files.size(); ++i) hash.take(names[i]).take(hashes.each[i]);
-  hashes.all = hash.digits();
+  for (std::size_t i = 0; i < files.size(); ++i)
+    hash.take(names[i]).take(std::string_view(hashes.named[i]).substr(std::min(digits_of_a_hash, hashes.named[i].size())));
+  hashes.others = hash.digits();
   return hashes;
 }
 
@@ -88,9 +140,11 @@ std::string HashesOnce::of(const std::string& path) {
   return known_.try_emplace(path, std::move(hash)).first->second;
 }
 
-std::string rests_on_text(const std::vector<std::pair<std::string, std::string>>& rests_on) {
+std::string rests_on_text(const std::vector<std::pair<std::string, std::string>>& rests_on, const std::string& named) {
   using Json = nlohmann::json;
-  return Json(rests_on).dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json all = Json::array({named});
+  for (const auto& [path, hash] : rests_on) all.push_back(Json::array({path, hash}));
+  return all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 bool is_unchanged(const KnownFile& known, const std::string& module, const std::string& name, const std::string& hash,
@@ -98,8 +152,8 @@ bool is_unchanged(const KnownFile& known, const std::string& module, const std::
                   const std::function<std::string(const std::string& name)>& path_of) {
   if (known.module != module || (!known.others.empty() && known.others != others)) return false;
   const auto rests_on = nlohmann::json::parse(known.rests_on, nullptr, false);
-  if (!rests_on.is_array()) return false;
-  return std::ranges::all_of(rests_on, [&](const nlohmann::json& each) {
+  if (!rests_on.is_array() || rests_on.size() < 2 || !rests_on[0].is_string()) return false;
+  return std::all_of(rests_on.begin() + 1, rests_on.end(), [&](const nlohmann::json& each) {
     if (!each.is_array() || each.size() != 2 || !each[0].is_string() || !each[1].is_string()) return false;
     const auto& path = each[0].get_ref<const std::string&>();
     return (path == name ? hash : hashes.of(path_of(path))) == each[1].get_ref<const std::string&>();

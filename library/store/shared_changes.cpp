@@ -160,7 +160,8 @@ Result<std::vector<SharedFile>> shared_files(const std::vector<LibraryFile>& fil
   return all;
 }
 
-std::string shared_rests_on(const SharedFile& file, const std::vector<std::pair<std::string, std::string>>& rests_on) {
+std::string shared_rests_on(const SharedFile& file, const std::vector<std::pair<std::string, std::string>>& rests_on,
+                            const std::string& named) {
   std::vector<std::pair<std::string, std::string>> shared;
   for (const auto& [path, hash] : rests_on) {
     if (std::string way = way_from(file.root, path); !way.empty())
@@ -168,7 +169,7 @@ std::string shared_rests_on(const SharedFile& file, const std::vector<std::pair<
     else if (!hash.empty())
       return {};
   }
-  return rests_on_text(shared);
+  return rests_on_text(shared, named);
 }
 
 Result<> put_into_shared(const SharedDatabase& database, const std::vector<SharedChange>& changes,

@@ -29,7 +29,8 @@ Result<std::vector<SharedFile>> shared_files(const std::vector<LibraryFile>& fil
 
 /// What a file rests on, by ways from its library's folder. Empty if it rests on a file outside, which nobody else has: such
 /// a file is read anew each time. No path of this machine is in it.
-std::string shared_rests_on(const SharedFile& file, const std::vector<std::pair<std::string, std::string>>& rests_on);
+std::string shared_rests_on(const SharedFile& file, const std::vector<std::pair<std::string, std::string>>& rests_on,
+                            const std::string& named);
 
 /// New contents of a file: all its materials.
 struct SharedChange {

@@ -193,7 +193,6 @@ Result<StoreReport> SharedStore::bring_up_to_date(const std::vector<LibraryFile>
   std::vector<std::string> names, keys;
   for (const SharedFile& each : *places)
     shelves.insert(each.shelf), names.push_back(each.path()), keys.push_back(each.key());
-  const FileHashes hashes = hashes_of(files, names);
 
   if (const auto ended = database_.run("COMMIT"); !ended) return ended.error();  // of what was looked at
   const auto all = database_.ask(
@@ -210,13 +209,17 @@ Result<StoreReport> SharedStore::bring_up_to_date(const std::vector<LibraryFile>
                                              std::string(all->text(i, 3))};
   }
   for (const std::string& key : keys) gone.erase(key);
+  std::vector<const KnownFile*> known_of(files.size());
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (const auto found = known.find(keys[i]); found != known.end()) known_of[i] = &found->second;
+  const FileHashes hashes = hashes_of(files, names, [&](std::size_t which) { return known_of[which]; });
   HashesOnce hashes_once;
   std::vector<char> changed(files.size(), 1);
   in_parallel(files.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const SharedFile& place = (*places)[i];
-      if (const auto found = known.find(keys[i]); found != known.end())
-        changed[i] = !is_unchanged(found->second, files[i].module, place.way, hashes.each[i], hashes.all, hashes_once,
+      if (known_of[i])
+        changed[i] = !is_unchanged(*known_of[i], files[i].module, place.way, hashes.each[i], hashes.others, hashes_once,
                                    [&](const std::string& way) { return (std::filesystem::path(place.root) / way).string(); });
     }
   });
@@ -231,8 +234,8 @@ Result<StoreReport> SharedStore::bring_up_to_date(const std::vector<LibraryFile>
     return done;
   };
   const auto read = read_library_files(files, to_read, request, true, tell, [&](std::size_t which, ReadFile each) -> Result<> {
-    SharedChange change{(*places)[which], {files[which].module, shared_rests_on((*places)[which], each.rests_on),
-                                           each.uses_names ? hashes.all : std::string()}, {}};
+    SharedChange change{(*places)[which], {files[which].module, shared_rests_on((*places)[which], each.rests_on, hashes.named[which]),
+                                           each.uses_names ? hashes.others : std::string()}, {}};
     report.read += each.entries.size();
     for (Entry& entry : each.entries) {
       const bool is_unread = entry.content.empty();  // its file is no text, which states no licence

@@ -98,8 +98,10 @@ class SqliteStore final : public LibraryStore, MaterialIndex, WordTable {
   std::string columns_path() const { return database_.path() + ".felt"; }
   std::uint64_t generation() const { return std::strtoull(fact("generation").c_str(), nullptr, 10); }
   Result<> read_columns();
-  Result<> forget(const std::string& path, std::size_t& materials) const;
-  Result<> keep(const LibraryFile& file, const ReadFile& read, const std::string& others) const;
+  Result<> add_rows(FeltColumnsBuilder& builder, std::int64_t behind) const;
+  Result<> finish_columns(FeltColumnsBuilder& builder, std::uint64_t generation);
+  Result<> forget(const std::string& path, std::size_t& materials, std::set<std::uint32_t>& gone) const;
+  Result<> keep(const LibraryFile& file, const ReadFile& read, const std::string& named, const std::string& others) const;
 
   Database database_;
   FeltColumns columns_;
@@ -117,14 +119,24 @@ Result<> SqliteStore::read_columns() {
     return {};
   }
   FeltColumnsBuilder builder;
-  auto all = database_.prepare("SELECT id, entry FROM materials ORDER BY id");
+  if (const auto added = add_rows(builder, 0); !added) return added;
+  return finish_columns(builder, now);
+}
+
+/// Adds the materials with numbers behind this one.
+Result<> SqliteStore::add_rows(FeltColumnsBuilder& builder, std::int64_t behind) const {
+  auto all = database_.prepare("SELECT id, entry FROM materials WHERE id > ? ORDER BY id");
+  all.bind(behind);
   while (all.step()) {
     const auto entry = entry_of_text(all.text(1));
     if (!entry) return entry.error();
     builder.add(felt_row(*entry, static_cast<std::uint32_t>(all.number(0))));
   }
-  if (const auto came = all.trouble(); !came) return came;
-  columns_ = builder.finish(now);
+  return all.trouble();
+}
+
+Result<> SqliteStore::finish_columns(FeltColumnsBuilder& builder, std::uint64_t generation) {
+  columns_ = builder.finish(generation);
   (void)columns_.write(columns_path());  // where it cannot be written, it is made again each time
   return {};
 }
@@ -164,11 +176,11 @@ Result<> SqliteStore::each_hit(const std::string& beginning, const Visit& visit)
   return asked.trouble();
 }
 
-Result<> SqliteStore::forget(const std::string& path, std::size_t& materials) const {
+Result<> SqliteStore::forget(const std::string& path, std::size_t& materials, std::set<std::uint32_t>& gone) const {
   auto asked = database_.prepare("SELECT id FROM materials WHERE path = ?");
   asked.bind(path);
   std::vector<std::int64_t> ids;
-  while (asked.step()) ids.push_back(asked.number(0));
+  while (asked.step()) ids.push_back(asked.number(0)), gone.insert(static_cast<std::uint32_t>(ids.back()));
   materials += ids.size();
   for (const char* sql : {"DELETE FROM words WHERE material = ?", "DELETE FROM meant WHERE material = ?",
                           "DELETE FROM materials WHERE id = ?"})
@@ -177,8 +189,9 @@ Result<> SqliteStore::forget(const std::string& path, std::size_t& materials) co
   return database_.prepare("DELETE FROM files WHERE path = ?").bind(path).run();
 }
 
-Result<> SqliteStore::keep(const LibraryFile& file, const ReadFile& read, const std::string& others) const {
-  const std::string rests_on = rests_on_text(read.rests_on);
+Result<> SqliteStore::keep(const LibraryFile& file, const ReadFile& read, const std::string& named,
+                           const std::string& others) const {
+  const std::string rests_on = rests_on_text(read.rests_on, named);
   if (const auto kept = database_.prepare("INSERT INTO files VALUES(?, ?, ?, ?)")
                             .bind(file.path)
                             .bind(file.module)
@@ -220,8 +233,6 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
   report.files = files.size();
   std::vector<std::string> names;
   for (const LibraryFile& each : files) names.push_back(each.path);
-  const FileHashes hashes = hashes_of(files, names);
-
   // What was read by another compiler, with other maps, or for another device, is read again.
   const bool is_of_this = fact("build") == compiler_build() && fact("device") == request.device;
   std::map<std::string, KnownFile> known;
@@ -229,13 +240,17 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
   while (all.step())
     known[std::string(all.text(0))] = {std::string(all.text(1)), std::string(all.text(2)), std::string(all.text(3))};
   if (const auto came = all.trouble(); !came) return came.error();
+  std::vector<const KnownFile*> known_of(files.size());
+  for (std::size_t i = 0; i < files.size() && is_of_this; ++i)
+    if (const auto found = known.find(files[i].path); found != known.end()) known_of[i] = &found->second;
+  const FileHashes hashes = hashes_of(files, names, [&](std::size_t which) { return known_of[which]; });
 
   HashesOnce hashes_once;
   std::vector<char> changed(files.size(), 1);
   in_parallel(files.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (const auto found = known.find(files[i].path); is_of_this && found != known.end())
-        changed[i] = !is_unchanged(found->second, files[i].module, files[i].path, hashes.each[i], hashes.all, hashes_once,
+      if (known_of[i])
+        changed[i] = !is_unchanged(*known_of[i], files[i].module, files[i].path, hashes.each[i], hashes.others, hashes_once,
                                    [](const std::string& path) { return path; });
   });
   std::set<std::string> paths;
@@ -248,18 +263,23 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
   for (const auto& [path, each] : known)
     if (!paths.contains(path)) gone.push_back(path);
 
+  // A number is given once, so new materials stand behind all that the columns have.
+  std::set<std::uint32_t> gone_rows;
+  std::uint64_t before = 0;
+  std::int64_t last_before = 0;
   const auto update = [&]() -> Result<> {
+    before = generation(), last_before = database_.number("SELECT coalesce(max(id), 0) FROM materials");
     if (const auto set = set_fact("generation", std::to_string(generation() + 1)); !set) return set;
     if (const auto set = set_fact("build", compiler_build()); !set) return set;
     if (const auto set = set_fact("device", request.device); !set) return set;
     for (const std::string& path : gone)
-      if (const auto forgotten = forget(path, report.gone); !forgotten) return forgotten;
+      if (const auto forgotten = forget(path, report.gone, gone_rows); !forgotten) return forgotten;
     if (!is_of_this)  // those that are read below are known to be old if this is broken off
       if (const auto old = database_.execute("UPDATE files SET rests_on = '', others = ''"); !old) return old;
     std::size_t replaced = 0, count = 0;
     return read_library_files(files, to_read, request, false, tell, [&](std::size_t which, ReadFile read) -> Result<> {
-      if (const auto forgotten = forget(files[which].path, replaced); !forgotten) return forgotten;
-      if (const auto kept = keep(files[which], read, hashes.all); !kept) return kept;
+      if (const auto forgotten = forget(files[which].path, replaced, gone_rows); !forgotten) return forgotten;
+      if (const auto kept = keep(files[which], read, hashes.named[which], hashes.others); !kept) return kept;
       report.read += read.entries.size();
       constexpr std::size_t files_at_once = 32;
       return ++count % files_at_once == 0 ? database_.execute("COMMIT; BEGIN IMMEDIATE") : Result<>();
@@ -273,6 +293,15 @@ Result<StoreReport> SqliteStore::bring_up_to_date(const std::vector<LibraryFile>
       return updated.error();
     }
     if (const auto committed = database_.execute("COMMIT"); !committed) return committed.error();
+    // Unless another process changed it too.
+    if (const std::uint64_t now = generation(); columns_.generation() == before && now == before + 1) {
+      FeltColumnsBuilder builder;
+      const auto numbers = builder.numbers_for(columns_);
+      for (std::size_t row = 0; row < columns_.size(); ++row)
+        if (!gone_rows.contains(columns_.material(row))) builder.add(columns_, row, numbers);
+      if (const auto added = add_rows(builder, last_before); !added) return added.error();
+      if (const auto finished = finish_columns(builder, now); !finished) return finished.error();
+    }
   }
   if (const auto read = read_columns(); !read) return read.error();
   report.materials = columns_.size();

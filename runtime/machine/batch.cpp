@@ -57,7 +57,7 @@ class Runner {
     place(hands);
     {
       const FloatingPointMode mode;
-      enter_block(program_, block_, shared_.registers.data());
+      enter_block(program_, block_, shared_.registers.data(), hands.size());
     }
     for (std::size_t i = 0; i < description.states.size(); ++i) {
       std::copy_n(state_row(i), lanes, states.now(i));
@@ -71,7 +71,7 @@ class Runner {
     for (std::size_t i = 0; i < program_.state_rules.size(); ++i) std::copy_n(states.now(i), lanes, state_row(i));
     {
       const FloatingPointMode mode;
-      block_.run(program_.tick.code(), registers, shared_.cells.data());
+      block_.run(program_.tick.code(), registers, shared_.cells.data(), hands.size());
       remember(states);
     }
     block_.pairs(block_operand(program_.first_state, program_.force_x),
@@ -148,6 +148,8 @@ void Batch::enter(std::span<const Hand> hands) {
 void Batch::tick(std::span<const Hand> hands, std::span<Force> forces) {
   if (!parts_) return;
   parts_->for_each_block([&](BlockStates& states, std::size_t first, std::size_t count) {
+    if (first >= hands.size()) return;
+    count = std::min(count, hands.size() - first);
     parts_->runner.tick(hands.subspan(first, count), forces.subspan(first, count), states);
   });
 }

@@ -1,5 +1,6 @@
 #include "runtime/machine/block_code.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "runtime/machine/held_state.hpp"
@@ -24,12 +25,17 @@ float lane_of(const float* operand, std::size_t lane, float shared) {
   }
 }
 
+/// Tells the compiler that no lanes are left behind the last vector.
+constexpr std::size_t whole_groups(std::size_t count) { return count / lanes_at_once * lanes_at_once; }
+
 /// One operation over a block, for one choice of uniform operands.
 template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
-[[gnu::always_inline]] inline void apply(float* destination, const float* as, const float* bs, const float* cs) {
+[[gnu::always_inline]] inline void apply(float* destination, const float* as, const float* bs, const float* cs,
+                                         std::size_t count) {
+  const std::size_t end = whole_groups(count);
   const float shared_a = *as, shared_b = *bs, shared_c = *cs;
   WALE_LANES_ARE_INDEPENDENT
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < end; ++lane) {
     destination[lane] =
         Meaning<operation>::of(lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b),
                                lane_of<uniform_c>(cs, lane, shared_c));
@@ -37,8 +43,9 @@ template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
 }
 
 template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
-void narrow_kernel(float* destination, const float* as, const float* bs, const float* cs, const Lookup&, const float*) {
-  apply<operation, uniform_a, uniform_b, uniform_c>(destination, as, bs, cs);
+void narrow_kernel(float* destination, const float* as, const float* bs, const float* cs, const Lookup&, const float*,
+                   std::size_t count) {
+  apply<operation, uniform_a, uniform_b, uniform_c>(destination, as, bs, cs, count);
 }
 
 #if defined(__x86_64__)
@@ -50,8 +57,8 @@ bool has_wide_vectors() {
 /// The same in vectors of eight floats.
 template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
 [[gnu::target("avx2")]] void wide_kernel(float* destination, const float* as, const float* bs, const float* cs,
-                                         const Lookup&, const float*) {
-  apply<operation, uniform_a, uniform_b, uniform_c>(destination, as, bs, cs);
+                                         const Lookup&, const float*, std::size_t count) {
+  apply<operation, uniform_a, uniform_b, uniform_c>(destination, as, bs, cs, count);
 }
 #else
 constexpr bool has_wide_vectors() { return false; }
@@ -70,14 +77,15 @@ Kernel kernel([[maybe_unused]] bool wide) {
 
 template <bool uniform_a, bool uniform_b>
 [[gnu::always_inline]] inline void look_up_spline(float* destination, const float* as, const float* bs,
-                                                  const Spline& spline) {
+                                                  const Spline& spline, std::size_t count) {
+  const std::size_t end = whole_groups(count);
   const float shared_a = *as, shared_b = *bs;
   std::int32_t corner[lanes];
   float along_a[lanes], along_b[lanes], sign_a[lanes], sign_b[lanes];
   const float last_column = spline.last_column, last_row = spline.last_row;
   const std::uint32_t stride = spline.stride;
   WALE_LANES_ARE_INDEPENDENT
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < end; ++lane) {
     const MirroredCoordinate column = mirrored(lane_of<uniform_a>(as, lane, shared_a), last_column);
     const MirroredCoordinate row = mirrored(lane_of<uniform_b>(bs, lane, shared_b), last_row);
     corner[lane] = static_cast<std::int32_t>(row.cell * stride + column.cell);
@@ -94,11 +102,11 @@ template <bool uniform_a, bool uniform_b>
       const float* first = coefficients + (std::size_t{j} * stride + i);
       float* row = found[4 * j + i];
       WALE_LANES_ARE_INDEPENDENT
-      for (std::size_t lane = 0; lane < lanes; ++lane) row[lane] = first[corner[lane]];
+      for (std::size_t lane = 0; lane < end; ++lane) row[lane] = first[corner[lane]];
     }
   }
   WALE_LANES_ARE_INDEPENDENT
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < end; ++lane) {
     const SplineSample sample = sample_among([&](int j, int i) { return found[4 * j + i][lane]; },
                                              CubicWeights(along_a[lane]), CubicWeights(along_b[lane]));
     destination[lane] = sample.value;
@@ -109,11 +117,12 @@ template <bool uniform_a, bool uniform_b>
 
 template <bool uniform_a, bool uniform_b>
 [[gnu::always_inline]] inline void look_up_grid(float* destination, const float* as, const float* bs,
-                                                const GridShape& shape, const float* cells) {
+                                                const GridShape& shape, const float* cells, std::size_t count) {
+  const std::size_t end = whole_groups(count);
   const float shared_a = *as, shared_b = *bs;
   const GridShape grid = shape;
   WALE_LANES_ARE_INDEPENDENT
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < end; ++lane) {
     const GridSample sample =
         recall_of(grid, cells, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b));
     destination[lane] = sample.value;
@@ -124,11 +133,12 @@ template <bool uniform_a, bool uniform_b>
 
 template <bool uniform_a, bool uniform_b>
 [[gnu::always_inline]] inline void look_up_cell(float* destination, const float* as, const float* bs,
-                                                const GridShape& shape, const float* cells) {
+                                                const GridShape& shape, const float* cells, std::size_t count) {
+  const std::size_t end = whole_groups(count);
   const float shared_a = *as, shared_b = *bs;
   const GridShape grid = shape;
   WALE_LANES_ARE_INDEPENDENT
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < end; ++lane) {
     destination[lane] =
         cells[cell_at(grid, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b))];
   }
@@ -136,27 +146,27 @@ template <bool uniform_a, bool uniform_b>
 
 template <Operation operation, bool uniform_a, bool uniform_b>
 [[gnu::always_inline]] inline void look_up(float* destination, const float* as, const float* bs, const Lookup& lookup,
-                                           const float* cells) {
+                                           const float* cells, std::size_t count) {
   if constexpr (operation == Operation::sample) {
-    look_up_spline<uniform_a, uniform_b>(destination, as, bs, *lookup.spline);
+    look_up_spline<uniform_a, uniform_b>(destination, as, bs, *lookup.spline, count);
   } else if constexpr (operation == Operation::recall) {
-    look_up_grid<uniform_a, uniform_b>(destination, as, bs, *lookup.grid, cells);
+    look_up_grid<uniform_a, uniform_b>(destination, as, bs, *lookup.grid, cells, count);
   } else {
-    look_up_cell<uniform_a, uniform_b>(destination, as, bs, *lookup.grid, cells);
+    look_up_cell<uniform_a, uniform_b>(destination, as, bs, *lookup.grid, cells, count);
   }
 }
 
 template <Operation operation, bool uniform_a, bool uniform_b>
 void narrow_look_up(float* destination, const float* as, const float* bs, const float*, const Lookup& lookup,
-                    const float* cells) {
-  look_up<operation, uniform_a, uniform_b>(destination, as, bs, lookup, cells);
+                    const float* cells, std::size_t count) {
+  look_up<operation, uniform_a, uniform_b>(destination, as, bs, lookup, cells, count);
 }
 
 #if defined(__x86_64__)
 template <Operation operation, bool uniform_a, bool uniform_b>
 [[gnu::target("avx2")]] void wide_look_up(float* destination, const float* as, const float* bs, const float*,
-                                          const Lookup& lookup, const float* cells) {
-  look_up<operation, uniform_a, uniform_b>(destination, as, bs, lookup, cells);
+                                          const Lookup& lookup, const float* cells, std::size_t count) {
+  look_up<operation, uniform_a, uniform_b>(destination, as, bs, lookup, cells, count);
 }
 #endif
 
@@ -294,13 +304,14 @@ Block::Block(const PatchProgram& program)
 #if defined(__GNUC__)
 __attribute__((noinline))  // see FloatingPointMode
 #endif
-void Block::run(const BlockCode& code, const float* registers, const float* cells) {
+void Block::run(const BlockCode& code, const float* registers, const float* cells, std::size_t count) {
   float* rows = rows_.data();
+  const std::size_t run = std::min(lanes, (count + lanes_at_once - 1) / lanes_at_once * lanes_at_once);
   const auto place = [rows, registers](BlockOperand operand) {
     return operand.uniform ? registers + operand.index : rows + operand.index * row_stride;
   };
   for (const BlockInstruction& i : code) {
-    i.kernel(rows + i.destination * row_stride, place(i.a), place(i.b), place(i.c), i.lookup, cells);
+    i.kernel(rows + i.destination * row_stride, place(i.a), place(i.b), place(i.c), i.lookup, cells, run);
   }
 }
 

@@ -15,6 +15,8 @@ namespace wale {
 
 /// The number of lanes of a block, which run side by side.
 inline constexpr std::size_t lanes = 128;
+/// Lanes run in whole groups of so many, the widest vectors of any processor.
+inline constexpr std::size_t lanes_at_once = 16;
 /// Floats from one row of lanes to the next: the lanes and one more cache line, so that rows do not collide in the
 /// cache.
 inline constexpr std::size_t row_stride = lanes + 16;
@@ -25,10 +27,10 @@ struct Lookup {
   const GridShape* grid = nullptr;
 };
 
-/// Applies an operation to a block. Each operand is a row of lanes, or one float in the variants that take it as
-/// uniform. `cells` has the cells of all grids.
+/// Applies an operation to the first `count` lanes of a block, a multiple of `lanes_at_once`. Each operand is a row of
+/// lanes, or one float in the variants that take it as uniform. `cells` has the cells of all grids.
 using Kernel = void (*)(float* destination, const float* a, const float* b, const float* c, const Lookup& lookup,
-                        const float* cells);
+                        const float* cells, std::size_t count);
 
 /// An operand of a block: a row of lanes, or a register of the bank that is the same for all lanes.
 struct BlockOperand {
@@ -75,9 +77,9 @@ class Block {
 
   /// `lanes` floats: the row of an operand that is not uniform.
   float* row(BlockOperand operand) { return rows_.data() + operand.index * row_stride; }
-  /// Runs code over all lanes, with uniform operands from `registers` and grids from `cells`, which may be null for
-  /// code that reads no grid. The caller holds a `FloatingPointMode`.
-  void run(const BlockCode& code, const float* registers, const float* cells);
+  /// Runs code over the first `count` lanes, with uniform operands from `registers` and grids from `cells`, which may be
+  /// null for code that reads no grid. Others may be run too. The caller holds a `FloatingPointMode`.
+  void run(const BlockCode& code, const float* registers, const float* cells, std::size_t count = lanes);
   /// The next value of a state, by `held_state`: `next` clamped to the rule's range; `otherwise` for not-a-number.
   /// The last two are rows of `lanes` floats. The caller holds a `FloatingPointMode`.
   void hold(BlockOperand next, const float* registers, const StateRule& rule, const float* otherwise, float* held,

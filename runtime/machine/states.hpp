@@ -11,6 +11,6 @@ namespace wale {
 void enter_lane(const DecodedProgram& program, float* registers) noexcept;
 
 /// As `enter_lane`, for a block. The caller holds a `FloatingPointMode`.
-void enter_block(const DecodedProgram& program, Block& block, const float* registers);
+void enter_block(const DecodedProgram& program, Block& block, const float* registers, std::size_t count = lanes);
 
 }  // namespace wale

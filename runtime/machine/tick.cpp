@@ -60,8 +60,8 @@ void tick_alone(const Bank& bank, std::span<const Hand> hands, std::span<Force> 
       place_input(input, hands.subspan(first, count), program.envelope, row);
     }
     const FloatingPointMode mode;
-    if (!description.states.empty()) enter_block(program, block, registers);
-    block.run(program.tick.code(), registers, program.initial_cells.data());
+    if (!description.states.empty()) enter_block(program, block, registers, count);
+    block.run(program.tick.code(), registers, program.initial_cells.data(), count);
     block.pairs(force_x, force_y, registers, forces.subspan(first, count));
   }
 }

@@ -1,4 +1,5 @@
 // What the index and the site know of one material.
+#include "compiler/read/kept_readings.hpp"
 #include "library/index/entry.hpp"
 
 #include <gtest/gtest.h>
@@ -112,6 +113,36 @@ TEST(Entry, IsThatOfAProgramThatIsReadAnew) {
       EXPECT_TRUE(!anew.cues || entry.felt.cues->values == anew.cues->values) << entry.name;
     }
   }
+}
+
+// A reading that is kept is that of the program itself: to the bit the same as without.
+TEST(Entry, ReadsACopyAsItsOriginal) {
+  const TemporaryFolder folder;
+  const std::string law =
+      " estimated }\n  physical {\n    height ribs = cos(2 pi * x / 2.5 mm) + 0.3 * cos(2 pi * x / 14 mm)\n"
+      "    force = lateral(ribs) + coulomb(0.3 N)\n  }\n}\n";
+  const auto material = [&](const std::string& name, double level) {
+    return "wale 1\nimport std.friction\n/// It is " + name + ".\nmaterial " + name + " {\n  representative { title \"" + name +
+           "\" }\n  perceptual { roughness " + std::to_string(level) + law;
+  };
+  KeptReadings kept;
+  const auto read = [&](const std::string& name, double level, KeptReadings* from) {
+    auto found = read_entries({.file = folder.write(name + ".wale", material(name, level))}, name, felt_of, from);
+    EXPECT_TRUE(found && found->entries.size() == 1 && found->entries[0].trouble.empty())
+        << (found ? found->entries[0].trouble : in_words(found.error()));
+    return found->entries[0];
+  };
+  read("original", 0.4, &kept);
+  const std::size_t before = kept.given();
+  const Entry copy = read("copy", 0.4, &kept), alone = read("copy", 0.4, nullptr);
+  EXPECT_GT(kept.given(), before) << "what was measured of the original";
+  const Entry other = read("other", 0.7, &kept), other_alone = read("other", 0.7, nullptr);
+  for (const auto& [with, without] : {std::pair(&copy, &alone), std::pair(&other, &other_alone)}) {
+    EXPECT_EQ(with->program, without->program);
+    EXPECT_EQ(with->felt.percepts, without->felt.percepts);
+    EXPECT_EQ(with->felt.cues->values, without->felt.cues->values);
+  }
+  EXPECT_NE(copy.felt.percepts, other.felt.percepts);
 }
 
 TEST(Entry, OfAMaterialWithAnErrorSaysSo) {

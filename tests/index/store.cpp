@@ -125,6 +125,57 @@ TEST_F(Store, ReadsOnlyWhatChangesAndWhatRestsOnIt) {
   EXPECT_FALSE(meant_entry(store->index(), "mixed"));
 }
 
+TEST_F(Store, KeepsColumnsAsIfTheyWereMadeAnew) {
+  for (int i = 0; i < 4; ++i)
+    write("shelf/m" + std::to_string(i) + ".wale", "wale 1\n" + material("m" + std::to_string(i), 0.3 + 0.1 * i, 2 + 0.5 * i));
+  updated();
+  write("shelf/m1.wale", "wale 1\n" + material("m1", 0.8, 4) + material("more", 0.2, 2));
+  write("shelf/new.wale", "wale 1\n" + material("new", 0.5, 6));
+  fs::remove(folder_ / "shelf/m2.wale");
+  const auto rows_of = [](const LibraryStore& store) {
+    std::vector<FeltRow> rows;
+    for (std::size_t i = 0; i < store.index().columns().size(); ++i) {
+      rows.push_back(store.index().columns().row(i));
+      std::ranges::sort(rows.back().felt);
+    }
+    return rows;
+  };
+  const std::vector<FeltRow> kept = rows_of(*updated());
+  fs::remove(path() + ".felt");
+  const std::vector<FeltRow> anew = rows_of(**LibraryStore::open(path(), false));
+  ASSERT_EQ(kept.size(), 5u);
+  ASSERT_EQ(anew.size(), kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    EXPECT_EQ(kept[i].material, anew[i].material);
+    EXPECT_EQ(kept[i].name, anew[i].name);
+    EXPECT_EQ(kept[i].kind, anew[i].kind);
+    EXPECT_EQ(kept[i].felt, anew[i].felt) << kept[i].name;
+  }
+}
+
+TEST_F(Store, ReadsWhatNamesOthersAgainWhenNamesChange) {
+  write("shelf/alone.wale", "wale 1\n" + material("alone", 0.6, 2.5));
+  write("shelf/beside.wale", "wale 1\n" + material("beside", 0.5, 3));
+  write("shelf/names.wale", "wale 1\nmaterial soft_one = alone {\n  representative { title \"Soft\" }\n}\n");
+  updated();
+  EXPECT_EQ(report_.read, 3u);
+  // What a name means does not depend on how another material feels.
+  write("shelf/beside.wale", "wale 1\n" + material("beside", 0.7, 3));
+  updated();
+  EXPECT_EQ(report_.read, 1u) << "beside";
+  write("shelf/beside.wale", "wale 1\n" + material("beside_it", 0.7, 3));
+  updated();
+  EXPECT_EQ(report_.read, 2u) << "beside_it and soft_one: it might have been called `alone`";
+  write("shelf/another.wale", "wale 1\n" + material("another", 0.3, 2));
+  updated();
+  EXPECT_EQ(report_.read, 2u) << "another and soft_one";
+  fs::remove(folder_ / "shelf/another.wale");
+  updated();
+  EXPECT_EQ(report_.read, 1u) << "soft_one";
+  updated();
+  EXPECT_EQ(report_.read, 0u);
+}
+
 TEST_F(Store, AnswersAsAnIndexInMemoryDoes) {
   for (int i = 0; i < 12; ++i)
     write("shelf/m" + std::to_string(i) + ".wale",

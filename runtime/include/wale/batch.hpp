@@ -31,7 +31,7 @@ class Batch {
 
   /// All hands enter, as in `Memory::enter`. `hands` is as long as the batch.
   void enter(std::span<const Hand> hands);
-  /// One tick of each instance. `hands` and `forces` (N) are as long as the batch.
+  /// One tick of as many instances as there are `hands`, the first ones; as many `forces` (N).
   void tick(std::span<const Hand> hands, std::span<Force> forces);
 
   /// State number `index` of an instance, 0 .. size() - 1.
