@@ -22,6 +22,7 @@
 #include "library/site/material_page.hpp"
 #include "library/site/read_site_file.hpp"
 #include "library/site/space.hpp"
+#include "library/store/read_library.hpp"
 #include "library/store/seek.hpp"
 #include "runtime/machine/parallel.hpp"
 #include "schema/spelling.hpp"
@@ -58,7 +59,8 @@ std::vector<std::string> names_in(const std::string& path) {
 /// What the last build noted of a file.
 struct Noted {
   SiteInputRead read;
-  std::string others;  ///< of the list of all files, if it uses names of others
+  std::string named;   ///< as `FileHashes` has it
+  std::string others;  ///< of all that files are called, if it uses names of others
 };
 
 /// One build of a site.
@@ -98,7 +100,7 @@ class SiteBuild {
       if (notes.at("base") != base_digits_) return;
       for (const auto& [path, file] : notes.at("files").items()) {
         Noted noted;
-        file.at("others").get_to(noted.others), file.at("uses_names").get_to(noted.read.uses_names);
+        file.at("named").get_to(noted.named), file.at("others").get_to(noted.others), file.at("uses_names").get_to(noted.read.uses_names);
         for (const Json& each : file.at("rests_on"))
           noted.read.rests_on.emplace_back(each.at(0).get<std::string>(), each.at(1).get<std::string>());
         for (const Json& each : file.at("materials")) noted.read.materials.push_back(site_material_of(each));
@@ -120,11 +122,24 @@ class SiteBuild {
                                [&](const SiteMaterial& material) { return material.module == input.module; });
   }
 
+  /// What the names in a file mean changes when others are called otherwise, and not when they feel otherwise.
+  void hash_names() {
+    std::vector<std::string> paths;
+    std::vector<KnownFile> known(inputs_.size());
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      paths.push_back(inputs_[i].path);
+      const auto noted = noted_.find(inputs_[i].path);
+      if (noted == noted_.end() || noted->second.read.materials.empty()) continue;
+      const auto& [read, named, others] = noted->second;
+      known[i] = {read.materials.front().module, rests_on_text(read.rests_on, named), others};
+    }
+    FileHashes hashes = hashes_of(inputs_, paths, [&](std::size_t which) { return &known[which]; });
+    others_ = std::move(hashes.others), named_ = std::move(hashes.named);
+  }
+
   /// Gives each material the name of its page: its own, where no other one has it on a system without capitals.
   void name_pages() {
-    ContentHash others;
-    for (const SiteInput& input : inputs_) others.take(input.path).take(hash_of_file(input.path));
-    others_ = others.digits();
+    hash_names();
     unchanged_.assign(inputs_.size(), 0);
     std::vector<std::vector<std::string>> names(inputs_.size());
     in_parallel(inputs_.size(), [&](std::size_t begin, std::size_t end) {
@@ -190,7 +205,10 @@ class SiteBuild {
                                      [&](const std::string& name) { return page_of(i, name); });
           const std::lock_guard guard(lock);
           if (!read && !trouble) trouble = read.error();
-          if (!read) continue;
+          if (!read) {  // a file that cannot be written, or no image library: nothing else can be done
+            next = inputs_.size();
+            continue;
+          }
           read_[i] = *std::move(read);
           read_count += static_cast<std::size_t>(std::ranges::count_if(read_[i].materials, &SiteMaterial::published));
           for (const SiteMaterial& each : read_[i].materials) neighbours_.erase(each.page);
@@ -307,7 +325,8 @@ class SiteBuild {
   std::string notes_text() const {
     Json notes = {{"base", base_digits_}, {"files", Json::object()}, {"neighbours", neighbours_}};
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      Json file = {{"others", read_[i].uses_names ? others_ : ""},
+      Json file = {{"named", named_[i]},
+                   {"others", read_[i].uses_names ? others_ : ""},
                    {"uses_names", read_[i].uses_names},
                    {"rests_on", read_[i].rests_on},
                    {"materials", Json::array()}};
@@ -327,7 +346,8 @@ class SiteBuild {
   ContentHash base_;
   std::string base_digits_, others_;
   std::vector<SiteInput> inputs_;
-  std::vector<char> unchanged_;  ///< by input
+  std::vector<std::string> named_;  ///< by input, as `FileHashes` has it
+  std::vector<char> unchanged_;     ///< by input
   std::map<std::pair<std::size_t, std::string>, std::string> pages_;
   std::map<std::string, Noted> noted_;
   std::map<std::string, std::string> neighbours_;  ///< hash of the neighbours that stand on a page
