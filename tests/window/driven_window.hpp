@@ -40,9 +40,11 @@ class DrivenWindow : public ::testing::Test {
     return all;
   }
 
+  /// Waits longer under a sanitizer: so many times as WALE_PATIENCE says (tests/sanitize).
   template <typename Condition>
   bool wait_until(const Condition& condition, int milliseconds = 20000) {
-    for (int waited = 0; waited < milliseconds; waited += 10) {
+    const int times = std::max(1, qEnvironmentVariableIntValue("WALE_PATIENCE"));
+    for (int waited = 0; waited < times * milliseconds; waited += 10) {
       if (condition()) return true;
       QTest::qWait(10);
     }
