@@ -124,6 +124,7 @@ std::string felt_text(const FoundEntries& found) {
     std::string line = fmt::format("{:{}}  {:{}}  {:{}}  {}", each.entry.name, name, visible_text(each.entry.title), title,
                                    each.entry.kind, kind,
                                    each.apart ? distance_text(*each.apart) : visible_text(each.entry.file));
+    if (!each.entry.trouble.empty()) line += "  does not compile";
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }

@@ -47,7 +47,8 @@ Run declare_library_compare(CLI::App& verb) {
   offer_sandbox(verb, options->sandbox);
   offer_json(verb, options->json, "what was added, removed, superseded and changed, cue by cue, as an object");
   verb.footer(
-      "Exit status 1: a name has gone without a successor (`replaces`), or feels plainly different than before.\n"
+      "Exit status 1: a name has gone without a successor (`replaces`) or with several, or feels plainly different than\n"
+      "before; or something of the new version cannot be built.\n"
       "Of a version in git: git worktree add ../before v1.0\n"
       "for example: wale library compare ../before my/library");
   return [options] { return library_compare(*options); };

@@ -62,7 +62,7 @@ Run declare_library_coverage(CLI::App& verb) {
   offer_json(verb, options->json, "the level of each material with its interval, and the empty regions, as an object");
   verb.footer(
       "Levels are those that the finished programs read. A region is empty if no material's interval reaches into it.\n"
-      "Exit status 1: some materials could not be built, and are left out.\n"
+      "Exit status 1: some materials could not be built, or files read, and are left out.\n"
       "for example: wale library coverage my/library -o coverage.svg");
   return [options] { return library_coverage(*options); };
 }

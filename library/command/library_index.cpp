@@ -153,7 +153,7 @@ Run declare_library_index(CLI::App& verb) {
   verb.footer(
       "Compiles and reads each material whose file, or anything that it rests on, has changed since the last time.\n"
       "A shared index takes only what everybody may pass on.\n"
-      "exit status 1: some material cannot be felt, or passed on.\n"
+      "exit status 1: some material cannot be felt, or passed on, or some file cannot be read; all others are in the index.\n"
       "for example: wale library index;  wale library index my/library -o my.index;\n"
       "wale library index my/library --index postgresql://anna@haptics.example/wale");
   return [options] { return make_index(*options); };

@@ -84,7 +84,7 @@ Run declare_library_sheet(CLI::App& verb) {
   offer_library(verb, options->folders);
   offer_sandbox(verb, options->sandbox);
   verb.footer(
-      "Up to 24 materials a page, by kind, each with its size in mm. Exit status 1: some could not be built.\n"
+      "Up to 24 materials a page, by kind, each with its size in mm. Exit status 1: some could not be built, or files read.\n"
       "for example: wale library sheet my/library -o sheet.png");
   return [options] { return library_sheet(*options); };
 }

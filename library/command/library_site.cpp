@@ -141,6 +141,7 @@ Run declare_library_site(CLI::App& verb) {
   verb.footer(
       "A browser opens index.html in it from the disk; any web server can publish it. What has not changed is not\n"
       "written again. Materials with an error, or whose licence does not let everybody pass them on, have no page.\n"
+      "exit status 1: some of them, or a file that cannot be read, have none.\n"
       "for example: wale library site -o site;  wale library site my/library -o site");
   return [options] { return library_site(*options); };
 }

@@ -56,7 +56,7 @@ std::string entry_text(const Entry& entry) {
   for (const std::string& each : entry.sources) text += line("source", each);
   text += line("says", entry.documentation);
   text += fmt::format("\nfeels, on {}\n", entry.device);
-  if (!entry.trouble.empty()) return text + "  it cannot be felt: " + visible_text(entry.trouble) + "\n";
+  if (!entry.trouble.empty()) return text + "  it does not compile: " + visible_text(entry.trouble) + "\n";
   for (const EntryPercept& each : entry.felt.percepts) text += percept_text(each);
   if (entry.felt.percepts.empty()) text += "  no percept that a map tells\n";
   if (!entry.parameters.empty()) text += "\nparameters\n";

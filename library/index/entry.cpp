@@ -7,6 +7,7 @@
 #include "compiler/compile_to_read.hpp"
 #include "compiler/describe/describe_extracted.hpp"
 #include "compiler/describe/describe_percept.hpp"
+#include "compiler/diagnostics/told.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/resolver.hpp"
 #include "library/index/content_hash.hpp"
@@ -190,6 +191,9 @@ Result<FileEntries> read_entries(const FileRequest& request, const std::string& 
     }
     entry.trouble = first_error(read.opened.diagnostics);
   }
+  if (read.entries.empty())
+    for (const Diagnostic& each : read.opened.diagnostics.all())
+      if (!read.unparsed && severity_of(each.code) == Severity::error) read.unparsed = told(each, read.opened.sources);
   std::ranges::sort(read.looked_for);
   read.looked_for.erase(std::unique(read.looked_for.begin(), read.looked_for.end()), read.looked_for.end());
   const std::string base = base_of(read, request.device);

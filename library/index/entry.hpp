@@ -105,6 +105,8 @@ class KeptReadings;
 struct FileEntries {
   std::vector<Entry> entries;   ///< of each material that its text declares, in the order written
   OpenedFile opened;            ///< with the diagnostics of the file and of all its materials
+  /// The first error of a text in which no material can be read at all, so that no entry tells of it.
+  std::optional<Error> unparsed;
   /// All paths that were looked for, found or not, each once, in order: another content of one of them may be another
   /// entry.
   std::vector<std::string> looked_for;

@@ -16,8 +16,8 @@
 namespace wale {
 namespace {
 
-/// "waleFel" and 1, the version; in another order of bytes it is another number.
-constexpr std::uint64_t felt_magic = 0x77616c6546656c01;
+/// "waleFel" and 2, the version; in another order of bytes it is another number.
+constexpr std::uint64_t felt_magic = 0x77616c6546656c02;
 
 struct FeltHeader {
   std::uint64_t magic = felt_magic, generation = 0;
@@ -61,6 +61,10 @@ std::string size_quantity(std::string_view percept) { return "size " + std::stri
 
 FeltRow felt_row(const Entry& entry, std::uint32_t material) {
   FeltRow row{material, entry.name, entry.module, entry.kind, {}};
+  if (!entry.trouble.empty()) {
+    row.felt.emplace_back(unbuilt_quantity, 1.0f);
+    return row;
+  }
   if (entry.felt.cues)
     for (const CueFacts& facts : cue_table())
       if (const auto& value = (*entry.felt.cues)[facts.kind])
@@ -146,6 +150,7 @@ Result<> FeltColumns::look_into() {
     const auto cue = cues.find(names_.back());
     cue_of_.push_back(cue == cues.end() ? std::nullopt : std::optional(cue->second));
   }
+  unbuilt_ = number_of(unbuilt_quantity);
   return {};
 }
 

@@ -21,6 +21,9 @@ namespace wale {
 std::string cue_quantity(CueKind kind);
 std::string level_quantity(std::string_view percept);
 std::string size_quantity(std::string_view percept);
+/// All that is known of a material whose program could not be built. One that is built and pushes nothing has no
+/// quantity, and is known to feel of nothing.
+inline constexpr std::string_view unbuilt_quantity = "unbuilt";
 
 /// What is felt of one material, in single precision, as every search compares it. A quantity that it does not have is
 /// not there.
@@ -56,6 +59,10 @@ class FeltColumns {
   std::span<const std::uint16_t> quantities(std::size_t row) const;  ///< by number, rising
   std::span<const float> values(std::size_t row) const;              ///< as many
   const std::vector<std::string>& quantity_names() const { return names_; }
+  /// Whether there is a program that can be felt; without, nothing is known of its feel.
+  bool is_built(std::size_t row) const {
+    return !unbuilt_ || quantities(row).size() != 1 || quantities(row).front() != *unbuilt_;
+  }
   /// The number of a quantity; nothing if no material has it.
   std::optional<std::uint16_t> number_of(std::string_view quantity) const;
 
@@ -83,6 +90,7 @@ class FeltColumns {
   std::vector<std::string> names_;
   std::map<std::string, std::uint16_t, std::less<>> numbers_;
   std::vector<std::optional<CueKind>> cue_of_;  ///< by the number of the quantity
+  std::optional<std::uint16_t> unbuilt_;        ///< the number of `unbuilt_quantity`
 };
 
 /// Puts columns together row by row.

@@ -22,7 +22,7 @@ class BestRows {
   }
 
   void look_at(std::size_t row) {
-    if (!is_within_limits(row)) return;
+    if (!columns_.is_built(row) || !is_within_limits(row)) return;
     if (const auto distance = probe_.distance(columns_, row, scratch_)) take({row, *distance});
   }
 

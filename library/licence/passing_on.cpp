@@ -61,4 +61,12 @@ std::string why_imports_keep_back(OpenedFile& opened) {
   return {};
 }
 
+std::vector<std::string> projects_under(const OpenedFile& opened) {
+  std::set<std::string> projects;
+  for (std::size_t i = 0; i < opened.sources.size(); ++i)
+    if (const std::string folder = project_over(opened.sources[static_cast<SourceId>(i)].name); !folder.empty())
+      projects.insert((fs::path(folder) / project_marker).string());
+  return {projects.begin(), projects.end()};
+}
+
 }  // namespace wale

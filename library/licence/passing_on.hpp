@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "compiler/open_file.hpp"
 
@@ -19,5 +20,8 @@ std::string why_kept_back(const std::string& licence);
 /// The same of all files that an opened file imports, for a program holds a part of each; empty if all may be passed on.
 /// Parses their texts again.
 std::string why_imports_keep_back(OpenedFile& opened);
+
+/// The files with the licences of the libraries in which an opened file and all that it imports lie, each once.
+std::vector<std::string> projects_under(const OpenedFile& opened);
 
 }  // namespace wale

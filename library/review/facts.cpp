@@ -12,6 +12,7 @@
 #include "compiler/preview/preview.hpp"
 #include "compiler/text/readable.hpp"
 #include "library/index/entry.hpp"
+#include "library/licence/passing_on.hpp"
 #include "library/review/report.hpp"
 
 namespace wale {
@@ -172,6 +173,8 @@ Result<FactsReading> read_facts(const FactsRequest& request) {
     if (const auto read = read_material(facts, reading, request, watched, checked); !read) return read.error();
   }
   auto& paths = reading.facts.looked_for;
+  // The licences of what it rests on may change.
+  for (std::string& path : projects_under(reading.opened)) paths.push_back(std::move(path));
   std::ranges::sort(paths);
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
   return reading;

@@ -20,6 +20,7 @@
 #include "compiler/text/embedded_files.hpp"
 #include "library/review/contribution.hpp"
 #include "library/licence/licence.hpp"
+#include "library/licence/passing_on.hpp"
 #include "library/review/report.hpp"
 #include "library/review/words.hpp"
 #include "runtime/machine/parallel.hpp"
@@ -74,6 +75,25 @@ bool is_source_of_shipped(const std::string& library) {
     if (std::string_view(each.name).starts_with(root))
       ++all, here += fs::exists(fs::path(library) / std::string_view(each.name).substr(root.size()), ignored);
   return 2 * here > all;
+}
+
+/// Whether a path means something on one machine only.
+bool is_of_one_machine(std::string_view path) {
+  const bool has_drive = path.size() > 2 && path[1] == ':' && (path[2] == '\\' || path[2] == '/');
+  return path.starts_with('/') || path.starts_with("\\\\") || has_drive;
+}
+
+/// Reports pictures and tables that are named by where they lie on the author's machine.
+void tell_paths(const SyntaxTree& tree, Diagnostics& diagnostics) {
+  for (const Expr& each : tree.exprs) {
+    const auto* call = std::get_if<Call>(&each);
+    if (!call) continue;
+    for (const Argument& argument : tree.arguments(*call))
+      if (const auto* text = std::get_if<TextLiteral>(&tree.expr(argument.value)); text && is_of_one_machine(text->text))
+        report(diagnostics, Code::unfit_file, tree.span(argument.value),
+               fmt::format("`{}` is a path that only one machine has", visible_text(text->text)),
+               "put the file beside this one, and name it from here");
+  }
 }
 
 /// A word as `find` compares it: capitals do not matter.
@@ -177,6 +197,7 @@ class Reviewer {
     SourceId source = 0;
     const CheckedModule* module = nullptr;
     const FileFacts* facts = unchanged;
+    std::string imports;  // of an unchanged file they let it be passed on, or it would not have been kept
     if (reading && !*reading) {
       const Error& error = reading->error();
       file.diagnostics.report({.code = error.code,
@@ -187,6 +208,7 @@ class Reviewer {
     }
     if (reading) {
       OpenedFile& opened = (*reading)->opened;
+      imports = why_imports_keep_back(opened);
       file.sources = std::move(opened.sources), file.diagnostics = std::move(opened.diagnostics);
       source = opened.source, module = &*opened.module, facts = &(*reading)->facts;
     } else {
@@ -196,6 +218,12 @@ class Reviewer {
     }
     Diagnostics again;  // of what has been reported
     const SyntaxTree tree = parse(file.sources, source, again);
+    tell_paths(tree, file.diagnostics);
+    for (const Declaration& declaration : tree.declarations)
+      if (const auto* node = std::get_if<MaterialDecl>(&declaration); node && !imports.empty())
+        report(file.diagnostics, Code::unfit_licence, node->name.span,
+               fmt::format("`{}` may not be passed on: {}", node->name.text, visible_text(imports)),
+               "rest it on what everybody may pass on, or leave it out");
     for (const Declaration& declaration : tree.declarations)
       if (const auto* node = std::get_if<MaterialDecl>(&declaration); node && module)
         if (const auto checked = std::ranges::find(module->materials, node->name.text, &CheckedMaterial::name);
@@ -347,7 +375,28 @@ class Reviewer {
       report(file.diagnostics, Code::still_there, entry.name,
              fmt::format("`{}` replaces a material that is still in {}", name, listed(there)),
              "take that one away, or leave out `replaces`");
+    tell_rivals(all, entry, name);
     if (!entry.is_apart) tell_shared_words(all, entry, name);
+  }
+
+  /// Others that replace the same name, which then means none of them.
+  void tell_rivals(Review& all, const Entry& entry, const std::string& name) {
+    ReviewedFile& file = all.files[entry.file];
+    for (const std::string& old : entry.words.replaces) {
+      std::set<std::string> rivals;
+      const auto look = [&](const std::vector<std::string>& replaces, const std::string& other, const std::string& there) {
+        if (std::ranges::find(replaces, old) != replaces.end())
+          rivals.insert(fmt::format("`{}` in `{}`", other, visible_text(there)));
+      };
+      for (const Entry& other : entries_)
+        if (&other != &entry)
+          look(other.words.replaces, all.files[other.file].materials[other.index].name, all.files[other.file].file);
+      for (const IndexedMaterial* other : others_) look(other->replaces, other->name, other->file);
+      if (!rivals.empty())
+        report(file.diagnostics, Code::taken_name, entry.name,
+               fmt::format("`{}` replaces `{}`, and so does {}", name, visible_text(old), fmt::join(rivals, " and ")),
+               "let one of them replace it: a name that several replace means none of them");
+    }
   }
 
   /// The kind that a material of an unknown one may mean: a misspelt one, or the longest whose words it has without

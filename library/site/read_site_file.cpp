@@ -123,14 +123,23 @@ Result<SiteInputRead> read_site_file(const SiteInput& input, const FileRequest& 
   FileRequest watched = request;
   watched.file = input.path;
   auto read = read_entries(watched, input.module);
-  if (!read) {
+  const auto lose = [&](const Error& error) {
     SiteMaterial& lost = result.materials.emplace_back();
-    lost.name = input.module, lost.module = input.module, lost.file = input.path, lost.trouble = read.error().sentence;
+    lost.name = input.module, lost.module = input.module, lost.file = input.path, lost.trouble = error.sentence;
+  };
+  if (!read) {
+    lose(read.error());
     return result;
   }
   result.uses_names = read->uses_names;
   for (const std::string& path : read->looked_for)
     if (path != input.path) result.rests_on.emplace_back(path, hash_of_file(path));
+  if (read->opened.is_on_disk)  // the licences in them may change
+    for (const std::string& path : projects_under(read->opened)) result.rests_on.emplace_back(path, hash_of_file(path));
+  if (read->unparsed) {
+    lose(*read->unparsed);
+    return result;
+  }
 
   OpenedFile& opened = read->opened;
   const std::string text = opened.sources[opened.source].text;
@@ -139,10 +148,11 @@ Result<SiteInputRead> read_site_file(const SiteInput& input, const FileRequest& 
   Diagnostics again;
   const SyntaxTree tree = parse(opened.sources, opened.source, again);
   const std::string imports = why_imports_keep_back(opened);
-  bool all_may = imports.empty();
+  // A text with an error may say what it is under where that cannot be read.
+  bool all_may = imports.empty() && !opened.diagnostics.has_errors();
   for (Entry& entry : read->entries) {
     if (entry.licence.empty()) entry.licence = over;
-    all_may = all_may && may_be_shared(entry.licence);
+    all_may = all_may && entry.trouble.empty() && may_be_shared(entry.licence);
   }
   std::string source;
   if (all_may && !read->entries.empty()) {

@@ -25,8 +25,8 @@ struct SiteInputRead {
 };
 
 /// Reads the materials of a file and writes what is theirs alone: their pages without neighbours, figures, data and
-/// downloads. `page_of` gives each material the name of its page. A file that cannot be read is one material with a
-/// trouble. Errors: those of `SiteFolder::put`, and W0806. Thread-safe.
+/// downloads. `page_of` gives each material the name of its page. A file that cannot be read, or in whose text no
+/// material can, is one material with a trouble. Errors: those of `SiteFolder::put`, and W0806. Thread-safe.
 Result<SiteInputRead> read_site_file(const SiteInput& input, const FileRequest& request, const DeclaredNames& names,
                                      SiteFolder& folder,
                                      const std::function<std::string(const std::string& material)>& page_of);

@@ -17,6 +17,7 @@
 #include "compiler/text/json_text.hpp"
 #include "library/index/content_hash.hpp"
 #include "library/index/library_files.hpp"
+#include "library/licence/passing_on.hpp"
 #include "library/site/assets.hpp"
 #include "library/site/gallery.hpp"
 #include "library/site/material_page.hpp"
@@ -34,6 +35,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t neighbours_shown = 6;
+constexpr std::string_view library_in_notes = "<library>/";
 
 std::string without_capitals(std::string text) {
   for (char& each : text)
@@ -79,6 +81,9 @@ class SiteBuild {
 
   Result<SiteReport> build(const std::vector<SiteInput>& inputs) {
     inputs_ = inputs;
+    const std::string first = inputs_.empty() ? std::string() : inputs_.front().path, project = project_over(first);
+    std::error_code ignored;
+    root_ = (project.empty() ? fs::absolute(first, ignored).parent_path() : fs::path(project)).lexically_normal();
     take_notes();
     name_pages();
     if (const auto read = read_files(); !read) return read.error();
@@ -91,20 +96,39 @@ class SiteBuild {
   }
 
  private:
+  /// A path as the notes have it, which are published with the site: a whole one begins at the library and not at the
+  /// root of this machine.
+  std::string in_notes(const std::string& path) const {
+    if (!fs::path(path).is_absolute()) return path;
+    const fs::path way = fs::path(path).lexically_normal().lexically_relative(root_);
+    return way.empty() ? path : std::string(library_in_notes) + way.string();
+  }
+  std::string of_notes(const std::string& noted) const {
+    if (!noted.starts_with(library_in_notes)) return noted;
+    return (root_ / noted.substr(library_in_notes.size())).lexically_normal().string();
+  }
+
   /// The notes of the last build, if it was of the same compiler, assets and device; others are of no use, and what
   /// somebody else wrote there is none of ours.
   void take_notes() {
     const Json notes = Json::parse(folder_.notes(), nullptr, false);
     if (notes.is_discarded()) return;
+    std::map<std::string, std::string> given;
+    for (const SiteInput& input : inputs_) given.emplace(in_notes(input.path), input.path);
     try {
       if (notes.at("base") != base_digits_) return;
       for (const auto& [path, file] : notes.at("files").items()) {
+        const auto input = given.find(path);
+        if (input == given.end()) continue;
         Noted noted;
         file.at("named").get_to(noted.named), file.at("others").get_to(noted.others), file.at("uses_names").get_to(noted.read.uses_names);
         for (const Json& each : file.at("rests_on"))
-          noted.read.rests_on.emplace_back(each.at(0).get<std::string>(), each.at(1).get<std::string>());
-        for (const Json& each : file.at("materials")) noted.read.materials.push_back(site_material_of(each));
-        noted_.emplace(path, std::move(noted));
+          noted.read.rests_on.emplace_back(of_notes(each.at(0).get<std::string>()), each.at(1).get<std::string>());
+        for (const Json& each : file.at("materials")) {
+          noted.read.materials.push_back(site_material_of(each));
+          noted.read.materials.back().file = input->second;
+        }
+        noted_.emplace(input->second, std::move(noted));
       }
       for (const auto& [page, hash] : notes.at("neighbours").items())
         neighbours_.emplace(page, hash.get<std::string>());
@@ -328,10 +352,14 @@ class SiteBuild {
       Json file = {{"named", named_[i]},
                    {"others", read_[i].uses_names ? others_ : ""},
                    {"uses_names", read_[i].uses_names},
-                   {"rests_on", read_[i].rests_on},
+                   {"rests_on", Json::array()},
                    {"materials", Json::array()}};
-      for (const SiteMaterial& each : read_[i].materials) file["materials"].push_back(to_json(each));
-      notes["files"][inputs_[i].path] = std::move(file);
+      for (const auto& [path, hash] : read_[i].rests_on) file["rests_on"].push_back({in_notes(path), hash});
+      for (const SiteMaterial& each : read_[i].materials) {
+        file["materials"].push_back(to_json(each));
+        file["materials"].back()["file"] = in_notes(each.file);
+      }
+      notes["files"][in_notes(inputs_[i].path)] = std::move(file);
     }
     return json_text(notes);
   }
@@ -345,6 +373,7 @@ class SiteBuild {
   FileRequest file_request_;
   ContentHash base_;
   std::string base_digits_, others_;
+  fs::path root_;  ///< of the library in which the first file lies
   std::vector<SiteInput> inputs_;
   std::vector<std::string> named_;  ///< by input, as `FileHashes` has it
   std::vector<char> unchanged_;     ///< by input

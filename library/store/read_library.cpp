@@ -29,10 +29,13 @@ ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, 
   FileRequest watched = request;
   watched.file = file.path;
   auto read = read_entries(watched, file.module, felt_of, kept);
-  if (!read) {
+  const auto lose = [&](const Error& error) {
     Entry& lost = result.entries.emplace_back();
     lost.name = file.module.substr(file.module.rfind('.') + 1), lost.module = file.module, lost.file = file.path;
-    lost.device = request.device, lost.trouble = read.error().sentence;
+    lost.device = request.device, lost.trouble = error.sentence;
+  };
+  if (!read) {
+    lose(read.error());
     return result;
   }
   result.uses_names = read->uses_names;
@@ -40,6 +43,7 @@ ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, 
     if (path != file.path) result.rests_on.emplace_back(path, hash_of_file(path));
   if (to_pass_on) result.imports_keep_back = why_imports_keep_back(read->opened);
   result.entries = std::move(read->entries);
+  if (read->unparsed) lose(*read->unparsed);
   return result;
 }
 

@@ -83,13 +83,16 @@ Result<std::vector<FeltRow>> SharedStore::rows_since(std::int64_t state) const {
   std::vector<FeltRow> rows;
   for (std::string last = "0";;) {
     const auto some = database_.ask(
-        "SELECT id, name, module, kind, pg_catalog.encode(felt, 'hex') FROM wale.materials "
+        "SELECT id, name, module, kind, pg_catalog.encode(felt, 'hex'), trouble <> '' FROM wale.materials "
         "WHERE id > $1 AND state > $2 ORDER BY id LIMIT $3",
         {last, std::to_string(state), std::to_string(rows_at_once)});
     if (!some) return some.error();
-    for (std::size_t i = 0; i < some->size(); ++i)
+    for (std::size_t i = 0; i < some->size(); ++i) {
       rows.push_back({static_cast<std::uint32_t>(some->number(i, 0)), std::string(some->text(i, 1)),
                       std::string(some->text(i, 2)), std::string(some->text(i, 3)), felt_of_digits(some->text(i, 4))});
+      // Earlier builds of Wale wrote nothing there for what they could not build.
+      if (some->text(i, 5) == "t") rows.back().felt = {{std::string(unbuilt_quantity), 1.0f}};
+    }
     if (some->size() < rows_at_once) return rows;
     last = some->text(some->size() - 1, 0);
   }

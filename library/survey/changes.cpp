@@ -113,7 +113,7 @@ nlohmann::ordered_json change_json(const ChangedMaterial& change) {
 }  // namespace
 
 bool LibraryChanges::keeps_promises() const {
-  return removed.empty() && std::ranges::none_of(changed, [](const ChangedMaterial& each) {
+  return removed.empty() && ambiguous.empty() && unbuilt.empty() && std::ranges::none_of(changed, [](const ChangedMaterial& each) {
            return !each.comparison.cues.empty() && each.comparison.verdict == Verdict::apart;
          });
 }
@@ -121,11 +121,13 @@ bool LibraryChanges::keeps_promises() const {
 LibraryChanges changes_between(const std::vector<Entry>& before, const std::vector<Entry>& after,
                                const Comparer& comparer) {
   LibraryChanges changes;
-  std::map<std::string, const Entry*> now, heirs;
+  std::map<std::string, const Entry*> now;
+  std::map<std::string, std::vector<const Entry*>> heirs;
   std::set<std::string> known, succeeds;
   for (const Entry& each : after) {
     now.emplace(each.name, &each);
-    for (const std::string& old : each.replaces) heirs.emplace(old, &each);
+    for (const std::string& old : each.replaces) heirs[old].push_back(&each);
+    if (!each.trouble.empty()) changes.unbuilt.push_back({each.name, each.trouble});
   }
   for (const Entry& old : before) {
     if (!known.insert(old.name).second) continue;  // a name that two files have
@@ -137,8 +139,14 @@ LibraryChanges changes_between(const std::vector<Entry>& before, const std::vect
       else
         ++changes.same;
     } else if (const auto heir = heirs.find(old.name); heir != heirs.end()) {
-      succeeds.insert(heir->second->name);
-      changes.superseded.push_back({old.name, heir->second->name, change_of(old, *heir->second, comparer)});
+      for (const Entry* each : heir->second) succeeds.insert(each->name);
+      if (heir->second.size() > 1) {
+        auto& all = changes.ambiguous.emplace_back(LibraryChanges::Ambiguous{.old_name = old.name, .heirs = {}});
+        for (const Entry* each : heir->second) all.heirs.push_back(each->name);
+        continue;
+      }
+      const Entry& only = *heir->second.front();
+      changes.superseded.push_back({old.name, only.name, change_of(old, only, comparer)});
     } else {
       changes.removed.push_back(old.name);
     }
@@ -158,6 +166,11 @@ std::string changes_text(const LibraryChanges& changes) {
   };
   list("added", changes.added);
   list("removed, and nothing replaces it", changes.removed);
+  for (const LibraryChanges::Ambiguous& each : changes.ambiguous)
+    text += fmt::format("{} is replaced by several, so that its name means none: {}\n", each.old_name, fmt::join(each.heirs, ", "));
+  const std::set<std::string> added(changes.added.begin(), changes.added.end());  // of others it is told below
+  for (const LibraryChanges::Unbuilt& each : changes.unbuilt)
+    if (added.contains(each.name)) text += fmt::format("{} of the new version cannot be built: {}\n", each.name, each.why);
   for (const SupersededMaterial& each : changes.superseded)
     text += fmt::format("{} is now {}: {}", each.old_name, each.new_name, change_text(each.change));
   for (const ChangedMaterial& each : changes.changed) text += fmt::format("{}: {}", each.name, change_text(each));
@@ -168,7 +181,9 @@ std::string changes_text(const LibraryChanges& changes) {
 
 std::string changes_json(const LibraryChanges& changes) {
   using Json = nlohmann::ordered_json;
-  Json superseded = Json::array(), changed = Json::object();
+  Json superseded = Json::array(), changed = Json::object(), ambiguous = Json::object(), unbuilt = Json::object();
+  for (const LibraryChanges::Ambiguous& each : changes.ambiguous) ambiguous[each.old_name] = each.heirs;
+  for (const LibraryChanges::Unbuilt& each : changes.unbuilt) unbuilt[each.name] = each.why;
   for (const SupersededMaterial& each : changes.superseded) {
     Json one = {{"old", each.old_name}, {"new", each.new_name}};
     one.update(change_json(each.change));
@@ -177,7 +192,8 @@ std::string changes_json(const LibraryChanges& changes) {
   for (const ChangedMaterial& each : changes.changed) changed[each.name] = change_json(each);
   const Json json = {{"device", changes.device},     {"added", changes.added},
                      {"removed", changes.removed},   {"superseded", std::move(superseded)},
-                     {"changed", std::move(changed)}, {"same", changes.same},
+                     {"changed", std::move(changed)}, {"ambiguous", std::move(ambiguous)},
+                     {"unbuilt", std::move(unbuilt)}, {"same", changes.same},
                      {"keeps_promises", changes.keeps_promises()}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

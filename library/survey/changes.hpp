@@ -28,11 +28,21 @@ struct LibraryChanges {
   std::vector<std::string> added, removed;  ///< by name; `removed` without a successor
   std::vector<SupersededMaterial> superseded;
   std::vector<ChangedMaterial> changed;  ///< to the hand or in words, the plainest first
+  /// Names that have gone and that several of the new version replace, so that nobody can ask by them any more.
+  struct Ambiguous {
+    std::string old_name;
+    std::vector<std::string> heirs;
+  };
+  std::vector<Ambiguous> ambiguous;
+  struct Unbuilt {
+    std::string name, why;
+  };
+  std::vector<Unbuilt> unbuilt;  ///< materials of the new version that cannot be built
   std::size_t same = 0;                  ///< materials in which nothing has changed
   std::string device;
 
   /// Whether all who ask for a material by its old name get one that feels the same: nothing was removed without a
-  /// successor, and nothing under the same name is plainly another.
+  /// successor or with several, nothing under the same name is plainly another, and all can be built.
   bool keeps_promises() const;
 };
 

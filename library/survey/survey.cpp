@@ -38,10 +38,12 @@ Result<Survey> survey(const std::vector<std::string>& paths, const FileRequest& 
                                   depth == SurveyDepth::feel
                                       ? Feel(felt_of)
                                       : [](const Program&, const Declarations&) { return EntryFeel(); });
-      if (entries)
+      if (entries) {
         read[i].entries = std::move(entries->entries), read[i].looked_for = std::move(entries->looked_for);
-      else
+        read[i].unread = std::move(entries->unparsed);
+      } else {
         read[i].unread = entries.error();
+      }
     }
   });
   Survey all;

@@ -11,7 +11,7 @@ namespace wale {
 /// All materials below some paths.
 struct Survey {
   std::vector<Entry> entries;  ///< in the order of their files; one with an error has `trouble` and no program
-  std::vector<Error> unread;   ///< files that could not be opened
+  std::vector<Error> unread;   ///< files that could not be opened, and texts in which no material can be read
   /// The files that all this rests on and that are there: of the materials, what they import, pictures. Nothing may be
   /// written over them.
   std::vector<std::string> read = {};

@@ -149,6 +149,32 @@ TEST(Curating, CoverageAndCompareHaveJsonAndPictures) {
   EXPECT_EQ(wale({"library", "compare", folder / "old"}).status, 2);
 }
 
+TEST(Curating, FilesThatCannotBeReadAreNamed) {
+  const TemporaryFolder folder;
+  folder.write("shelf/wale.project", "licence \"CC0-1.0\"\n");
+  folder.write("shelf/trial/cord.wale", cord);
+  folder.write("shelf/trial/garbage.wale", "garbage");
+  folder.write("shelf/trial/number.wale", "wale 1\n\nmaterial 2e_b {\n}\n");
+  const std::string index = folder / "an.index";
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"index", folder / "shelf", "-o", index}, {"index", folder / "shelf", "-o", index},
+           {"site", folder / "shelf", "-o", folder / "site"}, {"coverage", folder / "shelf"},
+           {"sheet", folder / "shelf", "-o", folder / "s.png"}}) {
+    std::vector<std::string> all = {"library"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome done = wale(all);
+    EXPECT_EQ(done.status, 1) << words.front();
+    for (const char* name : {"garbage.wale", "number.wale"})
+      EXPECT_TRUE(contains(done.err, name)) << words.front() << ": " << done.err;
+  }
+  EXPECT_TRUE(fs::exists(folder / "site/material/broad_cord.html")) << "the rest is published";
+  const Outcome near = wale({"find", "--roughness", "0..1", "--index", index, "--most", "20"});
+  EXPECT_EQ(near.status, 0) << near.err;
+  EXPECT_TRUE(near.out.starts_with("broad_cord")) << "and indexed";
+  EXPECT_FALSE(contains(near.out, "garbage")) << near.out;
+  EXPECT_TRUE(contains(wale({"find", "garbage", "--index", index}).out, "does not compile"));
+}
+
 TEST(Curating, ImportMakesDraftsThatSayWhatIsMissing) {
   const TemporaryFolder folder;
   folder.write("in/stone.txt", "0 1 2 3 2 1\n0 NaN 2 3 2 1\n0 1 2 3 2 1\n0 1 2 3 2 1\n");

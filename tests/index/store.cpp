@@ -220,6 +220,47 @@ TEST_F(Store, TellsWhatCannotBeFelt) {
   EXPECT_EQ(store->index().columns().size(), 3u);
 }
 
+TEST_F(Store, NamesFilesInWhichNoMaterialCanBeRead) {
+  write("shelf/good.wale", "wale 1\n" + material("good", 0.5, 2));
+  write("shelf/garbage.wale", "garbage");
+  write("shelf/number.wale", "wale 1\n\nmaterial 2e_b {\n  physical { force = 1 N }\n}\n");
+  write("shelf/functions.wale", "wale 1\n\nexport function half(a: length) = a / 2\n");
+  const auto store = updated();
+  ASSERT_EQ(report_.troubled.size(), 2u) << "and a file without materials is none of them";
+  EXPECT_EQ(fs::path(report_.troubled[0].file).filename(), "garbage.wale");
+  EXPECT_EQ(fs::path(report_.troubled[1].file).filename(), "number.wale");
+  for (const auto& each : report_.troubled) EXPECT_NE(each.why, "");
+  EXPECT_TRUE(meant_entry(store->index(), "good"));
+}
+
+// Nothing is known of what such a material feels like, so it is no neighbour of anything and has no level.
+TEST_F(Store, WhatDoesNotCompileIsNotFoundByFeel) {
+  const std::string broken = "broken { physical { force = nothing_such(x) } }";
+  write("shelf/a.wale", "wale 1\n" + material("a", 0.5, 2));
+  write("shelf/b.wale", "wale 1\n" + material("b", 0.3, 3));
+  write("shelf/broken.wale", "wale 1\n/// Ribs that are broken.\nmaterial " + broken + "\n");
+  write("shelf/air.wale", "wale 1\nmaterial air { physical { force = vector(0 N, 0 N) } }\n");
+  updated();
+  const auto store = updated();  // with columns from their file
+  const MaterialIndex& index = store->index();
+  const Comparer comparer(common_modules()->declarations, index.device());
+  const auto entry = index.entry(*meant_entry(index, "a"));
+  ASSERT_TRUE(entry && entry->felt.cues);
+  const NearProbe near(comparer, *entry->felt.cues);
+  const auto level = [&](double low, double high) {
+    return *LevelProbe::make({{"roughness", low, high}}, common_modules()->declarations, index.device());
+  };
+  const auto none = level(0, 0), range = level(0, 1);
+  for (const Probe* probe : {static_cast<const Probe*>(&near), static_cast<const Probe*>(none.get()), static_cast<const Probe*>(range.get())}) {
+    auto found = names(find_entries(index, {.texts = {}, .kind = {}, .feel = probe, .most = 20}));
+    std::ranges::sort(found);
+    EXPECT_EQ(found, (std::vector<std::string>{"a", "air", "b"})) << "what is built and pushes nothing is known";
+  }
+  const auto by_word = find_entries(index, {.texts = {"broken"}, .kind = {}, .most = 20});
+  ASSERT_EQ(names(by_word), std::vector<std::string>{"broken"});
+  EXPECT_NE(by_word->entries[0].entry.trouble, "");
+}
+
 TEST_F(Store, RefusesWhatIsNoIndex) {
   const auto refused = [](const std::string& path, bool makes) {
     const auto opened = LibraryStore::open(path, makes);

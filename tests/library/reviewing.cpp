@@ -104,6 +104,75 @@ TEST_F(Reviewing, RefusesLicencesThatForbidToPassOn) {
   EXPECT_EQ(refused.error().code, Code::malformed_value);
 }
 
+// As the site does, whose programs hold a part of what they rest on.
+TEST_F(Reviewing, RefusesWhatRestsOnWhatMayNotBePassedOn) {
+  const std::string kept = "    licence \"CC-BY-NC-4.0\"\n";
+  write("trial/kept.wale", cord("kept_cord", "0.6 estimated", "6 mm", kept));
+  const auto codes_with = [&](const std::string& imports, const std::string& like, const std::string& period) {
+    std::string text = cord("own_cord", "0.6 estimated", period);
+    text.insert(text.find("/// Ribs"), imports);
+    if (!like.empty()) text.replace(text.find("material own_cord"), 17, "material own_cord = " + like);
+    write("trial/own.wale", text);
+    Codes codes;
+    for (const ReviewedFile& file : review_all().files)
+      for (const Diagnostic& each : file.diagnostics.all())
+        if (file.file.ends_with("own.wale") && each.code == Code::unfit_licence)
+          codes.insert(each.message);
+    return codes;
+  };
+  const Codes refused{"`own_cord` may not be passed on: it rests on a file whose licence, CC-BY-NC-4.0, does not allow it"};
+  EXPECT_EQ(codes_with("", "", "3.3 mm"), Codes{});
+  EXPECT_EQ(codes_with("import trial.kept\n\n", "", "3.3 mm"), refused);
+  EXPECT_EQ(codes_with("import trial.kept\n\n", "kept_cord", "3.3 mm"), refused);
+  EXPECT_EQ(codes_with("", "kept_cord", "3.3 mm"), refused) << "by its name alone";
+  EXPECT_EQ(codes_with("", "0.5 kept_cord + 0.5 denim", "3.3 mm"), refused) << "as a part of a mixture";
+  EXPECT_EQ(codes_with("", "denim", "3.3 mm"), Codes{}) << "the shipped library is for everybody";
+  write("trial/own.wale", cord("own_cord", "0.6 estimated", "3.3 mm", "    like kept_cord\n"));
+  EXPECT_EQ(codes_of(review_all()).count("W0903"), 2u) << "and for that of the one that it is like";
+}
+
+// What a check has kept does not outlive the licence of what it rests on.
+TEST_F(Reviewing, AsksTheLicenceOfAnotherLibraryAgain) {
+  const TemporaryFolder other;
+  other.write("wale.project", "licence \"CC0-1.0\"\n");
+  other.write("elsewhere/ribs.wale", "wale 1\n\n/// A length.\nexport function ribs_of(a: length) = a\n");
+  std::string text = cord("own_cord", "0.6 estimated", "ribs_of(6 mm)");
+  text.insert(text.find("/// Ribs"), "import elsewhere.ribs\n\n");
+  write("trial/own.wale", text);
+  ReviewRequest request;
+  request.paths = {root()}, request.roots = {other.path().string()};
+  const Review first = *review(request);
+  ASSERT_EQ(codes_of(first), Codes{}) << review_json(first);
+  request.since = &first.kept;
+  EXPECT_EQ(review(request)->unchanged, 1u);
+  other.write("wale.project", "licence \"CC-BY-ND-4.0\"\n");
+  EXPECT_EQ(codes_of(*review(request)), Codes{"W0903"});
+}
+
+// A name that two replace means none of them.
+TEST_F(Reviewing, RefusesTwoThatReplaceOneName) {
+  write("trial/one.wale", cord("one_cord", "0.6 estimated", "3.3 mm", "    replaces old_cord\n"));
+  EXPECT_EQ(codes_of(review_all()), Codes{});
+  write("trial/two.wale", cord("two_cord", "0.6 estimated", "6 mm", "    replaces old_cord\n"));
+  const Review found = review_all();
+  EXPECT_EQ(codes_of(found), (Codes{"W0904", "W0904"}));
+  EXPECT_FALSE(found.accepted());
+  const std::string& said = found.files[0].diagnostics.all().front().message;
+  EXPECT_TRUE(said.starts_with("`one_cord` replaces `old_cord`, and so does `two_cord`")) << said;
+}
+
+TEST_F(Reviewing, RefusesPathsOfOneMachine) {
+  for (const char* path : {"/tmp/stone.png", "C:/stone.png"}) {
+    write("trial/stone.wale", cord("own_stone", "0.6 estimated", "3.3 mm"));
+    std::string text = cord("own_stone", "0.6 estimated", "3.3 mm");
+    const std::string grating = "grating(x, period: 3.3 mm)";
+    text.replace(text.find(grating), grating.size(),
+                 "image(\"" + std::string(path) + "\", scale: 0.1 mm/px, height: 1 mm)");
+    write("trial/stone.wale", text);
+    EXPECT_EQ(codes_of(review_all()).count("W0910"), 1u) << path;
+  }
+}
+
 TEST_F(Reviewing, RefusesWhatNobodyFelt) {
   write("trial/cord.wale", cord("broad_cord", "0.6 simulated", "3.3 mm"));
   EXPECT_EQ(codes_of(review_all()), Codes{"W0915"});

@@ -117,6 +117,48 @@ TEST_F(Changes, KeepPromisesWhereNamesKeepTheirMeaning) {
   EXPECT_TRUE(changes_between({}, {}, comparer_).keeps_promises());
 }
 
+TEST_F(Changes, BreakPromisesWhereANameHasSeveralHeirs) {
+  std::vector<Entry> after = {with_period("one", 2e-3), with_period("two", 9e-3)};
+  for (Entry& each : after) each.replaces = {"old_name"};
+  const LibraryChanges changes = changes_between({with_period("old_name", 2e-3)}, after, comparer_);
+  ASSERT_EQ(changes.ambiguous.size(), 1u);
+  EXPECT_EQ(changes.ambiguous[0].old_name, "old_name");
+  EXPECT_EQ(changes.ambiguous[0].heirs, (std::vector<std::string>{"one", "two"}));
+  EXPECT_TRUE(changes.superseded.empty() && changes.added.empty() && changes.removed.empty());
+  EXPECT_FALSE(changes.keeps_promises());
+  EXPECT_NE(changes_text(changes).find("old_name is replaced by several, so that its name means none: one, two\n"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(changes_json(changes)).at("ambiguous").at("old_name").size(), 2u);
+}
+
+TEST_F(Changes, BreakPromisesWhereTheNewVersionCannotBeBuilt) {
+  const auto unbuilt = [](const std::string& name) {
+    Entry entry;
+    entry.name = name, entry.trouble = "an error", entry.device = default_device;
+    return entry;
+  };
+  Entry heir = unbuilt("new_name");
+  heir.replaces = {"kept"};
+  const std::vector<Entry> before = {with_period("kept", 2e-3)};
+  EXPECT_FALSE(changes_between(before, {unbuilt("kept")}, comparer_).keeps_promises());
+  EXPECT_FALSE(changes_between(before, {heir}, comparer_).keeps_promises()) << "under a new name";
+  EXPECT_FALSE(changes_between({unbuilt("kept")}, {unbuilt("kept")}, comparer_).keeps_promises());
+  EXPECT_TRUE(changes_between({unbuilt("kept")}, before, comparer_).keeps_promises()) << "it was mended";
+}
+
+TEST(Survey, NamesTextsInWhichNoMaterialCanBeRead) {
+  const TemporaryFolder folder;
+  folder.write("good.wale", "wale 1\n\nmaterial good {\n  physical { force = lateral(grating(x, period: 3 mm), amplitude: 1 N) }\n}\n");
+  folder.write("garbage.wale", "garbage");
+  folder.write("number.wale", "wale 1\n\nmaterial 2e_b {\n  physical { force = 1 N }\n}\n");
+  folder.write("functions.wale", "wale 1\n\nexport function half(a: length) = a / 2\n");
+  const auto surveyed = survey({folder.path().string()}, {}, SurveyDepth::programs);
+  ASSERT_TRUE(surveyed);
+  EXPECT_EQ(surveyed->entries.size(), 1u);
+  ASSERT_EQ(surveyed->unread.size(), 2u);
+  EXPECT_TRUE(surveyed->unread[0].place.name.ends_with("garbage.wale")) << surveyed->unread[0].place.name;
+  EXPECT_TRUE(surveyed->unread[1].place.name.ends_with("number.wale")) << surveyed->unread[1].place.name;
+}
+
 TEST(Sheet, LaysKindsOutInPagesOfTwentyFour) {
   std::vector<Entry> entries;
   for (int i = 0; i < 30; ++i) entries.push_back(entry_with("m" + std::to_string(100 + i), {}));

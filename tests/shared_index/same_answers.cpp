@@ -129,6 +129,26 @@ TEST_F(SameAnswers, ToTwoHundredQuestions) {
 }
 
 /// A reader keeps the columns, and fetches only what has changed. Whatever it has kept, it answers as one that has nothing.
+TEST_F(SameAnswers, WithoutWhatDoesNotCompile) {
+  std::mt19937 random(7);
+  write_library("shelf");
+  for (int i = 0; i < 3; ++i) write("shelf/m" + std::to_string(i) + ".wale", generated(i, random));
+  write("shelf/broken.wale", "wale 1\nmaterial broken { physical { force = nothing_such(x) } }\n");
+  const auto shared = opened(address(), true);
+  ASSERT_EQ(updated(*shared, files_of("shelf")).materials, 4u);
+  // As an earlier build of Wale has left it.
+  ASSERT_TRUE(open(database_)->run("UPDATE wale.materials SET felt = '' WHERE name = 'broken'"));
+  const auto anew = opened(address(), true);
+  for (const LibraryStore* each : {shared.get(), anew.get()}) {
+    const auto probe = LevelProbe::make({{"roughness", 0, 0}}, common_modules()->declarations, default_device);
+    ASSERT_TRUE(probe) << in_words(probe.error());
+    const auto found = find_entries(each->index(), {.texts = {}, .kind = {}, .feel = probe->get(), .most = 20});
+    ASSERT_TRUE(found) << in_words(found.error());
+    EXPECT_EQ(found->entries.size(), 3u);
+    for (const FoundEntry& entry : found->entries) EXPECT_NE(entry.entry.name, "broken");
+  }
+}
+
 TEST_F(SameAnswers, FromKeptColumnsOfAnyState) {
   write_library("shelf");
   for (int i = 0; i < 6; ++i)

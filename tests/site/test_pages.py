@@ -194,6 +194,56 @@ def test_what_a_licence_forbids_to_pass_on_is_not_published_and_said(tmp_path):
     assert str(tmp_path) not in (site / "unknown.html").read_text()
 
 
+def test_only_texts_of_which_all_is_published_are_copied(tmp_path):
+    library = tmp_path / "library"
+    library.mkdir()
+    (library / "wale.project").write_text('licence "CC0-1.0"\n')
+    open_one = HOSTILE.replace("Evil_One", "open_one")
+    licence = '    licence "CC0-1.0"\n'
+    (library / "open.wale").write_text(open_one)
+    (library / "unquoted.wale").write_text(open_one.replace("open_one", "unquoted").replace(licence, "    licence CC-BY-NC-4.0\n"))
+    (library / "misspelt.wale").write_text(
+        open_one.replace("open_one", "misspelt").replace(licence, '    license "CC-BY-NC-4.0"\n'))
+    (library / "broken.wale").write_text(
+        open_one.replace("open_one", "half") + open_one.replace("wale 1", "").replace("open_one", "broken").replace("lateral(", "nothing_such("))
+    (library / "garbage.wale").write_text("garbage")
+    (library / "number.wale").write_text("wale 1\n\nmaterial 2e_b {\n}\n")
+    site = tmp_path / "site"
+    run = subprocess.run([WALE, "library", "site", library, "-o", site], capture_output=True, text=True)
+    assert run.returncode == 1
+    for name in ("unquoted", "misspelt", "broken", "garbage", "number"):
+        assert f"{name}.wale has no page: " in run.stderr, run.stderr
+        assert not (site / f"source/{name}.wale").exists()
+    assert [path.name for path in (site / "source").iterdir()] == ["open.wale"]
+    # A text that comes to hold what may not be published goes, and so does one whose library comes to forbid it.
+    (library / "open.wale").write_text(open_one + "\nmaterial unfinished { physical { force = } }\n")
+    subprocess.run([WALE, "library", "site", library, "-o", site], capture_output=True)
+    assert not (site / "source/open.wale").exists()
+    (library / "open.wale").write_text(open_one.replace(licence, ""))
+    subprocess.run([WALE, "library", "site", library, "-o", site], capture_output=True)
+    assert (site / "source/open.wale").exists()
+    (library / "wale.project").write_text('licence "CC-BY-NC-4.0"\n')
+    subprocess.run([WALE, "library", "site", library, "-o", site], capture_output=True)
+    assert not (site / "source/open.wale").exists() and not (site / "material/open_one.html").exists()
+
+
+def test_no_page_and_no_note_tells_where_the_library_lies(tmp_path):
+    library = tmp_path / "library"
+    library.mkdir()
+    (library / "wale.project").write_text('licence "CC0-1.0"\n')
+    (library / "open.wale").write_text(HOSTILE.replace("Evil_One", "open_one"))
+    (library / "broken.wale").write_text("wale 1\n\nmaterial broken { physical { force = } }\n")
+    site = tmp_path / "site"
+    build = [WALE, "library", "site", library, "-o", site, "--json"]
+    assert json.loads(subprocess.run(build, capture_output=True, text=True).stdout)["read"] == 1
+    for path in site.rglob("*"):
+        if path.is_file():
+            assert str(tmp_path).encode() not in path.read_bytes(), path
+    again = json.loads(subprocess.run(build, capture_output=True, text=True).stdout)
+    assert again["read"] == 0 and again["changed"] == 0
+    assert [each["file"] for each in again["left_out"]] == [str(library / "broken.wale")]
+
+
 def test_a_build_touches_only_what_changed(tmp_path):
     library = tmp_path / "library"
     library.mkdir()
