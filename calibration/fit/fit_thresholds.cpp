@@ -83,6 +83,7 @@ class ThresholdAnalyst {
       if (trials->answer[i] == 0) ++each.false_alarms, ++all_noises_.false_alarms;
     }
     fit_.catch_trials = trials->size();
+    fit_.trials.simulated |= trials->simulated, fit_.trials.ungraded |= trials->ungraded;
     fit_.notes.push_back(fmt::format("{} trials with nothing to find give how often people say that there is something",
                                      trials->size()));
     state_exclusions(*trials);

@@ -101,6 +101,50 @@ Result<StudyFit> fit_of(const std::string& text, FitRequest request, std::string
   return fit;
 }
 
+// What a log contains speaks louder than the word that somebody wrote into it.
+TEST(Studies, AreGradedByTheWorstThatTheirFilesContain) {
+  const TemporaryFolder folder;
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  };
+  const std::string note = R"({"line":9,"time":"2026-11-24T20:31:00.000Z","seconds":1.0,"event":"note","text":"observer planted:noise=0.2"})" "\n";
+  const auto grade_of = [&](const std::string& grade, bool is_planted, bool by_bids) {
+    std::vector<std::string> paths;
+    for (const char* who : {"A", "B"}) {
+      const std::string text = with(log_of(who, "How rough?", 3), R"(,"grade":"simulated")", grade) + (is_planted ? note : "");
+      write_text(folder / who, text);
+      paths.push_back(by_bids ? bids_of(folder, std::string("bids") + who, text) : folder / who);
+    }
+    const auto study = read_study(paths, "");
+    if (!study) return study.error().sentence;
+    const auto fit = fit_study(*study, {.task = "rating"});
+    return fit ? fit->evidence : fit.error().sentence;
+  };
+  for (const bool by_bids : {false, true}) {
+    EXPECT_EQ(grade_of(R"(,"grade":"measured")", false, by_bids), "measured");
+    EXPECT_EQ(grade_of(R"(,"grade":"measured")", true, by_bids), "simulated");
+    EXPECT_EQ(grade_of("", true, by_bids), "simulated");
+    EXPECT_EQ(grade_of("", false, by_bids), "estimated");
+  }
+  EXPECT_EQ(grade_of(R"(,"grade":"pilot")", false, false), "expected measured or simulated for the grade, found `pilot`");
+  // A column that was taken out of a table, and a sidecar that still says what it was.
+  std::vector<std::string> paths;
+  for (const char* who : {"A", "B"}) {
+    paths.push_back(bids_of(folder, std::string("taken") + who, log_of(who, "How rough?", 3)));
+    std::ifstream stream(paths.back());
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    text = with(text, "grade", "said");
+    write_text(paths.back(), text);
+  }
+  const auto study = read_study(paths, "");
+  ASSERT_TRUE(study) << study.error().sentence;
+  const auto fit = fit_study(*study, {.task = "rating"});
+  ASSERT_TRUE(fit) << fit.error().sentence;
+  EXPECT_EQ(fit->evidence, "simulated");
+}
+
 /// By hand: the observers' geometric means of 0.8 N are 0.8, 0.9 and 1 N.
 TEST(Adjustments, GivePointsOfEqualityAndAThreshold) {
   std::string text = "participant,amplitude (N),standard,response\n";
