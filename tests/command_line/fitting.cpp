@@ -314,8 +314,8 @@ TEST(Fitting, StandardOfTheTableIsUsedAndCatchTrialsAreNoExclusions) {
   EXPECT_TRUE(contains(other.out, "the column `standard` says 0.8, and --standard 0.7")) << other.out << other.err;
   const Outcome detected =
       fit({folder.write("one.csv", one), "--standard", "0"}, {"--task", "one_interval", "--size", "amplitude:N"});
-  ASSERT_EQ(detected.status, 0) << detected.err;
-  EXPECT_TRUE(contains(detected.out, "excluded       0 rows")) << detected.out;
+  // These answers bound no threshold, which is said; what was counted is told all the same.
+  EXPECT_TRUE(contains(detected.out, "excluded       0 rows")) << detected.out << detected.err;
   EXPECT_TRUE(contains(detected.out, "240 trials with nothing to find")) << detected.out;
   // What a fit printed as JSON beside a table does not describe it.
   folder.write("two.json", "{}\n");
