@@ -8,6 +8,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "calibration/analysis/trials.hpp"
 #include "calibration/experiment/bids.hpp"
 #include "calibration/experiment/trial_table.hpp"
 #include "compiler/text/resolver.hpp"
