@@ -31,6 +31,11 @@ struct Settings {
   std::optional<double> scatter;
   Interval scatter_interval;
   double freedom = 0;  ///< of the scatter
+  /// If all settings lie on steps, as those of a handle with stops or of a design with few sizes do: their natural
+  /// logarithm. What lies between is not seen, so both intervals are wider by the error of what was rounded to a step,
+  /// half of it over the root of three, which more settings do not make smaller. Nothing if settings are no steps, or all
+  /// alike: then the point of equality is not bounded, since nothing says how far the next setting was.
+  std::optional<double> step;
 };
 
 /// Errors: W0801 for settings of zero or below; W0802 if there are none.

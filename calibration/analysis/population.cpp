@@ -113,6 +113,17 @@ std::pair<Population::Place, double> Population::climbed(const Place& from, std:
   return {read(found.at), -found.value};
 }
 
+std::vector<double> Population::log_likelihoods_with(const Shared& shared) {
+  const auto read = [&](const VectorXd& at) {
+    return Place{std::log(shared.exponent), shared.lapse, std::clamp(at(0), grid_.front(), grid_.back()),
+                 std::clamp(at(1), std::log(least_spread), std::log(most_spread))};
+  };
+  VectorXd start(2), steps(2);
+  start << place_[2], place_[3];
+  steps << 0.1, 0.3;
+  return log_likelihoods(read(minimise([&](const VectorXd& at) { return -sum(read(at)); }, start, steps, 1e-3, 200).at));
+}
+
 Shared Population::best() {
   for (const double exponent : options_.exponent ? std::vector<double>{*options_.exponent} : std::vector<double>{1, 2.5}) {
     const double lapse = options_.lapse.value_or(0.2 * options_.most_lapse);

@@ -37,6 +37,8 @@ class Population {
   /// Of each chosen observer, in their order.
   std::vector<double> log_likelihoods(const Place& at);
   const Place& place() const { return place_; }
+  /// The same with an exponent and a lapse rate, and the mean and spread that suit these best. Call it after `best`.
+  std::vector<double> log_likelihoods_with(const Shared& shared);
   /// Where the profile of the mean's likelihood has lost so much, below and above the best place: for each mean with the
   /// exponent, lapse rate and spread that suit it best. Infinite where it never loses as much. Call it after `best`.
   Interval ends_of_mean(double loss);

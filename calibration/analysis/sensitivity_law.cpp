@@ -110,9 +110,76 @@ class SensitivityFitter {
     return {std::exp(end(-1, observer.low() - beyond_sizes)), std::exp(end(1, observer.high() + beyond_sizes))};
   }
 
-  Interval interval_of(std::size_t i, const ObserverSensitivity& own) const {
-    return ends(observers_[i], std::log(own.law.threshold), own.log_likelihood,
-                [&](double log) { return observers_[i].at(log, own.law.exponent, own.law.lapse); });
+  /// Exponents and lapse rates, with how likely each observer's answers are there if their thresholds come from one
+  /// population.
+  struct Common {
+    Shared shared;
+    std::vector<double> each;
+  };
+
+  /// Those that are not much less likely than the best.
+  std::vector<Common> commons(Population& population, const Shared& best) const {
+    constexpr double unlikely = 6;
+    constexpr int lapses = 5;
+    std::vector<Common> all;
+    const auto add = [&](double log_exponent, double lapse) {
+      Common common{{std::exp(log_exponent), lapse}, {}};
+      common.each = population.log_likelihoods_with(common.shared);
+      common.shared.log_likelihood = 0;
+      for (const double each : common.each) common.shared.log_likelihood += each;
+      all.push_back(std::move(common));
+      return best.log_likelihood - all.back().shared.log_likelihood;
+    };
+    const double low = std::log(least_exponent), high = std::log(most_exponent);
+    double from = std::clamp(std::log(best.exponent), low, high), step = 0.05;
+    add(from, best.lapse);
+    // A quarter of the way to where exponents are unlikely.
+    if (!options_.exponent)
+      while (step < 0.3 && add(std::min(from + 4 * step, high), best.lapse) < 2 && add(std::max(from - 4 * step, low), best.lapse) < 2)
+        step *= 1.5;
+    for (int k = 0; k <= (options_.lapse ? 0 : lapses); ++k) {
+      const double lapse = options_.lapse ? *options_.lapse : options_.most_lapse * k / lapses;
+      double least = add(from, lapse), place = from;
+      if (options_.exponent) continue;
+      for (const double direction : {-1.0, 1.0}) {
+        double last = least;
+        for (double at = from + direction * step; at >= low && at <= high; at += direction * step) {
+          const double lost = add(at, lapse);
+          if (lost < least) least = lost, place = at;
+          if (lost > unlikely && lost > last) break;
+          last = lost;
+        }
+      }
+      from = place;
+    }
+    return all;
+  }
+
+  /// The interval of one observer's threshold, with the exponent and the lapse rate that suit each threshold best: for
+  /// this observer's answers, and for those of the others, whose thresholds are those of their population.
+  Interval interval_of(std::size_t i, std::size_t in_population, const std::vector<Common>& commons,
+                       const ObserverSensitivity& own) const {
+    struct Slice {
+      double others, most;
+      const Shared* shared;
+    };
+    const OneObserver& observer = observers_[i];
+    std::vector<Slice> slices;
+    double greatest = -HUGE_VAL, log = 0;
+    for (const Common& each : commons) {
+      const double others = each.shared.log_likelihood - each.each[in_population];
+      const Own found = observer.best(each.shared.exponent, each.shared.lapse);
+      slices.push_back({others, others + found.log_likelihood, &each.shared});
+      if (slices.back().most > greatest) greatest = slices.back().most, log = found.log;
+    }
+    std::erase_if(slices, [&](const Slice& each) { return each.most < greatest - allowed_loss; });  // they end nothing
+    const Interval found = ends(observer, log, greatest, [&](double at) {
+      double most = -HUGE_VAL;
+      for (const Slice& each : slices)
+        most = std::max(most, each.others + observer.at(at, each.shared->exponent, each.shared->lapse));
+      return most;
+    });
+    return {std::min(found.low, own.law.threshold), std::max(found.high, own.law.threshold)};
   }
 
   /// The interval of one observer's threshold, whatever the exponent and the lapse rate.
@@ -237,17 +304,19 @@ Result<SensitivityFit> fit_sensitivity(const std::vector<ObserverAnswers>& obser
     if (!dropped) break;
     shared = fitter.shared(chosen, &population);
   }
+  const auto count = static_cast<std::size_t>(std::ranges::count(chosen, true));
+  std::vector<SensitivityFitter::Common> commons;
+  if (options.intervals && count > 1) commons = fitter.commons(*population, shared);
   fit.exponent = shared.exponent, fit.lapse = shared.lapse, fit.log_likelihood = shared.log_likelihood;
   fit.exponent_is_held = fitter.exponent_is_held();
-  for (std::size_t i = 0; i < observers.size(); ++i) {
+  for (std::size_t i = 0, in_population = 0; i < observers.size(); ++i) {
     // With the final exponent, one who was dropped may have a threshold; the rule was applied once.
     if (!chosen[i] && !fit.observers[i].refused)
       fit.observers[i].refused = refusal("the answers do not depend on the size beyond chance", "");
     if (options.intervals && chosen[i])
-      fit.observers[i].interval = observers.size() == 1 ? fitter.interval_of_all(i, fit.observers[i])
-                                                        : fitter.interval_of(i, fit.observers[i]);
+      fit.observers[i].interval = count == 1 ? fitter.interval_of_all(i, fit.observers[i])
+                                             : fitter.interval_of(i, in_population++, commons, fit.observers[i]);
   }
-  const auto count = static_cast<std::size_t>(std::ranges::count(chosen, true));
   if (count < 2) return fit;
   const Interval logs = population->ends_of_mean(allowed_loss_of_mean(static_cast<double>(count)));
   fit.mean = SensitivityFit::Mean{std::exp(population->place()[2]), {std::exp(logs.low), std::exp(logs.high)}, count};

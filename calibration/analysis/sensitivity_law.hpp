@@ -63,8 +63,8 @@ struct SensitivityFit {
   std::optional<Mean> mean;
 };
 
-/// Fits the law by maximum likelihood to all observers together. The interval of a single observer's threshold is that
-/// with the common exponent and lapse rate; if there is one observer, of all parameters.
+/// Fits the law by maximum likelihood to all observers together. The interval of a single observer's threshold is the
+/// profile's over exponent and lapse rate, which all observers' answers tell: with those held, it would be too narrow.
 ///
 /// An observer has no threshold of their own if nothing says that they felt anything (likelihood ratio against d' = 0
 /// below 3.84), or if their answers do not bound it. Errors: W0801 for more answers than trials and sizes of zero or

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "schema/utf8.hpp"
 #include "schema/visible_text.hpp"
 
 namespace wale::analysis {
@@ -38,6 +39,15 @@ class TableReader {
   Result<Table> read() {
     if (rest_.starts_with("\xFF\xFE") || rest_.starts_with("\xFE\xFF") || rest_.find('\0') != std::string_view::npos)
       return error(1, "this is no text in UTF-8", "save the table as CSV or TSV in UTF-8");
+    // Names in Latin-1 would all become the same: those of people too.
+    std::size_t line = 1;
+    for (std::size_t at = 0; at < rest_.size();) {
+      const Character each = decode(rest_, at);
+      if (!each.valid)
+        return error(line, "expected text in UTF-8, found a byte that is none, as of Latin-1", "save the table as CSV or TSV in UTF-8");
+      line += each.code == '\n' ? 1 : 0;
+      at += each.bytes;
+    }
     if (rest_.starts_with(byte_order_mark)) {
       rest_.remove_prefix(byte_order_mark.size());
       table_.notes_.push_back("the byte-order mark at the beginning is skipped");

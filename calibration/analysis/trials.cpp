@@ -224,7 +224,7 @@ class TrialReader {
       trials_.factors[i].values.push_back(factor_names_[i].number_of(cell));
     }
     if (const auto same = require_one_device(row); !same) return same;
-    trials_.simulated |= grade_ && table_->cell(row, *grade_) == "simulated";
+    if (const auto graded = take_grade(row); !graded) return graded;
     trials_.observer.push_back(observers_.number_of(observer));
     trials_.run.push_back(run_ ? runs_.number_of(table_->cell(row, *run_)) : 0);
     trials_.answer.push_back(*answer);
@@ -320,6 +320,18 @@ class TrialReader {
                        "the device is " + as_code(cell) + " here and " + as_code(trials_.device) + " in row " +
                            std::to_string(device_line_),
                        "analyse each device alone: keep the rows of one");
+  }
+
+  /// A misspelt grade is no better one: it would be taken for people on a real device.
+  Result<> take_grade(std::size_t row) {
+    const std::string_view cell = grade_ ? table_->cell(row, *grade_) : std::string_view();
+    const auto grade = grade_in(cell);
+    if (!grade)
+      return table_error(*table_, row, "expected measured or simulated for the grade, found " + as_code(cell),
+                         "write one of the two, or n/a where nobody knows");
+    trials_.simulated |= *grade == GradeWord::simulated || (device_ && is_unfelt_device(table_->cell(row, *device_)));
+    trials_.ungraded |= *grade == GradeWord::none;
+    return {};
   }
 
   void finish_names() {
@@ -446,7 +458,26 @@ class TrialReader {
   std::string key_;
 };
 
+std::string lower_of(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
 }  // namespace
+
+std::optional<GradeWord> grade_in(std::string_view cell) {
+  if (is_missing(cell)) return GradeWord::none;
+  const std::string word = lower_of(cell);
+  if (word == "measured") return GradeWord::measured;
+  if (word == "simulated") return GradeWord::simulated;
+  return std::nullopt;
+}
+
+bool is_unfelt_device(std::string_view name) {
+  const std::string word = lower_of(name);
+  return word == "pointer" || word == "simulated" || word.starts_with("simulated:");
+}
 
 const SizeValues* Trials::size_named(const std::string& name) const {
   const auto found = std::ranges::find(sizes, name, &SizeValues::name);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibration/analysis/table.hpp"
@@ -17,6 +18,13 @@ enum class Answers {
   choices,     ///< 1 or 0, also in words: yes, no; true, false; correct, incorrect; different, same
   labels,      ///< texts: the group that a stimulus was put into
 };
+
+/// What a cell of the column `grade` says a trial is evidence of.
+enum class GradeWord { none, measured, simulated };
+/// Capitals do not matter, and a missing cell says nothing. Nothing for a word that is no grade.
+std::optional<GradeWord> grade_in(std::string_view cell);
+/// Whether a device of this name is felt by nobody: a simulated one, or a pointer, which only shows forces.
+bool is_unfelt_device(std::string_view name);
 
 /// A number that was varied: the commanded size of a stimulus.
 struct SizeColumn {
@@ -82,7 +90,8 @@ struct Trials {
   std::size_t stimuli = 0;
   std::vector<std::uint32_t> file;       ///< index in `files`
   std::vector<std::size_t> line;         ///< of the file, from 1
-  bool simulated = false;                ///< a column `grade` says so of at least one trial
+  bool simulated = false;                ///< a column `grade` or the device says so of at least one trial
+  bool ungraded = false;                 ///< nothing grades at least one trial
   std::string device;                    ///< the one device of all trials; empty if the table does not say
   std::vector<std::string> rules;        ///< of the exclusions, in words
   std::vector<Exclusion> exclusions;     ///< in the order of the file
@@ -99,7 +108,7 @@ struct Trials {
 /// that cannot be analysed is an error.
 ///
 /// Errors (W0801) name file and row: an unknown column, a word for a number, a magnitude of zero or below, a rating
-/// outside 0 to 100, a size that is missing, two units in one column, decimal commas beside decimal points, a row that is
+/// outside 0 to 100, a size that is missing, two units in one column, a word that is no grade, decimal commas beside decimal points, a row that is
 /// there twice, trials on several devices, a size or factor that is the same in all trials, no trials left.
 Result<Trials> read_trials(const Table& table, const TrialColumns& columns);
 /// The same of several tables, such as one for each participant, in their order.

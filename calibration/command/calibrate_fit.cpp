@@ -50,6 +50,13 @@ int calibrate_fit(const CalibrateFitOptions& options) {
   if (!options.study.design.empty()) inputs.push_back(options.study.design);
   if (!options.study.stimuli.empty()) inputs.push_back(options.study.stimuli);
   const bool has_record = study->fit.no_record.empty();
+  if (study->record_problem) {
+    if (!options.out.empty()) {
+      refuse(*study->record_problem);
+      return refused;  // also where an option's word is at fault: only the record showed that it is
+    }
+    warn(*study->record_problem);
+  }
   if (!options.out.empty() && has_record)
     if (const auto written = write_file(options.out, study->record, inputs); !written) return refuse(written.error());
   if (!options.plots.empty())
@@ -63,8 +70,9 @@ int calibrate_fit(const CalibrateFitOptions& options) {
   if (!has_record)
     return refuse(Error{.code = Code::not_measured,
                         .sentence = fmt::format("no {} is made: {}", study->fit.magnitudes          ? "map"
-                                                                          : study->fit.settings.empty() ? "rule"
-                                                                                                        : "threshold",
+                                                                          : study->fit.settings.empty() && study->fit.thresholds.empty()
+                                                                              ? "rule"
+                                                                              : "threshold",
                                                 study->fit.no_record),
                         .mend = "look at the answers; collect more, or vary the sizes more",
                         .place = {.name = options.study.files.front()}});

@@ -11,6 +11,7 @@
 #include "calibration/command/experiment_file.hpp"
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
+#include "compiler/compile.hpp"
 #include "compiler/expression/checked_experiment.hpp"
 #include "compiler/text/resolver.hpp"
 #include "schema/visible_text.hpp"
@@ -139,6 +140,36 @@ int refuse_study(const Error& error) {
   return error.place.number ? refused : status;
 }
 
+/// The option that gave what is wrong at a place of a record; empty if none did.
+std::string option_at(std::string_view line, std::string_view wrong, const StudyChoice& choice, const FitRequest& request) {
+  line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+  const auto is_about = [&](const char* word) { return line.starts_with(word); };
+  if (is_about("domain")) return "--domain";
+  if (is_about("name")) return "--name";
+  const bool is_size = is_about("law") || is_about("valid") || is_about("quantity") || is_about("floor") ||
+                       std::ranges::any_of(request.columns.sizes, [&](const auto& each) { return each.name == wrong; });
+  if (!choice.carrier.empty() && (is_size || wrong == choice.carrier)) return "--carrier";
+  if (is_size) return choice.sizes.empty() ? "" : "--size";
+  return is_about("export") && !choice.about.empty() ? "--of" : "";
+}
+
+/// The first error in a record as the compiler finds it.
+std::optional<Error> problem_of(const std::string& record, const StudyChoice& choice, const FitRequest& request) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto resolver = file_resolver({});
+  check_source(sources, sources.add("the record", record), *resolver, diagnostics);
+  for (const Diagnostic& each : diagnostics.all()) {
+    if (severity_of(each.code) != Severity::error) continue;
+    const std::string option = option_at(sources.line(each.span), sources.text(each.span), choice, request);
+    return Error{.code = each.code,
+                 .sentence = "the record does not compile: " + each.message,
+                 .mend = each.help,
+                 .place = {.name = option.empty() ? choice.files.front() : option}};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void offer_study(CLI::App& verb, StudyChoice& choice) {
@@ -259,6 +290,7 @@ OrStatus<FittedStudy> fitted_study(const StudyChoice& choice) {
   auto record = record_of(made.study, made.fit, made.request);
   if (!record) return refuse_study(record.error());
   made.record = *std::move(record);
+  made.record_problem = problem_of(made.record, choice, made.request);
   return made;
 }
 

@@ -31,6 +31,7 @@ struct FittedStudy {
   FitRequest request;
   StudyFit fit;
   std::string record;                ///< as a Wale file; empty with `no_record`
+  std::optional<Error> record_problem;  ///< why the record does not compile, and which option is at fault
   std::optional<OpenedFile> design;  ///< if it was named
 };
 OrStatus<FittedStudy> fitted_study(const StudyChoice& choice);

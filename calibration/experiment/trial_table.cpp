@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "calibration/analysis/trials.hpp"
 #include "calibration/experiment/run_experiment.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
@@ -73,6 +75,7 @@ class TableReader {
                    .place = {.name = name_}};
     if (problem_) return *problem_;
     table_.task = experiment_;
+    if (is_planted_) table_.grade = "simulated";  // whatever the first line says
     add_columns();
     if (task_ == "sorting") add_sorts();
     else add_trials();
@@ -91,6 +94,8 @@ class TableReader {
     if (const auto* begin = std::get_if<SessionBegin>(&entry.event)) {
       table_.participant = begin->participant, table_.device = begin->device, table_.grade = begin->grade;
       experiment_ = begin->experiment;
+      if (!analysis::grade_in(begin->grade))
+        damaged(entry, fmt::format("expected measured or simulated for the grade, found `{}`", visible_text(begin->grade)));
     } else if (const auto* other = std::get_if<SessionOther>(&entry.event)) {
       const Json fields = Json::parse(other->fields, nullptr, false);
       if (other->event == "design") take_design(entry, fields);

@@ -83,6 +83,7 @@ class ThresholdAnalyst {
       if (trials->answer[i] == 0) ++each.false_alarms, ++all_noises_.false_alarms;
     }
     fit_.catch_trials = trials->size();
+    fit_.trials.simulated |= trials->simulated, fit_.trials.ungraded |= trials->ungraded;
     fit_.notes.push_back(fmt::format("{} trials with nothing to find give how often people say that there is something",
                                      trials->size()));
     state_exclusions(*trials);
@@ -267,6 +268,7 @@ class ThresholdAnalyst {
     if (fit && fit->mean && 2 * without.size() <= own.size()) {
       result.law = {decision_, fit->mean->threshold, fit->exponent, fit->lapse, 0};
       result.all = {"all", fit->mean->threshold, fit->mean->interval, {}};
+      result.count = fit->mean->observers;
       result.how = fmt::format("geometric mean of the population of {} observers, profile likelihood as t on {} degrees of "
                                "freedom", fit->mean->observers, fit->mean->observers - 1);
       if (!without.empty()) {
@@ -284,6 +286,7 @@ class ThresholdAnalyst {
       const ObserverSensitivity& only = fit->observers.front();
       result.law = only.law;
       result.all = {"all", only.law.threshold, only.interval, {}};
+      result.count = 1;
       result.how = "one observer; nothing tells how observers differ";
     } else {
       const auto together =
@@ -296,6 +299,7 @@ class ThresholdAnalyst {
       }
       result.law = together->law;
       result.all = {"all", together->law.threshold, together->interval, {}};
+      result.count = own.size();
       result.how = fmt::format(
           "all answers together, since {} of {} observers have a threshold of their own; the interval leaves out one "
           "observer at a time, t on {} degrees of freedom",
@@ -305,21 +309,29 @@ class ThresholdAnalyst {
       fit_.notes.push_back(of + "each observer felt one size, so d' is taken to be in proportion to it");
     if (with_criterion_) result.sensitivities = sensitivities_of(result.levels);
     const auto [low, high] = std::ranges::minmax(result.levels, {}, &Level::size);
-    if (result.all.value < low.size || result.all.value > high.size)
-      fit_.notes.push_back(of + "the threshold lies outside of the sizes that were presented");
-    if (!(result.all.interval.low > 0) || !std::isfinite(result.all.interval.high))
-      fit_.notes.push_back(of + "the answers do not bound the threshold on both sides: more people would, or more answers of each");
+    const bool is_outside = result.all.value < low.size || result.all.value > high.size;
+    if (is_outside) fit_.notes.push_back(of + "the threshold lies outside of the sizes that were presented");
+    if (!(result.all.interval.low > 0) || !std::isfinite(result.all.interval.high)) {
+      const std::string why = of + "the answers do not bound the threshold on both sides";
+      fit_.notes.push_back(why + ": more people would, or more answers of each");
+      if (fit_.no_record.empty()) fit_.no_record = why;
+    }
     if (!(fit && fit->exponent_is_held) && (result.law.exponent > 9.5 || result.law.exponent < 0.21))
       fit_.notes.push_back(of + "the exponent is at the end of its range, 0.2 to 10: the answers do not tell it");
-    if (result.law.lapse > 0.098)
+    if (result.law.lapse > 0.098) {
       fit_.notes.push_back(of + "the lapse rate is at its upper limit: people may not have done the task");
+      // Either alone may be: small thresholds are told from steep ends, and some people do not attend. Both together are
+      // answers that hardly depend on the size.
+      if (is_outside && fit_.no_record.empty())
+        fit_.no_record = of + "the threshold lies outside of the sizes that were presented, with the lapse rate at its upper limit";
+    }
     fit_.thresholds.push_back(std::move(result));
     return {};
   }
 
   Result<> pool() {
     std::ranges::sort(fit_.thresholds, {}, &ThresholdFit::size);
-    if (!fit_.is_fraction) return {};
+    if (!fit_.is_fraction || !fit_.no_record.empty()) return {};
     std::vector<WeberFraction> fractions;
     for (const ThresholdFit& each : fit_.thresholds)
       fractions.push_back({each.size, each.all.value, each.all.interval});

@@ -91,6 +91,13 @@ Result<> fit_settings(const Study& study, const FitRequest& request, StudyFit& f
     auto settings = analyse_settings(std::move(observers));
     if (!settings) return settings.error();
     all.push_back(*settings);
+    if (settings->step)
+      fit.notes.push_back(fmt::format(
+          "{}{}all settings lie on steps of {:.3g} %: the intervals are wider by the error of a step, half of it / sqrt(3){}",
+          visible_text(name), name.empty() ? "" : ": ", 100 * *settings->step,
+          settings->scatter && *settings->scatter <= *settings->step
+              ? "; they scatter by no more than a step, so finer steps would tell how much people notice"
+              : ""));
     fit.settings.push_back({name, about.size, *std::move(settings)});
   }
   if (trials.observers.size() == 1)

@@ -236,6 +236,7 @@ class RecordWriter {
                          fit_.trials.size(), fit_.trials.observers.size(), cue);
     setting("quantity", quantity_name);
     const auto [low, high] = std::ranges::minmax(over->values);
+    if (fit_.is_fraction && !fit_.weber) return problem("there is no threshold: " + fit_.no_record, "");
     if (fit_.is_fraction) {
       setting("weber", number(fit_.weber->fraction));
     } else {
@@ -252,7 +253,7 @@ class RecordWriter {
     } else {
       setting("valid", range(fit_.weber->low, fit_.weber->high * high, of->unit));
     }
-    setting("observers", std::to_string(fit_.trials.observers.size()));
+    setting("observers", std::to_string(std::ranges::min(fit_.thresholds, {}, &ThresholdFit::count).count));
     setting("evidence", fmt::format("slope {0}, handle {0}", fit_.evidence));
     setting("on", on());
     source();

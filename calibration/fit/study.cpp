@@ -8,6 +8,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "calibration/analysis/trials.hpp"
 #include "calibration/experiment/bids.hpp"
 #include "calibration/experiment/trial_table.hpp"
 #include "compiler/text/resolver.hpp"
@@ -76,7 +77,6 @@ class StudyReader {
         if (!stimulus_rows_.try_emplace(std::string(stimuli_->cell(row, *names)), row).second)
           return analysis::table_error(*stimuli_, row, "this stimulus is there twice", "keep one of them");
     }
-    study_.says_grade = true;
     for (const std::string& path : paths)
       if (const auto done = add(path); !done) return done.error();
     study_.versions = std::move(versions_);
@@ -170,6 +170,13 @@ class StudyReader {
     if (!table) return table.error();
     if (const auto same = is_of(path, table->task, table->task_description); !same) return same;
     if (!table->device.empty()) study_.device = table->device;
+    const auto grade = analysis::grade_in(table->grade);
+    if (!grade)
+      return Error{.code = Code::malformed_value,
+                   .sentence = fmt::format("expected measured or simulated for WaleGrade, found `{}`", visible_text(table->grade)),
+                   .mend = "write one of the two, or leave it out",
+                   .place = {.name = sidecar}};
+    study_.simulated |= *grade == analysis::GradeWord::simulated || analysis::is_unfelt_device(table->device);
     if (!table->design.empty())
       if (const auto same = is_designed_alike(path, nlohmann::json::parse(table->design, nullptr, false)); !same) return same;
     if (const auto same = is_asked_alike(path, *table); !same) return same;
@@ -327,7 +334,6 @@ class StudyReader {
     }
     if (study_.files.back().form == std::string_view("table"))
       if (const auto same = is_of_one_kind(*table); !same) return same;
-    study_.says_grade = study_.says_grade && table->column("grade").has_value();
     if (const auto date = table->column("date"))  // as PsychoPy writes it: 2026-11-24_14h03.11.123
       for (std::size_t row = 0; row < table->rows(); ++row)
         note_day(std::string(table->cell(row, *date).substr(0, 10)));

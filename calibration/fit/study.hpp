@@ -32,7 +32,7 @@ struct Study {
   std::vector<std::string> varied;           ///< columns of numbers that were varied, in their order
   std::vector<std::string> words;            ///< columns of words that were varied
   std::map<std::string, std::string> units;  ///< of columns, SI
-  bool says_grade = false;                   ///< each file grades its answers
+  bool simulated = false;                    ///< what describes a table says so, whatever its rows say
   std::vector<std::string> notes;            ///< what a reader of the results should know
 };
 

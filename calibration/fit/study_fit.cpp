@@ -61,9 +61,9 @@ TrialColumns columns_of(const Study& study, const FitRequest& request, StudyFit&
 }
 
 void grade(const Study& study, StudyFit& fit) {
-  if (fit.trials.simulated) {
+  if (fit.trials.simulated || study.simulated) {
     fit.evidence = "simulated", fit.evidence_reason = "some answers come from no person on a real device";
-  } else if (study.says_grade) {
+  } else if (!fit.trials.ungraded) {
     fit.evidence = "measured", fit.evidence_reason = "people on a plugged device that its owner has declared";
   } else {
     fit.evidence = "estimated", fit.evidence_reason = "the files do not say who answered on which device";

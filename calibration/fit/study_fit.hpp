@@ -55,6 +55,7 @@ struct ThresholdFit {
   std::vector<ObserverThreshold> observers;
   ObserverThreshold all;  ///< the geometric mean of the observers', or that of all answers
   std::string how;        ///< which of them
+  std::size_t count = 0;  ///< of observers that `all` is of; those who were left out are not among them
 };
 
 /// What was set to be like one standard.

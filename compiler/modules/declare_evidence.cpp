@@ -110,7 +110,12 @@ std::optional<Condition> range_of(RecordReader& reader, const SettingItem& item,
     condition.unit.clear();
   if (item.range_end)
     condition.range = {first->value, reader.value(*item.range_end, first->dimension).value_or(first->value)};
-  else if (bound == "above")
+  if (condition.range.low > condition.range.high)
+    reader.report(Code::value_out_of_range, {value.source, value.begin, end.end},
+                  fmt::format("the range `{}` begins above its end, so nothing lies in it", condition.written),
+                  "write the smaller value first");
+  if (item.range_end) return condition;
+  if (bound == "above")
     condition.range.low = std::nextafter(first->value, HUGE_VAL);
   else
     condition.range = {-HUGE_VAL, std::nextafter(first->value, -HUGE_VAL)};

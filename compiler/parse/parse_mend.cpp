@@ -308,6 +308,8 @@ std::vector<Fix> Parser::drop_here() const {
 std::vector<Fix> Parser::move_operator_up() const {
   const Token& next = token(at_ + 1);
   if (at_ == 0 || next.starts_line || !begins_value(next.kind) || kind(at_ - 1) == TokenKind::left_brace) return {};
+  // What a parameter is for ends its line, and nothing is added to a text.
+  if (kind(at_ - 1) == TokenKind::text) return {};
   Fix fix = insert_after(span_of(token(at_ - 1)), " " + std::string(spelling(here())),
                          "end the line above with the operator");
   fix.edits.push_back({{tree_.source, here().begin, next.begin}, ""});

@@ -133,6 +133,44 @@ TEST(Trials, LeaveOutWhatTheStudyMarks) {
   EXPECT_EQ(trials_of(text, all)->size(), 4u);
 }
 
+TEST(Tables, InLatin1AreRefused) {
+  const std::string head = "participant,response,amplitude\nS1,1,0.2\n";
+  EXPECT_TRUE(trials_of(head + "\xC3\x84rzte,2,0.8\n"));
+  for (const char* name : {"\xC4rzte", "M\xFCller", "\xE9"})
+    EXPECT_NE(refusal_of(head + name + ",2,0.8\n").find("study.tsv:3: expected text in UTF-8"), std::string::npos)
+        << refusal_of(head + name + ",2,0.8\n");
+}
+
+TEST(Trials, OnlyTheWordMeasuredIsMeasured) {
+  const auto graded = [](const std::string& word) {
+    return "participant,grade,response,amplitude\nS1,measured,10,0.2\nS1," + word + ",20,0.8\n";
+  };
+  for (const char* word : {"measured", "Measured", " measured "}) {
+    const auto trials = trials_of(graded(word));
+    ASSERT_TRUE(trials) << in_words(trials.error());
+    EXPECT_FALSE(trials->simulated || trials->ungraded) << word;
+  }
+  for (const char* word : {"simulated", "Simulated", "SIMULATED"}) {
+    const auto trials = trials_of(graded(word));
+    ASSERT_TRUE(trials) << in_words(trials.error());
+    EXPECT_TRUE(trials->simulated) << word;
+  }
+  for (const char* word : {"", "n/a"}) {
+    const auto trials = trials_of(graded(word));
+    ASSERT_TRUE(trials) << in_words(trials.error());
+    EXPECT_TRUE(trials->ungraded && !trials->simulated) << word;
+  }
+  for (const char* word : {"A", "estimated", "published", "simulation", "pilot"})
+    EXPECT_NE(refusal_of(graded(word)).find("study.tsv:3: expected measured or simulated for the grade, found `" + std::string(word)),
+              std::string::npos)
+        << refusal_of(graded(word));
+  EXPECT_TRUE(trials_of("participant,response,amplitude\nS1,10,0.2\nS1,20,0.8\n")->ungraded);
+  for (const char* device : {"pointer", "simulated", "simulated:sandpaper"}) {
+    const std::string row = "S1,measured," + std::string(device);
+    EXPECT_TRUE(trials_of("participant,grade,device,response,amplitude\n" + row + ",10,0.2\n" + row + ",20,0.8\n")->simulated);
+  }
+}
+
 TEST(Trials, NameFileAndRowOfWhatIsWrong) {
   const std::string head = "participant,response,amplitude\n";
   EXPECT_NE(refusal_of(head + "S1,10,0.2\nS1,ten,0.8\n").find("study.tsv:3: expected a number for an answer, found `ten`"), std::string::npos);

@@ -1,6 +1,7 @@
 // From files of trials to fits: which files belong together, adjustment, descriptions, and the groups of sorts.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -101,6 +102,50 @@ Result<StudyFit> fit_of(const std::string& text, FitRequest request, std::string
   return fit;
 }
 
+// What a log contains speaks louder than the word that somebody wrote into it.
+TEST(Studies, AreGradedByTheWorstThatTheirFilesContain) {
+  const TemporaryFolder folder;
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  };
+  const std::string note = R"({"line":9,"time":"2026-11-24T20:31:00.000Z","seconds":1.0,"event":"note","text":"observer planted:noise=0.2"})" "\n";
+  const auto grade_of = [&](const std::string& grade, bool is_planted, bool by_bids) {
+    std::vector<std::string> paths;
+    for (const char* who : {"A", "B"}) {
+      const std::string text = with(log_of(who, "How rough?", 3), R"(,"grade":"simulated")", grade) + (is_planted ? note : "");
+      write_text(folder / who, text);
+      paths.push_back(by_bids ? bids_of(folder, std::string("bids") + who, text) : folder / who);
+    }
+    const auto study = read_study(paths, "");
+    if (!study) return study.error().sentence;
+    const auto fit = fit_study(*study, {.task = "rating"});
+    return fit ? fit->evidence : fit.error().sentence;
+  };
+  for (const bool by_bids : {false, true}) {
+    EXPECT_EQ(grade_of(R"(,"grade":"measured")", false, by_bids), "measured");
+    EXPECT_EQ(grade_of(R"(,"grade":"measured")", true, by_bids), "simulated");
+    EXPECT_EQ(grade_of("", true, by_bids), "simulated");
+    EXPECT_EQ(grade_of("", false, by_bids), "estimated");
+  }
+  EXPECT_EQ(grade_of(R"(,"grade":"pilot")", false, false), "expected measured or simulated for the grade, found `pilot`");
+  // A column that was taken out of a table, and a sidecar that still says what it was.
+  std::vector<std::string> paths;
+  for (const char* who : {"A", "B"}) {
+    paths.push_back(bids_of(folder, std::string("taken") + who, log_of(who, "How rough?", 3)));
+    std::ifstream stream(paths.back());
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    text = with(text, "grade", "said");
+    write_text(paths.back(), text);
+  }
+  const auto study = read_study(paths, "");
+  ASSERT_TRUE(study) << study.error().sentence;
+  const auto fit = fit_study(*study, {.task = "rating"});
+  ASSERT_TRUE(fit) << fit.error().sentence;
+  EXPECT_EQ(fit->evidence, "simulated");
+}
+
 /// By hand: the observers' geometric means of 0.8 N are 0.8, 0.9 and 1 N.
 TEST(Adjustments, GivePointsOfEqualityAndAThreshold) {
   std::string text = "participant,amplitude (N),standard,response\n";
@@ -136,6 +181,32 @@ TEST(Adjustments, GivePointsOfEqualityAndAThreshold) {
   EXPECT_EQ(charts_of(*fit, FitModel::mixed).size(), 1u);
 }
 
+/// Three people who all set two of four to either side of 1 N, on steps of 5 %: equal means, and nothing between is seen.
+TEST(Adjustments, OnStepsHaveTheErrorOfAStep) {
+  std::string text = "participant,amplitude (N),response\n";
+  for (const char* who : {"A", "B", "C"})
+    for (const double setting : {1.0, 1.05, 1.0, 1.05}) text += fmt::format("{},{},{}\n", who, setting, setting);
+  const FitRequest request{.task = "adjustment", .columns = {.sizes = {{"amplitude", "amplitude (N)", "N"}}}};
+  const auto fit = fit_of(text, request);
+  ASSERT_TRUE(fit) << fit.error().sentence;
+  const auto& settings = fit->settings[0].settings;
+  const double step = std::log(1.05), error = step / std::sqrt(12.0), mean = std::sqrt(1.05);
+  ASSERT_TRUE(settings.step);
+  EXPECT_NEAR(*settings.step, step, 1e-9);
+  EXPECT_NEAR(settings.equal, mean, 1e-9);
+  EXPECT_NEAR(settings.equal_interval.high, mean * std::exp(4.302653 * error), 1e-6);
+  EXPECT_NEAR(settings.equal_interval.low, mean * std::exp(-4.302653 * error), 1e-6);
+  const double high = step / 2 * std::sqrt(12.0 / 9) * std::sqrt(9 / 2.70039);
+  EXPECT_NEAR(fit->settings_interval.high, std::sqrt(high * high + error * error), 1e-5);
+  EXPECT_EQ(std::ranges::count_if(fit->notes, [](const std::string& each) { return each.find("steps of 4.88 %") != std::string::npos; }), 1);
+  // Settings that are anywhere are no steps, nor are some that are alike by chance.
+  std::string free = "participant,amplitude (N),response\n";
+  for (const double setting : {1.0, 1.05, 1.0, 1.13, 1.031, 1.05, 1.13, 1.031}) free += fmt::format("A,{},{}\n", setting, setting);
+  const auto without = fit_of(free, request);
+  ASSERT_TRUE(without);
+  EXPECT_FALSE(without->settings[0].settings.step);
+}
+
 TEST(Adjustments, OneSettingEachTellsNoScatter) {
   const auto fit = fit_of("participant,amplitude (N),response\nA,1,1\nB,1.2,1.2\n",
                           {.task = "adjustment", .columns = {.sizes = {{"amplitude", "amplitude (N)", "N"}}}});
@@ -145,6 +216,32 @@ TEST(Adjustments, OneSettingEachTellsNoScatter) {
                            {.task = "adjustment", .columns = {.sizes = {{"amplitude", "amplitude (N)", "N"}}}});
   ASSERT_FALSE(zero);
   EXPECT_EQ(zero.error().place.number, 3u);
+}
+
+/// Answers to two differences from 1 N in two intervals, by person: right ones of 40.
+std::string two_intervals(const std::vector<std::vector<int>>& right, const std::vector<double>& sizes) {
+  std::string text = "participant,amplitude,correct\n";
+  for (std::size_t person = 0; person < right.size(); ++person)
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      for (int trial = 0; trial < 40; ++trial)
+        text += fmt::format("P{},{},{}\n", person, sizes[i], trial < right[person][i] ? 1 : 0);
+  return text;
+}
+
+TEST(Thresholds, AreRecordedOnlyWhereTheAnswersBoundThem) {
+  FitRequest request{.task = "two_interval", .columns = {.sizes = {{"amplitude", "", "N"}}}};
+  request.standard = 1;
+  std::string record;
+  const std::vector<double> sizes = {1.05, 1.1, 1.2, 1.4};
+  const auto fit = fit_of(two_intervals({{23, 27, 34, 40}, {24, 28, 35, 40}, {20, 21, 19, 20}}, sizes), request, &record);
+  ASSERT_TRUE(fit) << fit.error().sentence;
+  EXPECT_EQ(fit->no_record, "");
+  EXPECT_EQ(fit->thresholds[0].count, 2u);
+  EXPECT_NE(record.find("  observers   2\n"), std::string::npos) << "one of three is left out\n" << record;
+  // Two people who differ much: Student's interval of two is without ends.
+  const auto unbounded = fit_of(two_intervals({{38, 40, 40, 40}, {21, 22, 23, 28}}, sizes), request);
+  ASSERT_TRUE(unbounded) << unbounded.error().sentence;
+  EXPECT_EQ(unbounded->no_record, "the answers do not bound the threshold on both sides");
 }
 
 TEST(Descriptions, AreCountedByStimulusAndCoded) {
