@@ -64,15 +64,23 @@ double reach_of(const std::vector<Point>& points, const Point& at) {
   return reach;
 }
 
+/// The largest share, up to 1, at which a growing reach is within `radius`.
+template <class Reach>
+double share_within(double radius, const Reach& reach_at) {
+  double inside = 0, outside = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double share = 0.5 * (inside + outside);
+    (reach_at(share) <= radius ? inside : outside) = share;
+  }
+  return inside;
+}
+
 /// The place nearest to `at`, on the way to the centre, at which no point is farther than `radius`; empty if there is
 /// none. It is rounded towards the centre.
 std::optional<Point> place_within(const std::vector<Point>& points, const Point& at, double radius) {
   if (reach_of(points, {0, 0}) > radius) return std::nullopt;
-  double inside = 0, outside = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double share = 0.5 * (inside + outside);
-    (reach_of(points, {share * at[0], share * at[1]}) <= radius ? inside : outside) = share;
-  }
+  const double inside =
+      share_within(radius, [&](double share) { return reach_of(points, {share * at[0], share * at[1]}); });
   Point place;
   for (std::size_t side = 0; side < 2; ++side) place[side] = place_step * std::trunc(inside * at[side] / place_step);
   // Rounding may turn the way a little.
@@ -116,11 +124,7 @@ void warn_of_reach(const CheckedKeys& keys, const DeviceProfile& device, Diagnos
   const double beyond = reach(1) - radius;
   constexpr double told = 1e-6;  // m
   if (!(beyond > told)) return;
-  double fits = 0, too_large = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double share = 0.5 * (fits + too_large);
-    (reach(share) <= radius ? fits : too_large) = share;
-  }
+  const double fits = share_within(radius, reach);
   const auto millimetres = [&](double metres) { return 1e3 * place_step * std::trunc(fits * metres / place_step); };
   const double width = millimetres(keys.area[0]), height = millimetres(keys.area[1]);
   diagnostics.report(

@@ -19,7 +19,8 @@ struct LaidPatch {
 };
 
 /// Compiles the patches of a workspace for a device, in the order written. Warns of those that the device does not
-/// reach, and of areas of keys (W0427). Empty after errors, which are reported (W0314: a mask with more cells than a stage takes).
+/// reach, and of areas of keys (W0427). Empty after errors, which are reported (W0314: a mask with more cells than a stage
+/// takes).
 std::optional<std::vector<LaidPatch>> compile_workspace(const CheckedWorkspace& workspace, const CheckedModule& module,
                                                         const std::string& device, const SourceSet& sources,
                                                         SourceId source, Resolver& resolver, Diagnostics& diagnostics);

@@ -16,7 +16,8 @@ Interval interval_of_deviation(double deviation, double freedom) {
           deviation * std::sqrt(freedom / chi_squared_quantile(0.025, freedom))};
 }
 
-double error_of_step(double step);
+/// The standard deviation of what is anywhere within a step.
+double error_of_step(double step) { return step / 2 / std::numbers::sqrt3; }
 
 /// The mean of logarithms and Student's interval of it, in their unit; unbounded for one.
 std::pair<double, Interval> geometric_mean(const std::vector<double>& logs, std::optional<double> step) {
@@ -58,9 +59,6 @@ std::optional<double> step_of(const std::vector<double>& logs) {
   for (const double each : logs) mean += std::exp(each) / static_cast<double>(logs.size());
   return *step / mean;
 }
-
-/// The standard deviation of what is anywhere within a step.
-double error_of_step(double step) { return step / 2 / std::numbers::sqrt3; }
 
 Interval widened(const Interval& scatter, std::optional<double> step) {
   if (!step) return scatter;

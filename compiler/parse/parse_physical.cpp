@@ -53,6 +53,7 @@ PhysicalKeyword Parser::physical_keyword() {
               shown(here()),
               kind(at_) == TokenKind::minus && kind(at_ + 1) == TokenKind::minus && token(at_ + 1).begin == here().end
                   ? "comments begin with `//`"
+              : operation && kind(at_ - 1) == TokenKind::text ? "nothing is added to a text; begin with what this line is"
               : operation ? "to continue on the next line, end the line above with the operator"
                           : mend_borrowed(spelling(here())),
               operation ? move_operator_up() : std::vector<Fix>{});

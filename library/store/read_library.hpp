@@ -18,8 +18,8 @@ struct ReadFile {
   std::string imports_keep_back;  ///< why what it imports forbids to pass it on; empty if it does not, or was not asked
 };
 
-/// Reads one file. One that cannot be read, or in whose text no material can, is an entry with its trouble. `to_pass_on` asks whether its imports may be
-/// passed on; `kept` has what was measured of equal programs. Thread-safe.
+/// Reads one file. One that cannot be read, or in whose text no material can, is an entry with its trouble. `to_pass_on`
+/// asks whether its imports may be passed on; `kept` has what was measured of equal programs. Thread-safe.
 ReadFile read_library_file(const LibraryFile& file, const FileRequest& request, bool to_pass_on = false,
                            KeptReadings* kept = nullptr);
 

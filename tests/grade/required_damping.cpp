@@ -196,7 +196,8 @@ TEST(RequiredDamping, OfFrictionIsThatOfItsResponse) {
     }
 }
 
-// A lagging texture, force = k place (1 - f) of a moment ago: its sign is not known where the hand is next.
+// A texture felt a tick late, force = k place of the tick before: its sign is not known where the hand is next, so one that
+// pulls here needs no less than a spring without the tick.
 TEST(RequiredDamping, IsThatOfTheStifferSignAlsoThroughAState) {
   LinearProgram program;
   program.states = 2;
